@@ -1,0 +1,37 @@
+// The BRDF models of the hub, as Mitsuba 0.6 defines them (Jakob 2010; the paper's section 4). Values are
+// reflectance per steradian without the cosine of the light.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace remapc {
+
+// Directions at a surface point, reduced to the cosines that isotropic models need.
+struct LocalGeometry {
+  double cos_light;       // normal to light, > 0
+  double cos_view;        // normal to camera, > 0
+  double cos_half;        // normal to the normalised half vector
+  double cos_light_half;  // light to half vector, which is also view to half vector
+  double half_length_2;   // |light + view|^2, not normalised
+  double cos_mirror;      // mirrored light to view
+};
+
+// Reflectance of one model: `base` + specular * `slope`. With Schlick's Fresnel (1994) base is the part that
+// stays at F0 = 0; models with a plain scale have none.
+struct Lobe {
+  double base;
+  double slope;
+};
+
+enum class Brdf { kWard, kWardDuer, kWardBalanced, kPhong, kBeckmann, kGgx, kAs };
+enum class Fresnel { kNone, kSchlick };
+
+Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry& geometry);
+
+// Normal distribution of microfacets with projected area 1, and separable Smith shadowing for one direction
+// (Walter et al. 2007). For kBeckmann, kGgx, kAs.
+double microfacet_distribution(Brdf brdf, double alpha, double cos_half);
+double smith_shadowing(Brdf brdf, double alpha, double cos_direction);
+
+}  // namespace remapc

@@ -1,0 +1,203 @@
+#include "sweep/match.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace remapc {
+namespace {
+
+// Every fourth node of the bank is looked at first; lobes are far wider than that.
+constexpr std::size_t kCoarseStride = 4;
+// A second minimum counts as a rival where its error is within 1 % of the best and its width is not a
+// neighbour.
+constexpr double kRivalError = 1.01;
+
+// Weighted sum of products in double precision, in a fixed order whatever the compiler makes of it.
+double inner_product(const float* weighted, const float* values, std::size_t count) {
+  std::array<double, 4> sums{};
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4)
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      sums[lane] += static_cast<double>(weighted[i + lane]) * static_cast<double>(values[i + lane]);
+  for (; i < count; ++i) sums[0] += static_cast<double>(weighted[i]) * static_cast<double>(values[i]);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+// Lagrange basis on nodes 0 .. n-1 at `t`: values and first derivatives.
+struct LagrangeBasis {
+  std::array<double, kInterpolationNodes> value{};
+  std::array<double, kInterpolationNodes> derivative{};
+
+  explicit LagrangeBasis(double t) {
+    for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
+      double product = 1.0, sum = 0.0;
+      for (std::size_t j = 0; j < kInterpolationNodes; ++j) {
+        if (j == i) continue;
+        const double denominator = static_cast<double>(i) - static_cast<double>(j);
+        const double factor = (t - static_cast<double>(j)) / denominator;
+        sum = sum * factor + product / denominator;  // product rule, one factor at a time
+        product *= factor;
+      }
+      value[i] = product;
+      derivative[i] = sum;
+    }
+  }
+};
+
+}  // namespace
+
+Matcher::Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis,
+                 std::vector<float> squared_weights)
+    : bank_(bank), basis_(std::move(basis)), weights_(std::move(squared_weights)) {
+  for (const auto& picture : basis_) {
+    std::vector<float> weighted(picture.size());
+    for (std::size_t i = 0; i < picture.size(); ++i) weighted[i] = picture[i] * weights_[i];
+    weighted_basis_.push_back(std::move(weighted));
+  }
+  for (std::size_t i = 0; i < basis_.size(); ++i)
+    for (std::size_t j = 0; j < basis_.size(); ++j)
+      power_[i][j] = inner_product(weighted_basis_[i].data(), basis_[j].data(), basis_[j].size());
+}
+
+const Matcher::Products& Matcher::products(std::size_t node) {
+  const auto known = products_.find(node);
+  if (known != products_.end()) return known->second;
+  const BankEntry& entry = bank_.entry(node);
+  const std::size_t count = weights_.size();
+  std::vector<float> weighted(count);
+  Products p;
+  for (std::size_t i = 0; i < count; ++i) weighted[i] = entry.base[i] * weights_[i];
+  p.aa = inner_product(weighted.data(), entry.base.data(), count);
+  p.ab = inner_product(weighted.data(), entry.slope.data(), count);
+  for (std::size_t i = 0; i < count; ++i) weighted[i] = entry.slope[i] * weights_[i];
+  p.bb = inner_product(weighted.data(), entry.slope.data(), count);
+  for (std::size_t k = 0; k < basis_.size(); ++k) {
+    p.xa[k] = inner_product(weighted_basis_[k].data(), entry.base.data(), count);
+    p.xb[k] = inner_product(weighted_basis_[k].data(), entry.slope.data(), count);
+  }
+  return products_.emplace(node, p).first->second;
+}
+
+double Matcher::source_power(const std::vector<double>& coefficients) const {
+  double power = 0.0;
+  for (std::size_t i = 0; i < basis_.size(); ++i)
+    for (std::size_t j = 0; j < basis_.size(); ++j) power += coefficients[i] * coefficients[j] * power_[i][j];
+  return power;
+}
+
+// |I - A - s B|^2 = (II - 2 IA + AA) - 2 s (IB - AB) + s^2 BB, all weighted. II is left out here: it does not
+// depend on the width, and refine() differentiates.
+Matcher::Quadratic Matcher::quadratic(const Products& p, const std::vector<double>& coefficients) const {
+  double ia = 0.0, ib = 0.0;
+  for (std::size_t k = 0; k < basis_.size(); ++k) {
+    ia += coefficients[k] * p.xa[k];
+    ib += coefficients[k] * p.xb[k];
+  }
+  return {p.aa - 2.0 * ia, ib - p.ab, p.bb};
+}
+
+Matcher::Optimum Matcher::optimum(const Quadratic& q) const {
+  const double best = q.c2 > 0.0 ? q.c1 / q.c2 : 0.0;
+  const double specular = std::clamp(best, 0.0, bank_.max_specular());
+  return {specular, q.c0 + specular * (specular * q.c2 - 2.0 * q.c1)};
+}
+
+double Matcher::loss_at_node(std::size_t node, const std::vector<double>& coefficients) {
+  return optimum(quadratic(products(node), coefficients)).loss;
+}
+
+std::size_t Matcher::descend(std::size_t node, const std::vector<double>& coefficients) {
+  double loss = loss_at_node(node, coefficients);
+  for (;;) {
+    std::size_t next = node;
+    for (const std::size_t neighbour : {node - 1, node + 1}) {  // node - 1 wraps at 0 and fails the check
+      if (neighbour >= bank_.size()) continue;
+      const double candidate = loss_at_node(neighbour, coefficients);
+      if (candidate < loss) {
+        loss = candidate;
+        next = neighbour;
+      }
+    }
+    if (next == node) return node;
+    node = next;
+  }
+}
+
+Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients) {
+  const std::size_t first =
+      std::min(node - std::min(node, kInterpolationNodes / 2 - 1), bank_.size() - kInterpolationNodes);
+  std::array<Quadratic, kInterpolationNodes> window;
+  for (std::size_t i = 0; i < kInterpolationNodes; ++i)
+    window[i] = quadratic(products(first + i), coefficients);
+
+  const auto interpolate = [&](const std::array<double, kInterpolationNodes>& basis) {
+    Quadratic sum;
+    for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
+      sum.c0 += basis[i] * window[i].c0;
+      sum.c1 += basis[i] * window[i].c1;
+      sum.c2 += basis[i] * window[i].c2;
+    }
+    return sum;
+  };
+  // Derivative of the loss by the width at the best specular: its own derivative does not matter there.
+  const auto derivative = [&](double t) {
+    const LagrangeBasis basis(t);
+    const double s = optimum(interpolate(basis.value)).specular;
+    const Quadratic d = interpolate(basis.derivative);
+    return d.c0 + s * (s * d.c2 - 2.0 * d.c1);
+  };
+
+  const auto centre = static_cast<double>(node - first);
+  double low = node == 0 ? centre : centre - 1.0;
+  double high = node + 1 == bank_.size() ? centre : centre + 1.0;
+  bool at_bound = false;
+  double t = centre;
+  if (derivative(low) > 0.0 || derivative(high) < 0.0) {
+    at_bound = node == 0 || node + 1 == bank_.size();
+  } else {
+    // Bisection to the resolution of doubles; each step is a few hundred operations.
+    for (int step = 0; step < 52; ++step) {
+      t = 0.5 * (low + high);
+      (derivative(t) < 0.0 ? low : high) = t;
+    }
+  }
+  const Optimum best = optimum(interpolate(LagrangeBasis(t).value));
+  const double power = source_power(coefficients);
+  Match match;
+  match.alpha = bank_.alpha(0) * std::exp(bank_.log_step() * (static_cast<double>(first) + t));
+  match.specular = best.specular;
+  match.error = std::sqrt(std::max(0.0, power + best.loss) / power);
+  const bool clamped = at_bound || best.specular <= 0.0 || best.specular >= bank_.max_specular();
+  match.status = clamped ? RowStatus::kClamped : RowStatus::kOk;
+  return match;
+}
+
+Match Matcher::match(const std::vector<double>& coefficients) {
+  std::vector<std::size_t> coarse;
+  for (std::size_t node = 0; node < bank_.size(); node += kCoarseStride) coarse.push_back(node);
+  if (coarse.back() + 1 != bank_.size()) coarse.push_back(bank_.size() - 1);
+
+  std::vector<std::size_t> minima;
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    const double loss = loss_at_node(coarse[i], coefficients);
+    const bool left = i == 0 || loss <= loss_at_node(coarse[i - 1], coefficients);
+    const bool right = i + 1 == coarse.size() || loss <= loss_at_node(coarse[i + 1], coefficients);
+    if (left && right) minima.push_back(descend(coarse[i], coefficients));
+  }
+  std::sort(minima.begin(), minima.end());
+  minima.erase(std::unique(minima.begin(), minima.end()), minima.end());
+
+  std::vector<Match> candidates;
+  for (const std::size_t node : minima) candidates.push_back(refine(node, coefficients));
+  const auto better = [](const Match& a, const Match& b) { return a.error < b.error; };
+  const auto best = std::min_element(candidates.begin(), candidates.end(), better);
+  Match match = *best;
+  for (const Match& rival : candidates) {
+    const bool apart = std::fabs(std::log(rival.alpha / match.alpha)) > 2.0 * bank_.log_step();
+    if (apart && rival.error < kRivalError * match.error) match.status = RowStatus::kUnstable;
+  }
+  return match;
+}
+
+}  // namespace remapc

@@ -1,0 +1,67 @@
+// A renderer as the sweep sees it: a black box that knows models, parameters and scenes, and gives linear
+// images. The built-in renderer is one implementation; nothing in the sweep may look behind this interface.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/convention.hpp"
+#include "model/fit.hpp"
+#include "sweep/image.hpp"
+#include "sweep/scene.hpp"
+
+namespace remapc {
+
+// What a parameter does, so that a sweep can turn it without knowing its name.
+enum class ParameterRole { kRoughness, kSpecular, kDiffuse };
+
+struct ParameterDescription {
+  std::string name;  // the model's own word: alpha, exponent, specular, f0, diffuse
+  ParameterRole role = ParameterRole::kSpecular;
+  remap::Range range;  // values the renderer accepts, in the parameter's own unit
+};
+
+struct ModelDescription {
+  std::string name;  // `renderer/brdf`
+  remap::RoughnessConvention roughness = remap::RoughnessConvention::kAlpha;
+  remap::Range alpha;  // widths that the model can take, canonical
+  std::vector<ParameterDescription> parameters;
+
+  const ParameterDescription& parameter(ParameterRole role) const;
+};
+
+// A model with values for its parameters: one value for a grey parameter, three for red, green, blue.
+struct Material {
+  std::string model;
+  std::map<std::string, std::vector<double>> parameters;
+};
+
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+
+  // Name and version of what makes the pictures; part of every cache key and table.
+  virtual std::string version() const = 0;
+
+  virtual std::vector<ModelDescription> models() const = 0;
+
+  // Radiance of the sphere with `material` in `scene`. One channel where every parameter is grey, else three.
+  // Safe to call from many threads. Throws kUsage for a model, parameter or value that the renderer does not
+  // know, kInput where it breaks.
+  virtual Image render(const Material& material, const Scene& scene) const = 0;
+};
+
+// The description of `name`. Throws kUsage with the nearest known name.
+ModelDescription find_model(const Renderer& renderer, const std::string& name);
+
+// A grey material from canonical coordinates: the width as alpha, linear specular and diffuse.
+Material grey_material(const ModelDescription& model, double alpha, double specular, double diffuse);
+
+// The end of a conversion that `model` stands for.
+remap::ModelSide model_side(const ModelDescription& model);
+
+std::unique_ptr<Renderer> make_builtin_renderer();
+
+}  // namespace remapc

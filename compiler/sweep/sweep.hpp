@@ -1,0 +1,73 @@
+// The sweep: every sample of the source's parameters matched, into a table.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweep/objective.hpp"
+#include "sweep/renderer.hpp"
+#include "table/table.hpp"
+
+namespace remapc {
+
+struct SamplePoint {
+  double alpha = 0.0;
+  double specular = 0.0;
+};
+
+// What a sweep computes. Every field is recorded in the table's comments.
+struct SweepOptions {
+  std::string source;
+  std::string target;
+  Objective objective;
+  std::string objective_name;  // preset, or `custom` where parts of it were changed
+  int resolution = 512;
+  int samples_per_axis = 1;
+  std::string sampling;              // how the samples were chosen, in words
+  std::vector<SamplePoint> samples;  // in the order of the table
+};
+
+// How a sweep is carried out. Nothing of it changes the table.
+struct SweepExecution {
+  unsigned jobs = 0;                                                // 0: one a core
+  std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
+  const std::atomic<bool>* cancelled = nullptr;                     // stops between rows; throws kInterrupted
+};
+
+// Uniform samples: `alpha_count` widths over `alphas`, both ends included, and `specular_count` values over
+// `speculars`, the lower end excluded where it is 0 (nothing to match there). Section 5.2 takes 30 x 30.
+std::vector<SamplePoint> grid_samples(const remap::Range& alphas, std::size_t alpha_count,
+                                      const remap::Range& speculars, std::size_t specular_count);
+
+// Width below which a highlight under the headlight has a radius of less than one pixel sample, so that a
+// picture no longer resolves it.
+double subpixel_alpha(int resolution, int samples_per_axis);
+
+// The finished rows of a sweep that was interrupted, kept beside the table under `<table>.partial` and
+// written a block of rows at a time. Rows of one source width form a block.
+class SweepJournal {
+ public:
+  // Continues the journal at `path` where `resume` is set and it exists; else starts one. Throws kInput where
+  // it was made with other options, kOutput where it cannot be written.
+  SweepJournal(std::filesystem::path path, const Table& empty_table, std::size_t sample_count, bool resume);
+
+  const std::optional<TableRow>& row(std::size_t sample) const { return rows_[sample]; }
+  void append(const std::vector<std::size_t>& samples, const std::vector<TableRow>& rows);
+  void remove();
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::optional<TableRow>> rows_;
+};
+
+// Matches every sample. The same table for any number of jobs, and whether resumed or not. Throws kUsage for
+// unknown models, kNumeric where the target is not affine in its specular parameter, and what the renderer
+// throws.
+Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution,
+                const std::filesystem::path& journal, bool resume);
+
+}  // namespace remapc

@@ -1,0 +1,47 @@
+// The bank of target pictures: for widths on a geometric grid, the target at specular 0 and its slope in
+// specular, each rendered once, when a search first asks for it.
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <vector>
+
+#include "sweep/photographer.hpp"
+
+namespace remapc {
+
+// One width: picture = base + specular * slope, floats as Photographer::take gives them.
+struct BankEntry {
+  std::vector<float> base;
+  std::vector<float> slope;
+};
+
+class TargetBank {
+ public:
+  // A bank for widths in `alphas`, neighbours at most `ratio` apart. `target` must be affine in its specular
+  // parameter (probe_specular).
+  TargetBank(const Photographer& photographer, const ModelDescription& target, const remap::Range& alphas,
+             double ratio);
+
+  std::size_t size() const { return alphas_.size(); }
+  double alpha(std::size_t node) const { return alphas_[node]; }
+  double log_step() const { return log_step_; }  // of the grid, in log(alpha)
+  double max_specular() const { return max_specular_; }
+
+  // The pictures of a node; rendered on the first call, kept for the next. Safe from many threads.
+  const BankEntry& entry(std::size_t node) const;
+
+ private:
+  struct Slot {
+    std::once_flag once;
+    BankEntry entry;
+  };
+  const Photographer& photographer_;
+  ModelDescription target_;
+  double max_specular_;
+  double log_step_;
+  std::vector<double> alphas_;
+  mutable std::deque<Slot> slots_;
+};
+
+}  // namespace remapc

@@ -1,0 +1,60 @@
+#include "command_line/progress.hpp"
+
+#include <cstdio>
+#include <utility>
+
+namespace remap {
+namespace {
+
+constexpr std::chrono::milliseconds kInterval{100};
+
+std::string clock_text(double seconds) {
+  const long whole = static_cast<long>(seconds + 0.5);
+  const long hours = whole / 3600, minutes = whole / 60 % 60;
+  char text[64];
+  if (hours > 0)
+    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", hours, minutes, whole % 60);
+  else
+    std::snprintf(text, sizeof text, "%ld:%02ld", minutes, whole % 60);
+  return text;
+}
+
+}  // namespace
+
+Progress::Progress(std::string label, std::size_t total, bool shown)
+    : label_(std::move(label)),
+      total_(total),
+      shown_(shown && total > 0 && terminal_watches_errors()),
+      start_(Clock::now()),
+      last_shown_(start_) {}
+
+Progress::~Progress() {
+  if (line_is_up_) std::fputs("\r\033[K", stderr);  // to the start of the line, erase to its end
+}
+
+void Progress::advance_to(std::size_t done) {
+  const std::lock_guard lock(mutex_);
+  if (done <= done_) return;
+  done_ = done;
+  const Clock::time_point now = Clock::now();
+  if (shown_ && now - last_shown_ >= kInterval) show(now);
+}
+
+void Progress::advance(std::size_t count) {
+  const std::lock_guard lock(mutex_);
+  done_ += count;
+  const Clock::time_point now = Clock::now();
+  if (shown_ && now - last_shown_ >= kInterval) show(now);
+}
+
+void Progress::show(Clock::time_point now) {
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double share = static_cast<double>(done_) / static_cast<double>(total_);
+  const std::string left = clock_text(elapsed * (1.0 - share) / share);
+  std::fprintf(stderr, "\r\033[K%s  %.0f %%, %s left", label_.c_str(), 100.0 * share, left.c_str());
+  std::fflush(stderr);
+  last_shown_ = now;
+  line_is_up_ = true;
+}
+
+}  // namespace remap

@@ -1,0 +1,63 @@
+#include "model/fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace remap {
+namespace {
+
+bool is_identifier_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+// Words that look like an identifier but cannot name a namespace: the keywords of C++20, [lex.key].
+constexpr std::array<std::string_view, 92> kKeywords = {
+    "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
+    "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
+    "char32_t",    "char8_t",  "class",      "co_await",  "co_return", "co_yield",     "compl",
+    "concept",     "const",    "const_cast", "consteval", "constexpr", "constinit",    "continue",
+    "decltype",    "default",  "delete",     "do",        "double",    "dynamic_cast", "else",
+    "enum",        "explicit", "export",     "extern",    "false",     "float",        "for",
+    "friend",      "goto",     "if",         "inline",    "int",       "long",         "mutable",
+    "namespace",   "new",      "noexcept",   "not",       "not_eq",    "nullptr",      "operator",
+    "or",          "or_eq",    "private",    "protected", "public",    "register",     "reinterpret_cast",
+    "requires",    "return",   "short",      "signed",    "sizeof",    "static",       "static_assert",
+    "static_cast", "struct",   "switch",     "template",  "this",      "thread_local", "throw",
+    "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
+    "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
+    "xor_eq"};
+
+std::string identifier(const std::string& model) {
+  std::string text;
+  for (const char c : model) {
+    if (is_identifier_character(c))
+      text += c;
+    else if (!text.empty() && text.back() != '_')
+      text += '_';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string kind_name(const MappingKind& mapping) {
+  struct Name {
+    std::string operator()(const Parametric&) const { return "parametric"; }
+  };
+  return std::visit(Name{}, mapping);
+}
+
+std::string converter_id(const std::string& source_model, const std::string& target_model) {
+  return identifier(source_model) + "_to_" + identifier(target_model);
+}
+
+bool is_valid_id(const std::string& id) {
+  if (id.empty() || id.find("__") != std::string::npos) return false;
+  if (std::find(kKeywords.begin(), kKeywords.end(), id) != kKeywords.end()) return false;
+  const char first = id.front();
+  if (first == '_' || (first >= '0' && first <= '9')) return false;
+  return std::all_of(id.begin(), id.end(), [](char c) { return is_identifier_character(c) || c == '_'; });
+}
+
+}  // namespace remap

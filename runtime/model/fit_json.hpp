@@ -1,0 +1,27 @@
+// The fit file: JSON in and out. Numbers round-trip exactly; the same fit gives the same bytes on every
+// machine.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "model/fit.hpp"
+
+namespace remap {
+
+// Version of the file format that this program reads and writes.
+inline constexpr int kFitFormatVersion = 1;
+
+// The JSON text of a fit, ending with a newline. Throws kNumeric where a number is not finite.
+std::string fit_to_json(const Fit& fit);
+
+// The fit that `json` holds. `place` (a file name) opens every message. Throws kInput for text that is no
+// JSON, another format version, a missing or mistyped field, an unknown kind, an id that is no identifier, a
+// domain that is empty, a coefficient that is not finite.
+Fit fit_from_json(std::string_view json, const std::string& place);
+
+// The same for a file. Throws kInput where it cannot be read.
+Fit load_fit(const std::filesystem::path& path);
+
+}  // namespace remap

@@ -1,0 +1,34 @@
+// The reference interpreter: a fit evaluated in double precision. It is the oracle that every generated
+// header is tested against, and the way to apply a fit that has not been compiled.
+#pragma once
+
+#include <span>
+
+#include "model/fit.hpp"
+
+namespace remap {
+
+// The mapping inside its domain, in canonical coordinates. No domain rule.
+struct MappedTexel {
+  double alpha = 0.0;
+  double specular = 0.0;
+};
+MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double specular);
+
+// The derivative of the target's alpha by the source's alpha at `alpha`.
+double roughness_derivative(const MappingKind& mapping, double alpha);
+
+// One texel with the domain rule, in the models' own parameters.
+// `roughness`: source's own width parameter. `specular`: one linear value a channel; `specular_out`: as many.
+// Returns the target's own width parameter. Rule (see fit.hpp, Domain): the width is clamped to the covered
+// range; where a channel is beyond the covered specular range all channels are evaluated at the scale that
+// brings the largest to the edge, and scaled back, so that chroma is kept. NaN in the width makes every
+// output NaN; NaN in a channel makes that channel NaN. `in_domain`, if given, tells whether any of that was
+// needed.
+double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
+                      std::span<double> specular_out, bool* in_domain = nullptr);
+
+// The covered range of the source's own width parameter, as the generated header holds it.
+Range own_roughness_range(const Fit& fit);
+
+}  // namespace remap

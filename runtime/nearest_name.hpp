@@ -1,0 +1,17 @@
+// Suggestions for mistyped names: models, converter ids, options.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace remap {
+
+// The candidate with the smallest Damerau-Levenshtein distance to `name` (optimal string alignment), or an
+// empty string where none is closer than half of the longer name.
+std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
+
+// `; did you mean X?` for a near name, else `; known: A, B, C`. Ready to append to a message.
+std::string suggestion(std::string_view name, std::span<const std::string> candidates);
+
+}  // namespace remap

@@ -1,0 +1,20 @@
+// Numbers as text, the same in every locale and on every machine.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace remap {
+
+// The shortest text that reads back as exactly the same double. `nan`, `inf` for those.
+std::string number_text(double value);
+
+// A float literal of C++ (shortest that reads back, with decimal point or exponent, and `f`).
+// Throws kNumeric for NaN and infinity: generated code never holds them.
+std::string float_literal(float value);
+
+// The number that the whole of `text` spells, in the C locale; none where it spells no number.
+std::optional<double> parse_number(std::string_view text);
+
+}  // namespace remap
