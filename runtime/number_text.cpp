@@ -14,6 +14,15 @@ std::string number_text(double value) {
   return std::string(buffer.data(), end);
 }
 
+double rounded_up(double value, int digits) {
+  if (value == 0.0 || !std::isfinite(value)) return value;
+  const double magnitude = std::floor(std::log10(std::fabs(value)));
+  const double scale = std::pow(10.0, digits - 1 - magnitude);
+  // Scaling is not exact: 0.07 is 7.000000000000001 hundredths and still needs no rounding.
+  const double scaled = std::ceil(std::fabs(value) * scale * (1.0 - 1e-14));
+  return std::copysign(scale >= 1.0 ? scaled / scale : scaled * std::pow(10.0, magnitude - digits + 1), value);
+}
+
 std::string float_literal(float value) {
   if (!std::isfinite(value))
     throw Error(ErrorKind::kNumeric,

@@ -10,6 +10,9 @@ namespace remap {
 // The shortest text that reads back as exactly the same double. `nan`, `inf` for those.
 std::string number_text(double value);
 
+// `value` rounded away from 0 to `digits` significant decimal digits: an error figure as people read it. 0 for 0.
+double rounded_up(double value, int digits);
+
 // A float literal of C++ (shortest that reads back, with decimal point or exponent, and `f`).
 // Throws kNumeric for NaN and infinity: generated code never holds them.
 std::string float_literal(float value);

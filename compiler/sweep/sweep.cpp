@@ -169,8 +169,8 @@ Table empty_table(const Renderer& renderer, const Setup& setup, const SpecularRe
   if (options.objective.weighting == Weighting::kRelative)
     table.comments.emplace_back("weighting_floor", number_text(options.objective.floor));
   table.comments.emplace_back("stages", "2");
-  table.comments.emplace_back("diffuse_scale", number_text(diffuse.scale));
-  table.comments.emplace_back("diffuse_error", number_text(diffuse.error));
+  table.comments.emplace_back("diffuse_scale", number_text(std::round(diffuse.scale * 1e9) / 1e9));
+  table.comments.emplace_back("diffuse_error", number_text(remap::rounded_up(diffuse.error, 2)));
   table.comments.emplace_back("resolution", std::to_string(options.resolution));
   table.comments.emplace_back("pixel_samples", std::to_string(options.samples_per_axis) + "x" +
                                                    std::to_string(options.samples_per_axis));

@@ -35,17 +35,19 @@ struct Domain {
 };
 
 // Kind `parametric` (Sztrajman et al. 2019, section 7): alpha2 = sum of roughness[i] alpha^(i+1), and
-// specular2 = k(alpha) specular1 with k(alpha) = offset + ramp phi(alpha) + bump exp(-bump_rate alpha^2),
-// phi(alpha) = (1 - exp(-ramp_rate alpha)) / ramp_rate.
+// specular2 = k(alpha) specular1 with
+//   k(alpha) = start + ramp phi(ramp_rate, alpha) + bump phi(bump_rate, alpha^2),
+//   phi(rate, x) = (1 - exp(-rate x)) / rate, which is x where the rate is 0.
 //
-// This is the paper's c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) with c0 = offset + ramp / ramp_rate,
-// c1 = -ramp / ramp_rate, c2 = ramp_rate, written so that a slow exponential (c2 -> 0, where the published
-// coefficients reach -512.13 + 512.75 exp(-0.00057 alpha)) stays a sum of numbers of order one.
+// This is the paper's c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) with c1 = -ramp / ramp_rate, c2 =
+// ramp_rate, c3 = -bump / bump_rate, c4 = bump_rate, c0 = start - c1 - c3, written so that slow exponentials
+// (c2 -> 0, where the published coefficients reach -512.13 + 512.75 exp(-0.00057 alpha)) stay a sum of
+// numbers of order one.
 struct Parametric {
   std::array<double, 4> roughness{};
-  double offset = 0.0;
+  double start = 0.0;  // k at alpha = 0
   double ramp = 0.0;
-  double ramp_rate = 0.0;  // >= 0; 0 means phi(alpha) = alpha
+  double ramp_rate = 0.0;  // >= 0
   double bump = 0.0;
   double bump_rate = 0.0;  // >= 0
   bool operator==(const Parametric&) const = default;

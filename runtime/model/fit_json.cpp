@@ -35,7 +35,7 @@ Json to_json(const Parametric& form) {
   for (const double coefficient : form.roughness) roughness.push_back(finite(coefficient));
   return {{"roughness", roughness},
           {"slope",
-           {{"offset", finite(form.offset)},
+           {{"start", finite(form.start)},
             {"ramp", finite(form.ramp)},
             {"ramp_rate", finite(form.ramp_rate)},
             {"bump", finite(form.bump)},
@@ -119,7 +119,7 @@ Parametric read_parametric(const Field& field) {
   for (std::size_t i = 0; i < form.roughness.size(); ++i)
     form.roughness[i] = roughness.at(i, form.roughness.size()).number();
   const Field slope = field["slope"];
-  form.offset = slope["offset"].number();
+  form.start = slope["start"].number();
   form.ramp = slope["ramp"].number();
   form.ramp_rate = slope["ramp_rate"].number();
   form.bump = slope["bump"].number();

@@ -15,6 +15,9 @@ struct MappedTexel {
 };
 MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double specular);
 
+// k(alpha) of the parametric kind: the factor between the specular parameters.
+double specular_slope(const Parametric& form, double alpha);
+
 // The derivative of the target's alpha by the source's alpha at `alpha`.
 double roughness_derivative(const MappingKind& mapping, double alpha);
 
@@ -28,7 +31,9 @@ double roughness_derivative(const MappingKind& mapping, double alpha);
 double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
                       std::span<double> specular_out, bool* in_domain = nullptr);
 
-// The covered range of the source's own width parameter, as the generated header holds it.
+// The covered ranges of the source's own width parameter and of its specular, rounded to float: texels are floats,
+// and generated headers and the interpreter must agree about the texel on the edge.
 Range own_roughness_range(const Fit& fit);
+Range specular_range(const Fit& fit);
 
 }  // namespace remap

@@ -1,0 +1,18 @@
+// The subcommands of remapc: each adds itself to the command line, and does its work in a callback that
+// throws.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace remapc {
+
+void add_render_command(CLI::App& app);
+void add_sweep_command(CLI::App& app);
+void add_check_command(CLI::App& app);
+void add_fit_command(CLI::App& app);
+void add_emit_command(CLI::App& app);
+void add_eval_command(CLI::App& app);
+void add_list_command(CLI::App& app);
+void add_show_command(CLI::App& app);
+
+}  // namespace remapc

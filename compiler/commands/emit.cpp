@@ -1,0 +1,99 @@
+// `remapc emit`: fits to headers, and the check that the committed headers are what their fits give.
+#include "emit/emit.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "commands/commands.hpp"
+#include "commands/fit_folder.hpp"
+#include "error.hpp"
+#include "files.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+struct EmitOptions {
+  std::vector<std::string> fits;  // files or ids
+  std::filesystem::path fit_folder = "fits";
+  std::filesystem::path output = "generated";
+  bool all = false, check = false;
+};
+
+struct GeneratedFile {
+  std::filesystem::path path;
+  std::string content;
+};
+
+std::vector<GeneratedFile> generate(const EmitOptions& options) {
+  std::vector<remap::Fit> fits;
+  if (options.all)
+    fits = load_fits(options.fit_folder);
+  else
+    for (const std::string& name : options.fits) fits.push_back(find_fit(name, options.fit_folder));
+  std::vector<GeneratedFile> files;
+  for (const remap::Fit& fit : fits) files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
+  if (options.all) files.push_back({options.output / "registry.hpp", emit_registry(fits)});
+  return files;
+}
+
+// Names every file that is not what the fits give, and every header without a fit.
+std::vector<std::string> differences(const EmitOptions& options, const std::vector<GeneratedFile>& files) {
+  std::vector<std::string> found;
+  for (const GeneratedFile& file : files) {
+    if (!std::filesystem::exists(file.path))
+      found.push_back(file.path.string() + ": is missing");
+    else if (remap::read_file(file.path) != file.content)
+      found.push_back(file.path.string() + ": differs from what its fit gives");
+  }
+  if (!options.all || !std::filesystem::is_directory(options.output)) return found;
+  for (const auto& entry : std::filesystem::directory_iterator(options.output)) {
+    if (entry.path().extension() != ".hpp") continue;
+    const bool known = std::any_of(files.begin(), files.end(), [&](const GeneratedFile& file) {
+      return file.path.filename() == entry.path().filename();
+    });
+    if (!known) found.push_back(entry.path().string() + ": has no fit in " + options.fit_folder.string());
+  }
+  return found;
+}
+
+void run(const EmitOptions& options) {
+  if (options.all == !options.fits.empty())
+    throw Error(ErrorKind::kUsage, "emit: expected either fits to emit, or --all");
+  const std::vector<GeneratedFile> files = generate(options);
+  if (!options.check) {
+    for (const GeneratedFile& file : files) {
+      remap::write_file(file.path, file.content);
+      std::cerr << file.path.string() << "\n";
+    }
+    return;
+  }
+  const std::vector<std::string> found = differences(options, files);
+  for (const std::string& difference : found) std::cout << difference << "\n";
+  if (!found.empty())
+    throw Error(ErrorKind::kInput, options.output.string() + ": " + std::to_string(found.size()) +
+                                       " files are not up to date; run `remapc emit --all`");
+}
+
+}  // namespace
+
+void add_emit_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("emit", "Write the C++ header of a fit, or of all fits with their registry");
+  auto options = std::make_shared<EmitOptions>();
+  command->add_option("fits", options->fits, "Fits: files, or ids in the folder of fits");
+  command->add_flag("--all", options->all, "Every fit of the folder, and registry.hpp");
+  command->add_flag("--check", options->check,
+                    "Write nothing; exit code 1 where a header is not what its fit gives");
+  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
+  command->add_option("-o,--output", options->output, "Folder for the headers")->capture_default_str();
+  command->footer(
+      "Example:\n  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n  remapc emit --all "
+      "--check");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace remapc

@@ -1,0 +1,82 @@
+// `remapc eval`: how well a fit follows a table.
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/fit_folder.hpp"
+#include "commands/table_input.hpp"
+#include "error.hpp"
+#include "fit/fit_table.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+struct EvalOptions {
+  std::string fit;
+  TableInput table;
+  std::filesystem::path fit_folder = "fits";
+  bool json = false;
+};
+
+void run(const EvalOptions& options) {
+  const remap::Fit fit = find_fit(options.fit, options.fit_folder);
+  std::string bytes;
+  const Table table = options.table.read(&bytes);
+  std::vector<TableRow> rows;
+  std::size_t outside = 0;
+  for (const TableRow& row : table.rows) {
+    if (row.status != RowStatus::kOk) continue;
+    const bool inside = fit.domain.alpha.contains(row.alpha1) && fit.domain.specular.contains(row.specular1);
+    if (inside)
+      rows.push_back(row);
+    else
+      ++outside;
+  }
+  if (rows.empty())
+    throw remap::Error(remap::ErrorKind::kInput,
+                       table.name + ": has no usable row in the domain of " + fit.id);
+  const RowErrors errors = row_errors(fit, rows);
+  const bool same_table = sha256(bytes) == fit.table.sha256;
+  const auto json_of = [](const remap::ErrorFigures& f) {
+    return nlohmann::ordered_json{{"rms", f.rms}, {"p99", f.p99}, {"max", f.max}};
+  };
+  if (options.json) {
+    const nlohmann::ordered_json json = {{"fit", fit.id},
+                                         {"table", table.name},
+                                         {"fitted_from_this_table", same_table},
+                                         {"rows", rows.size()},
+                                         {"rows_outside_domain", outside},
+                                         {"alpha_error", json_of(errors.alpha)},
+                                         {"specular_error", json_of(errors.specular)}};
+    std::cout << json.dump(2) << "\n";
+    return;
+  }
+  const auto print = [](const std::string& name, const remap::ErrorFigures& f) {
+    const auto digits = [](double value) { return remap::number_text(remap::rounded_up(value, 3)); };
+    std::cout << "  " << name << ": rms " << digits(f.rms) << ", 99 % " << digits(f.p99) << ", max "
+              << digits(f.max) << "\n";
+  };
+  std::cout << fit.id << " on " << rows.size() << " rows of " << table.name
+            << (same_table ? " (the table it was fitted to, training rows included)" : "") << "\n";
+  if (outside != 0) std::cout << "  " << outside << " rows lie outside its domain and are left out\n";
+  print("alpha", errors.alpha);
+  print(fit.target.specular, errors.specular);
+}
+
+}  // namespace
+
+void add_eval_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("eval", "Errors of a fit on the usable rows of a table");
+  auto options = std::make_shared<EvalOptions>();
+  command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
+  options->table.add_options(*command);
+  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
+  command->add_flag("--json", options->json, "Figures as JSON on standard output");
+  command->footer("Example:\n  remapc eval fits/mitsuba_ward_to_mitsuba_as.json other.csv");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace remapc

@@ -1,0 +1,99 @@
+// `remapc render`: one picture of the sweep scene.
+#include <memory>
+
+#include "commands/commands.hpp"
+#include "error.hpp"
+#include "nearest_name.hpp"
+#include "number_text.hpp"
+#include "sweep/image_file.hpp"
+#include "sweep/objective.hpp"
+#include "sweep/renderer.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+struct RenderOptions {
+  std::string model;
+  std::vector<std::string> settings;  // NAME=VALUE or NAME=R,G,B
+  std::string light = "headlight";
+  double distance = 3.0;
+  int resolution = 512;
+  int pixel_samples = 1;
+  std::string output;
+};
+
+std::vector<double> parse_values(const std::string& setting, const std::string& text) {
+  std::vector<double> values;
+  for (const std::string& item : CLI::detail::split(text, ',')) {
+    const auto value = remap::parse_number(item);
+    if (!value) throw Error(ErrorKind::kUsage, "--set " + setting + ": \"" + item + "\" is no number");
+    values.push_back(*value);
+  }
+  return values;
+}
+
+Material parse_material(const ModelDescription& model, const std::vector<std::string>& settings) {
+  Material material{model.name, {}};
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos)
+      throw Error(ErrorKind::kUsage, "--set " + setting + ": has no =; expected NAME=VALUE or NAME=R,G,B");
+    material.parameters[setting.substr(0, equals)] = parse_values(setting, setting.substr(equals + 1));
+  }
+  for (const ParameterDescription& parameter : model.parameters) {
+    if (material.parameters.contains(parameter.name)) continue;
+    if (parameter.role != ParameterRole::kDiffuse)
+      throw Error(ErrorKind::kUsage, model.name + ": needs --set " + parameter.name + "=VALUE");
+    material.parameters[parameter.name] = {0.0};
+  }
+  return material;
+}
+
+void run(const RenderOptions& options) {
+  const auto renderer = make_builtin_renderer();
+  const ModelDescription model = find_model(*renderer, options.model);
+  const Material material = parse_material(model, options.settings);
+  const std::vector<Light> lights = parse_lights(options.light, options.distance);
+  if (lights.size() != 1) throw Error(ErrorKind::kUsage, "--light: one picture has one light");
+  const Image image = renderer->render(material, {options.resolution, options.pixel_samples, lights.front()});
+
+  std::map<std::string, std::string> attributes = {{"remap:renderer", renderer->version()},
+                                                   {"remap:model", model.name},
+                                                   {"remap:light", light_name(lights.front())}};
+  for (const auto& [name, values] : material.parameters) {
+    std::string text;
+    for (const double value : values) text += (text.empty() ? "" : ",") + remap::number_text(value);
+    attributes["remap:" + name] = text;
+  }
+  write_exr(options.output, image, attributes);
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("render", "Render one picture of the sweep scene: a sphere and a point light");
+  auto options = std::make_shared<RenderOptions>();
+  command->add_option("--model", options->model, "Model, e.g. mitsuba/ward (remapc list --models)")
+      ->required();
+  command->add_option("--set", options->settings, "Parameter of the model: NAME=VALUE or NAME=R,G,B")
+      ->allow_extra_args(false);
+  command->add_option("--light", options->light, "headlight, or degrees from the camera")
+      ->capture_default_str();
+  command->add_option("--distance", options->distance, "Of the light, in sphere radii")
+      ->capture_default_str();
+  command->add_option("--resolution", options->resolution, "Width and height in pixels")
+      ->capture_default_str();
+  command->add_option("--pixel-samples", options->pixel_samples, "N x N samples in each pixel; 1: its centre")
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output, "EXR file to write, linear float")->required();
+  command->footer(
+      "Example:\n  remapc render --model mitsuba/ward --set alpha=0.2 --set specular=0.9,0.6,0.2 "
+      "--light 45 -o sphere.exr");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace remapc

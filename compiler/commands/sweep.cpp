@@ -1,0 +1,207 @@
+// `remapc sweep`: two models to a table.
+#include "sweep/sweep.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
+#include "commands/commands.hpp"
+#include "error.hpp"
+#include "files.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+using remap::number_text;
+
+struct SweepCommand {
+  std::string source, target;
+  std::string objective = "natural";
+  std::string lights, weighting;  // empty: as the objective has them
+  double distance = 3.0;
+  int resolution = 512;
+  int pixel_samples = 1;
+  std::size_t roughness_samples = 30, specular_samples = 30;
+  std::vector<double> roughness_range = {0.01, 1.0}, specular_range;
+  std::string samples_of, columns;
+  unsigned jobs = 0;
+  bool resume = false, force = false, json = false, quiet = false;
+  std::filesystem::path output;
+};
+
+remap::Range parse_range(const std::string& option, const std::vector<double>& values) {
+  if (values.size() != 2 || !(values[0] <= values[1]))
+    throw Error(ErrorKind::kUsage, option + ": expected MIN,MAX with MIN not above MAX");
+  return {values[0], values[1]};
+}
+
+std::string range_text(const remap::Range& range) {
+  return number_text(range.min) + " to " + number_text(range.max);
+}
+
+void choose_samples(const SweepCommand& command, const ModelDescription& source, SweepOptions* options) {
+  if (!command.samples_of.empty()) {
+    const Table table =
+        read_table(command.samples_of, command.columns.empty() ? ColumnMap{} : column_map(command.columns));
+    for (const TableRow& row : table.rows) options->samples.push_back({row.alpha1, row.specular1});
+    options->sampling = std::to_string(table.rows.size()) + " of " +
+                        std::filesystem::path(command.samples_of).filename().string();
+    return;
+  }
+  if (command.roughness_samples == 0 || command.specular_samples == 0)
+    throw Error(ErrorKind::kUsage, "samples: 0; expected at least 1 for roughness and for specular");
+  const remap::Range alphas = parse_range("--roughness-range", command.roughness_range);
+  const remap::Range speculars = command.specular_range.empty()
+                                     ? source.parameter(ParameterRole::kSpecular).range
+                                     : parse_range("--specular-range", command.specular_range);
+  options->samples = grid_samples(alphas, command.roughness_samples, speculars, command.specular_samples);
+  options->sampling = std::to_string(command.roughness_samples) + " alpha " + range_text(alphas) + " x " +
+                      std::to_string(command.specular_samples) + " specular " + range_text(speculars);
+}
+
+SweepOptions sweep_options(const SweepCommand& command, const Renderer& renderer) {
+  SweepOptions options;
+  options.source = command.source;
+  options.target = command.target;
+  options.objective = objective_preset(command.objective);
+  options.objective_name = command.objective;
+  const Objective preset = options.objective;
+  if (!command.lights.empty()) options.objective.lights = parse_lights(command.lights, command.distance);
+  for (Light& light : options.objective.lights) light.distance = command.distance;
+  if (!command.weighting.empty()) options.objective.weighting = weighting_from_name(command.weighting);
+  if (options.objective.lights != preset.lights || options.objective.weighting != preset.weighting)
+    options.objective_name = "custom";
+  options.resolution = command.resolution;
+  options.samples_per_axis = command.pixel_samples;
+  choose_samples(command, find_model(renderer, command.source), &options);
+  return options;
+}
+
+void require_free_output(const SweepCommand& command, const std::filesystem::path& journal) {
+  if (command.force) return;
+  if (std::filesystem::exists(command.output))
+    throw Error(ErrorKind::kOutput, command.output.string() + ": exists; --force replaces it");
+  if (!command.resume && std::filesystem::exists(journal))
+    throw Error(
+        ErrorKind::kOutput,
+        journal.string() + ": an unfinished sweep lies here; --resume continues it, --force starts again");
+}
+
+void warn_of_subpixel(const Table& table, const SweepOptions& options) {
+  const double limit = subpixel_alpha(options.resolution, options.samples_per_axis);
+  std::size_t rows = 0;
+  for (const TableRow& row : table.rows) rows += row.alpha1 < limit ? 1 : 0;
+  if (rows != 0)
+    std::cerr << "remapc: warning: " << rows << " rows have alpha1 below "
+              << number_text(remap::rounded_up(limit, 2))
+              << ", where the highlight is smaller than a pixel; take more --resolution or --pixel-samples\n";
+}
+
+void report(const SweepCommand& command, const Table& table, double seconds) {
+  std::map<std::string, std::size_t> statuses;
+  double square = 0.0;
+  for (const TableRow& row : table.rows) {
+    ++statuses[std::string(status_name(row.status))];
+    square += row.error * row.error;
+  }
+  const double error = std::sqrt(square / static_cast<double>(table.rows.size()));
+  if (command.json) {
+    const nlohmann::ordered_json json = {{"table", command.output.string()},
+                                         {"rows", table.rows.size()},
+                                         {"status", statuses},
+                                         {"rms_image_error", error},
+                                         {"seconds", seconds}};
+    std::cout << json.dump(2) << "\n";
+  } else if (!command.quiet) {
+    std::cerr << command.output.string() << ": " << table.rows.size() << " rows (";
+    bool first = true;
+    for (const auto& [status, count] : statuses) {
+      std::cerr << (first ? "" : ", ") << count << " " << status;
+      first = false;
+    }
+    std::cerr << "), image error " << number_text(std::round(1000.0 * error) / 10.0) << " % rms, "
+              << number_text(std::round(10.0 * seconds) / 10.0) << " s\n";
+  }
+}
+
+void run(const SweepCommand& command) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto renderer = make_builtin_renderer();
+  const SweepOptions options = sweep_options(command, *renderer);
+  const std::filesystem::path journal = command.output.string() + ".partial";
+  require_free_output(command, journal);
+  remap::create_parent(command.output);
+
+  remap::watch_interruptions();
+  Table table;
+  {
+    remap::Progress progress("sweep " + command.source + " -> " + command.target, options.samples.size(),
+                             !command.quiet);
+    SweepExecution execution;
+    execution.jobs = command.jobs;
+    execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };
+    execution.cancelled = &remap::interruption();
+    table = run_sweep(*renderer, options, execution, journal, command.resume);
+  }
+  remap::write_file(command.output, table_text(table));
+  std::filesystem::remove(journal);
+  warn_of_subpixel(table, options);
+  report(command, table, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void add_options(CLI::App& app, SweepCommand& command) {
+  app.add_option("--source", command.source, "Model to convert from")->required();
+  app.add_option("--target", command.target, "Model to convert to")->required();
+  app.add_option("-o,--output", command.output, "Table to write (CSV)")->required();
+  app.add_option("--objective", command.objective,
+                 "natural: light at 60 degrees, relative weights; paper: headlight, uniform weights")
+      ->capture_default_str();
+  app.add_option("--light", command.lights,
+                 "Instead of the objective's: headlight or degrees, comma-separated");
+  app.add_option("--distance", command.distance, "Of the lights, in sphere radii")->capture_default_str();
+  app.add_option("--weighting", command.weighting, "Instead of the objective's: uniform or relative");
+  app.add_option("--resolution", command.resolution, "Width and height of the pictures")
+      ->capture_default_str();
+  app.add_option("--pixel-samples", command.pixel_samples, "N x N samples in each pixel; 1: its centre")
+      ->capture_default_str();
+  app.add_option("--roughness-samples", command.roughness_samples, "Source widths")->capture_default_str();
+  app.add_option("--specular-samples", command.specular_samples, "Source speculars at each width")
+      ->capture_default_str();
+  app.add_option("--roughness-range", command.roughness_range, "MIN,MAX of the source's alpha")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->capture_default_str();
+  app.add_option("--specular-range", command.specular_range,
+                 "MIN,MAX of the source's specular; default: all it takes")
+      ->delimiter(',')
+      ->expected(1, 2);
+  app.add_option("--samples-of", command.samples_of, "Take the samples of this table instead of a grid");
+  app.add_option("--columns", command.columns, "Its column map: sztrajman-2019, or own=file,...");
+  app.add_option("--jobs", command.jobs, "Threads; 0: one a core. The table does not depend on it")
+      ->capture_default_str();
+  app.add_flag("--resume", command.resume, "Continue a sweep that was interrupted");
+  app.add_flag("--force", command.force, "Replace the table");
+  app.add_flag("--json", command.json, "Summary as JSON on standard output");
+  app.add_flag("--quiet", command.quiet, "No progress, no summary");
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("sweep", "Match a grid of source materials with the target model, into a table");
+  auto options = std::make_shared<SweepCommand>();
+  add_options(*command, *options);
+  command->footer("Example:\n  remapc sweep --source mitsuba/ward --target mitsuba/as -o ward_to_as.csv");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace remapc

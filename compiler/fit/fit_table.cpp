@@ -1,0 +1,90 @@
+#include "fit/fit_table.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <openssl/evp.h>
+
+#include "error.hpp"
+#include "fit/parametric.hpp"
+#include "fit/split.hpp"
+#include "model/interpreter.hpp"
+#include "table/check.hpp"
+#include "version.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+// The box that the usable rows cover. Specular starts at 0: every kind maps 0 to 0.
+remap::Domain covered_domain(const Table& table) {
+  remap::Domain domain{{1e300, -1e300}, {0.0, 0.0}};
+  for (const TableRow& row : table.rows) {
+    if (row.status != RowStatus::kOk) continue;
+    domain.alpha.min = std::min(domain.alpha.min, row.alpha1);
+    domain.alpha.max = std::max(domain.alpha.max, row.alpha1);
+    domain.specular.max = std::max(domain.specular.max, row.specular1);
+  }
+  return domain;
+}
+
+void require_models(const Table& table) {
+  if (!table.source.model.empty() && !table.target.model.empty()) return;
+  throw Error(ErrorKind::kInput, table.name +
+                                     ": does not say which models it converts; expected `# source: ...` and "
+                                     "`# target: ...` lines, or --source and --target");
+}
+
+}  // namespace
+
+std::string sha256(std::string_view bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned length = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
+    throw Error(ErrorKind::kNumeric, "sha256: the digest could not be computed");
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (unsigned i = 0; i < length; ++i) {
+    text += kDigits[digest[i] >> 4];
+    text += kDigits[digest[i] & 15];
+  }
+  return text;
+}
+
+RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows) {
+  std::vector<double> alpha_errors, specular_errors;
+  for (const TableRow& row : rows) {
+    const remap::MappedTexel texel = remap::evaluate_mapping(fit.mapping, row.alpha1, row.specular1);
+    alpha_errors.push_back(texel.alpha - row.alpha2);
+    specular_errors.push_back(texel.specular - row.specular2);
+  }
+  return {error_figures(std::move(alpha_errors)), error_figures(std::move(specular_errors))};
+}
+
+remap::Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& options) {
+  require_models(table);
+  require_fittable(table);
+  remap::Fit fit;
+  fit.id = options.id.empty() ? remap::converter_id(table.source.model, table.target.model) : options.id;
+  if (!remap::is_valid_id(fit.id))
+    throw Error(ErrorKind::kUsage,
+                "id: \"" + fit.id + "\"; expected a C++ identifier without leading or doubled underscore");
+  fit.source = table.source;
+  fit.target = table.target;
+  fit.domain = covered_domain(table);
+  const RowSplit split = split_rows(table, options.seed, options.held_out_fraction);
+  fit.mapping = fit_parametric(split.training, fit.domain.alpha);
+  fit.split = split.record;
+  const RowErrors errors = row_errors(fit, split.held_out);
+  fit.roughness_error = errors.alpha;
+  fit.specular_error = errors.specular;
+  fit.table.name = std::filesystem::path(table.name).filename().string();
+  fit.table.sha256 = sha256(bytes);
+  for (const auto& [key, value] : table.comments) fit.table.comments[key] = value;
+  fit.tool_version = remap::kVersion;
+  return fit;
+}
+
+}  // namespace remapc

@@ -1,0 +1,34 @@
+// From a table to a fit: split, regression, errors on the rows that were held out, provenance.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "model/fit.hpp"
+#include "table/table.hpp"
+
+namespace remapc {
+
+struct FitOptions {
+  std::string id;  // empty: `<source>_to_<target>` from the table
+  std::uint64_t seed = 1;
+  double held_out_fraction = 0.2;
+};
+
+// Fits `table`, whose file is `bytes` (for the SHA-256 in the fit). Throws kInput where the table does not
+// name its models or cannot be fitted (require_fittable), kUsage for an id that is no identifier, and what
+// the regression throws.
+remap::Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& options);
+
+// Errors of `fit` on rows: target alpha and specular, absolute.
+struct RowErrors {
+  remap::ErrorFigures alpha;
+  remap::ErrorFigures specular;
+};
+RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows);
+
+// SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
+std::string sha256(std::string_view bytes);
+
+}  // namespace remapc

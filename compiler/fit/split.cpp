@@ -1,0 +1,56 @@
+#include "fit/split.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "error.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+
+RowSplit split_rows(const Table& table, std::uint64_t seed, double held_out_fraction) {
+  if (!(held_out_fraction >= 0.0 && held_out_fraction <= 0.9))
+    throw remap::Error(remap::ErrorKind::kUsage,
+                       "held-out share: " + remap::number_text(held_out_fraction) + "; expected 0 to 0.9");
+  RowSplit split;
+  std::vector<const TableRow*> usable;
+  for (const TableRow& row : table.rows) {
+    if (row.status == RowStatus::kOk)
+      usable.push_back(&row);
+    else
+      ++split.record.left_out[std::string(status_name(row.status))];
+  }
+  // Fisher and Yates by hand: std::shuffle is not the same in every standard library.
+  std::vector<std::size_t> order(usable.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937_64 random(seed);
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+
+  const auto count =
+      static_cast<std::size_t>(std::lround(held_out_fraction * static_cast<double>(usable.size())));
+  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
+  std::sort(order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    (i < count ? split.held_out : split.training).push_back(*usable[order[i]]);
+  split.record.seed = seed;
+  split.record.held_out_fraction = held_out_fraction;
+  split.record.trained_rows = static_cast<std::int64_t>(split.training.size());
+  split.record.held_out_rows = static_cast<std::int64_t>(split.held_out.size());
+  return split;
+}
+
+remap::ErrorFigures error_figures(std::vector<double> errors) {
+  if (errors.empty()) return {};
+  double sum = 0.0;
+  for (double& error : errors) {
+    error = std::fabs(error);
+    sum += error * error;
+  }
+  std::sort(errors.begin(), errors.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(errors.size())));
+  return {std::sqrt(sum / static_cast<double>(errors.size())), errors[rank - 1], errors.back()};
+}
+
+}  // namespace remapc

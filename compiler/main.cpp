@@ -1,0 +1,24 @@
+// remapc: from two BRDF models to a C++ header that converts the parameters of one into those of the other.
+#include <CLI/CLI.hpp>
+
+#include "command_line/run_app.hpp"
+#include "commands/commands.hpp"
+#include "version.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Measures how the parameters of one BRDF model convert into those of another, and compiles the result "
+      "into a C++ header: sweep -> check -> fit -> emit.",
+      "remapc");
+  app.set_version_flag("--version", std::string("remapc ") + remap::kVersion);
+  app.require_subcommand(1);
+  remapc::add_render_command(app);
+  remapc::add_sweep_command(app);
+  remapc::add_check_command(app);
+  remapc::add_fit_command(app);
+  remapc::add_emit_command(app);
+  remapc::add_eval_command(app);
+  remapc::add_list_command(app);
+  remapc::add_show_command(app);
+  return remap::run_app(app, argc, argv);
+}

@@ -1,0 +1,17 @@
+// Pictures of the sweep as files. The compiler's only contact with OpenImageIO.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "sweep/image.hpp"
+
+namespace remapc {
+
+// Writes a linear float32 EXR (zip), Y for one channel and R, G, B for three, with `attributes` as metadata.
+// Appears under its final name whole or not at all. Throws kOutput.
+void write_exr(const std::filesystem::path& path, const Image& image,
+               const std::map<std::string, std::string>& attributes);
+
+}  // namespace remapc

@@ -1,0 +1,239 @@
+#include "table/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "error.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+// Section 7 fits a quartic and five coefficients of k to one value for each width.
+constexpr std::size_t kFewestAlphas = 6;
+constexpr std::size_t kFewestRows = 12;
+// Two rows of the same sample contradict each other beyond this, in alpha or relative in specular.
+constexpr double kSameValue = 1e-6;
+// A step of the grid this many times the median step is a gap.
+constexpr double kGapFactor = 3.0;
+// A value this far from the line through its neighbours is a jump (figures 6, 8 and 10 of the paper show
+// jumps of 10 % and more; smooth sweeps stay below 1 %).
+constexpr double kJumpAlpha = 0.02;
+constexpr double kJumpSlope = 0.05;
+
+using Rows = std::vector<const TableRow*>;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::string sample_text(const TableRow& row) {
+  return "alpha1 " + number_text(row.alpha1) + ", specular1 " + number_text(row.specular1);
+}
+
+class Linter {
+ public:
+  explicit Linter(const Table& table) : table_(table) {
+    for (const TableRow& row : table.rows)
+      if (row.status == RowStatus::kOk) by_alpha_[row.alpha1].push_back(&row);
+    for (auto& [alpha, rows] : by_alpha_)
+      std::stable_sort(rows.begin(), rows.end(),
+                       [](const TableRow* a, const TableRow* b) { return a->specular1 < b->specular1; });
+  }
+
+  std::vector<Finding> run() {
+    check_ranges();
+    check_row_count();
+    check_repeats();
+    check_gaps();
+    check_monotone();
+    check_jumps();
+    check_saturation();
+    std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& a, const Finding& b) {
+      return a.severity != b.severity ? a.severity > b.severity : a.line < b.line;
+    });
+    return std::move(findings_);
+  }
+
+ private:
+  void add(Severity severity, const std::string& kind, std::size_t line, const std::string& message) {
+    findings_.push_back({severity, kind, line, message});
+  }
+
+  void check_ranges() {
+    for (const TableRow& row : table_.rows) {
+      const struct {
+        const char* name;
+        double value;
+        bool open;  // 0 itself is not allowed
+      } cells[] = {{"alpha1", row.alpha1, true},
+                   {"specular1", row.specular1, false},
+                   {"alpha2", row.alpha2, true},
+                   {"specular2", row.specular2, false}};
+      for (const auto& cell : cells) {
+        const std::string found = std::string(cell.name) + " is " + number_text(cell.value);
+        const bool possible = std::isfinite(cell.value) && (cell.open ? cell.value > 0.0 : cell.value >= 0.0);
+        if (!possible)
+          add(Severity::kError, "range", row.line,
+              found + "; expected a number " + (cell.open ? "above 0" : "from 0"));
+        else if (cell.value > 1.0)
+          add(Severity::kWarning, "range", row.line, found + "; physical values end at 1");
+      }
+    }
+  }
+
+  void check_row_count() {
+    std::size_t rows = 0;
+    for (const auto& [alpha, group] : by_alpha_) rows += group.size();
+    if (by_alpha_.size() < kFewestAlphas || rows < kFewestRows)
+      add(Severity::kError, "rows", 0,
+          "has " + std::to_string(rows) + " usable rows with " + std::to_string(by_alpha_.size()) +
+              " different alpha1; expected at least " + std::to_string(kFewestRows) + " and " +
+              std::to_string(kFewestAlphas));
+  }
+
+  void check_repeats() {
+    for (const auto& [alpha, rows] : by_alpha_) {
+      for (std::size_t i = 1; i < rows.size(); ++i) {
+        const TableRow &first = *rows[i - 1], &second = *rows[i];
+        if (first.specular1 != second.specular1) continue;
+        const bool same =
+            std::fabs(first.alpha2 - second.alpha2) <= kSameValue &&
+            std::fabs(first.specular2 - second.specular2) <= kSameValue * std::fabs(first.specular2);
+        const std::string place =
+            sample_text(second) + " stands in line " + std::to_string(first.line) + " too";
+        if (same)
+          add(Severity::kWarning, "duplicate", second.line, place + "; it counts twice in a fit");
+        else
+          add(Severity::kError, "contradiction", second.line, place + ", with other target values");
+      }
+    }
+  }
+
+  void check_gaps() {
+    std::vector<double> steps;
+    for (auto it = by_alpha_.begin(); it != by_alpha_.end() && std::next(it) != by_alpha_.end(); ++it)
+      steps.push_back(std::next(it)->first - it->first);
+    if (steps.size() < 3) return;
+    const double usual = median(steps);
+    for (auto it = by_alpha_.begin(); std::next(it) != by_alpha_.end(); ++it) {
+      const double step = std::next(it)->first - it->first;
+      if (step > kGapFactor * usual)
+        add(Severity::kWarning, "gap", std::next(it)->second.front()->line,
+            "no alpha1 between " + number_text(it->first) + " and " + number_text(std::next(it)->first) +
+                "; the usual step is " + number_text(usual));
+    }
+  }
+
+  // alpha2 of each width, the mean over specular, must rise with alpha1.
+  void check_monotone() {
+    double previous = 0.0;
+    double previous_alpha = 0.0;
+    for (const auto& [alpha, rows] : by_alpha_) {
+      double sum = 0.0;
+      for (const TableRow* row : rows) sum += row->alpha2;
+      const double mean = sum / static_cast<double>(rows.size());
+      if (mean <= previous)
+        add(Severity::kError, "non-monotone", rows.front()->line,
+            "alpha2 falls from " + number_text(previous) + " at alpha1 " + number_text(previous_alpha) +
+                " to " + number_text(mean) + " at " + number_text(alpha) + "; expected a rising curve");
+      previous = mean;
+      previous_alpha = alpha;
+    }
+  }
+
+  // Along specular at one width: the inner of three values against the line through the outer two.
+  void check_jumps() {
+    for (const auto& [alpha, rows] : by_alpha_) {
+      for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
+        const TableRow &a = *rows[i - 1], &b = *rows[i], &c = *rows[i + 1];
+        if (!(c.specular1 > a.specular1) || !(a.specular1 > 0.0)) continue;
+        const double t = (b.specular1 - a.specular1) / (c.specular1 - a.specular1);
+        const double alpha_step = b.alpha2 - (a.alpha2 + t * (c.alpha2 - a.alpha2));
+        const double expected = a.specular2 + t * (c.specular2 - a.specular2);
+        const double specular_step = b.specular2 - expected;
+        const bool jump = std::fabs(alpha_step) > kJumpAlpha * alpha ||
+                          std::fabs(specular_step) > kJumpSlope * std::max(std::fabs(expected), 0.01);
+        if (jump)
+          add(Severity::kWarning, "jump", b.line,
+              sample_text(b) + ": alpha2 is off its neighbours by " +
+                  number_text(std::round(alpha_step * 1e5) / 1e5) + ", specular2 by " +
+                  number_text(std::round(specular_step * 1e5) / 1e5));
+      }
+    }
+  }
+
+  void check_saturation() {
+    std::map<RowStatus, std::vector<std::size_t>> lines;
+    for (const TableRow& row : table_.rows)
+      if (row.status != RowStatus::kOk) lines[row.status].push_back(row.line);
+    for (const auto& [status, where] : lines) {
+      const std::string message = std::to_string(where.size()) + " of " + std::to_string(table_.rows.size()) +
+                                  " rows are " + std::string(status_name(status)) +
+                                  " and take no part in a fit; the first is this";
+      add(Severity::kNote, "saturation", where.front(), message);
+    }
+    for (const auto& [alpha, rows] : by_alpha_) {
+      std::size_t run = 1;
+      for (std::size_t i = 1; i <= rows.size(); ++i) {
+        const bool stuck = i < rows.size() && rows[i]->specular1 > rows[i - 1]->specular1 &&
+                           rows[i]->specular2 > 0.0 && rows[i]->specular2 == rows[i - 1]->specular2;
+        if (stuck) {
+          ++run;
+          continue;
+        }
+        if (run >= 3)
+          add(Severity::kWarning, "saturation", rows[i - run]->line,
+              "specular2 stays at " + number_text(rows[i - 1]->specular2) + " over " + std::to_string(run) +
+                  " rows of alpha1 " + number_text(alpha));
+        run = 1;
+      }
+    }
+  }
+
+  const Table& table_;
+  std::map<double, Rows> by_alpha_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> check_table(const Table& table) { return Linter(table).run(); }
+
+std::string_view severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::kNote:
+      return "note";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kError:
+      return "error";
+  }
+  return "note";
+}
+
+std::string finding_text(const Table& table, const Finding& finding) {
+  const std::string place = finding.line == 0 ? table.name : table.name + ":" + std::to_string(finding.line);
+  return place + ": " + std::string(severity_name(finding.severity)) + ": " + finding.kind + ": " +
+         finding.message;
+}
+
+void require_fittable(const Table& table) {
+  const std::vector<Finding> findings = check_table(table);
+  const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.severity == Severity::kError;
+  });
+  if (errors == 0) return;
+  const Finding& first = findings.front();
+  const std::string place = first.line == 0 ? table.name : table.name + ":" + std::to_string(first.line);
+  const std::string more =
+      errors == 1 ? "" : " (and " + std::to_string(errors - 1) + " more errors: see remapc check)";
+  throw remap::Error(remap::ErrorKind::kInput, place + ": " + first.kind + ": " + first.message + more);
+}
+
+}  // namespace remapc
