@@ -30,7 +30,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   std::size_t smallest = 0;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(name, candidate);
-    if (2 * distance >= std::max(name.size(), candidate.size())) continue;
+    if (2 * distance > std::max(name.size(), candidate.size())) continue;
     if (nearest.empty() || distance < smallest) {
       nearest = candidate;
       smallest = distance;

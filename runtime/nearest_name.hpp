@@ -8,7 +8,7 @@
 namespace remap {
 
 // The candidate with the smallest Damerau-Levenshtein distance to `name` (optimal string alignment), or an
-// empty string where none is closer than half of the longer name.
+// empty string where none is within half of the longer name.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
 // `; did you mean X?` for a near name, else `; known: A, B, C`. Ready to append to a message.

@@ -76,6 +76,7 @@ inline float float_from_bits(std::uint32_t value) noexcept {
   return result;
 }
 @mapping@
+
 // What the width alone decides, once a texel. Floats that are not negative compare as integers do; that vectorises with
 // every compiler and under any floating-point flags.
 struct Width {
@@ -150,7 +151,7 @@ inline bool in_domain(Input in) noexcept {
 }
 
 // Rows of `count` texels: one row of @in_roughness@, `Channels` rows of @in_specular@ (1 for a grey map, 3 for RGB). An
-// output row may be exactly its own input row; no other rows may overlap. Bit for bit what evaluate() gives.
+// output row may be exactly its own input row; no other rows may overlap. Bit for bit what evaluate() gives (which NaN aside).
 // Returns the number of texels out of domain.
 template <std::size_t Channels>
 inline std::size_t evaluate_batch(std::size_t count, const float* @in_roughness@,

@@ -15,7 +15,7 @@ using remap::float_literal;
 using remap::Parametric;
 
 // Together with the rounding of a few float operations this stays within the 1e-6 that self_test() allows.
-constexpr double kSlopeTolerance = 4e-7;
+constexpr double kSlopeTolerance = 2e-7;
 // Beyond this two exponentials are no dearer.
 constexpr int kMaxDegree = 14;
 // Below this rate * width the closed form of phi loses digits to cancellation and the series is used.
@@ -35,6 +35,7 @@ std::string horner(const std::vector<double>& coefficients, const std::string& r
 // The even and the odd powers as two chains of half the length (Estrin 1960, first step): a processor works
 // on both at once, where Horner's single chain would wait for itself.
 std::string even_odd(const std::vector<double>& coefficients, const std::string& variable) {
+  if (coefficients.size() <= 4) return horner(coefficients, "k", variable) + "return k;\n";
   std::vector<double> even, odd;
   for (std::size_t i = 0; i < coefficients.size(); ++i) (i % 2 == 0 ? even : odd).push_back(coefficients[i]);
   const std::string square = variable + "_2";

@@ -7,8 +7,8 @@
 namespace remapc {
 namespace {
 
-// Every fourth node of the bank is looked at first; lobes are far wider than that.
-constexpr std::size_t kCoarseStride = 4;
+// Every sixth node of the bank is looked at first; lobes are far wider than that.
+constexpr std::size_t kCoarseStride = 6;
 // A second minimum counts as a rival where its error is within 1 % of the best and its width is not a
 // neighbour.
 constexpr double kRivalError = 1.01;
@@ -24,19 +24,19 @@ double inner_product(const float* weighted, const float* values, std::size_t cou
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-// Lagrange basis on nodes 0 .. n-1 at `t`: values and first derivatives.
+// Lagrange basis on `nodes` at `x`: values and first derivatives.
 struct LagrangeBasis {
-  std::array<double, kInterpolationNodes> value{};
-  std::array<double, kInterpolationNodes> derivative{};
+  using Values = std::array<double, kInterpolationNodes>;
+  Values value{};
+  Values derivative{};
 
-  explicit LagrangeBasis(double t) {
+  LagrangeBasis(const Values& nodes, double x) {
     for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
       double product = 1.0, sum = 0.0;
       for (std::size_t j = 0; j < kInterpolationNodes; ++j) {
         if (j == i) continue;
-        const double denominator = static_cast<double>(i) - static_cast<double>(j);
-        const double factor = (t - static_cast<double>(j)) / denominator;
-        sum = sum * factor + product / denominator;  // product rule, one factor at a time
+        const double factor = (x - nodes[j]) / (nodes[i] - nodes[j]);
+        sum = sum * factor + product / (nodes[i] - nodes[j]);  // product rule, one factor at a time
         product *= factor;
       }
       value[i] = product;
@@ -128,10 +128,12 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   const std::size_t first =
       std::min(node - std::min(node, kInterpolationNodes / 2 - 1), bank_.size() - kInterpolationNodes);
   std::array<Quadratic, kInterpolationNodes> window;
-  for (std::size_t i = 0; i < kInterpolationNodes; ++i)
+  LagrangeBasis::Values logs{};
+  for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
     window[i] = quadratic(products(first + i), coefficients);
-
-  const auto interpolate = [&](const std::array<double, kInterpolationNodes>& basis) {
+    logs[i] = std::log(bank_.alpha(first + i));
+  }
+  const auto interpolate = [&](const LagrangeBasis::Values& basis) {
     Quadratic sum;
     for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
       sum.c0 += basis[i] * window[i].c0;
@@ -140,35 +142,33 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
     }
     return sum;
   };
-  // Derivative of the loss by the width at the best specular: its own derivative does not matter there.
-  const auto derivative = [&](double t) {
-    const LagrangeBasis basis(t);
+  // Derivative of the loss by log(alpha) at the best specular: what the specular would do does not matter
+  // there.
+  const auto derivative = [&](double x) {
+    const LagrangeBasis basis(logs, x);
     const double s = optimum(interpolate(basis.value)).specular;
     const Quadratic d = interpolate(basis.derivative);
     return d.c0 + s * (s * d.c2 - 2.0 * d.c1);
   };
 
-  const auto centre = static_cast<double>(node - first);
-  double low = node == 0 ? centre : centre - 1.0;
-  double high = node + 1 == bank_.size() ? centre : centre + 1.0;
-  bool at_bound = false;
-  double t = centre;
-  if (derivative(low) > 0.0 || derivative(high) < 0.0) {
-    at_bound = node == 0 || node + 1 == bank_.size();
-  } else {
-    // Bisection to the resolution of doubles; each step is a few hundred operations.
-    for (int step = 0; step < 52; ++step) {
-      t = 0.5 * (low + high);
-      (derivative(t) < 0.0 ? low : high) = t;
-    }
+  const bool at_edge = node == 0 || node + 1 == bank_.size();
+  double low = std::log(bank_.alpha(node == 0 ? node : node - 1));
+  double high = std::log(bank_.alpha(node + 1 == bank_.size() ? node : node + 1));
+  double x = std::log(bank_.alpha(node));
+  const bool bracketed = derivative(low) <= 0.0 && derivative(high) >= 0.0;
+  // Bisection to the resolution of doubles; each step is a few hundred operations.
+  for (int step = 0; bracketed && step < 52; ++step) {
+    x = 0.5 * (low + high);
+    (derivative(x) < 0.0 ? low : high) = x;
   }
-  const Optimum best = optimum(interpolate(LagrangeBasis(t).value));
+  const Optimum best = optimum(interpolate(LagrangeBasis(logs, x).value));
   const double power = source_power(coefficients);
   Match match;
-  match.alpha = bank_.alpha(0) * std::exp(bank_.log_step() * (static_cast<double>(first) + t));
+  match.alpha = std::exp(x);
   match.specular = best.specular;
   match.error = std::sqrt(std::max(0.0, power + best.loss) / power);
-  const bool clamped = at_bound || best.specular <= 0.0 || best.specular >= bank_.max_specular();
+  const bool clamped =
+      (at_edge && !bracketed) || best.specular <= 0.0 || best.specular >= bank_.max_specular();
   match.status = clamped ? RowStatus::kClamped : RowStatus::kOk;
   return match;
 }

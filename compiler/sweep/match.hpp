@@ -12,9 +12,8 @@
 
 namespace remapc {
 
-// Nodes of the bank that one interpolation of the loss uses. Eight nodes 8 % apart leave an error of 1e-7 in
-// alpha.
-inline constexpr std::size_t kInterpolationNodes = 8;
+// Nodes of the bank that one interpolation of the loss uses: twelve nodes 5 % apart leave 1e-7 of alpha.
+inline constexpr std::size_t kInterpolationNodes = 12;
 
 struct Match {
   double alpha = 0.0;

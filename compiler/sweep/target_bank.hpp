@@ -18,14 +18,15 @@ struct BankEntry {
 
 class TargetBank {
  public:
-  // A bank for widths in `alphas`, neighbours at most `ratio` apart. `target` must be affine in its specular
-  // parameter (probe_specular).
+  // A bank for widths in `alphas`, neighbours at most `ratio` apart, and closer at the upper end, where
+  // interpolation has nodes on one side only. `target` must be affine in its specular parameter
+  // (probe_specular).
   TargetBank(const Photographer& photographer, const ModelDescription& target, const remap::Range& alphas,
              double ratio);
 
   std::size_t size() const { return alphas_.size(); }
   double alpha(std::size_t node) const { return alphas_[node]; }
-  double log_step() const { return log_step_; }  // of the grid, in log(alpha)
+  double log_step() const { return log_step_; }  // largest, in log(alpha)
   double max_specular() const { return max_specular_; }
 
   // The pictures of a node; rendered on the first call, kept for the next. Safe from many threads.

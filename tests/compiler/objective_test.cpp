@@ -1,0 +1,42 @@
+// Lights and weights of an objective.
+#include "sweep/objective.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "error.hpp"
+
+using namespace remapc;
+
+TEST_CASE("objective: natural weighs each pixel by cos_view / (I / max(I) + 0.1), squared") {
+  const Objective natural = objective_preset("natural");
+  REQUIRE(natural.lights == std::vector<Light>{{60.0, 3.0}});
+  const std::vector<float> source = {0.0f, 1.0f, 4.0f}, cosines = {1.0f, 0.5f, 0.8f};
+  const auto weights = squared_weights(natural, source, cosines);
+  CHECK(weights[0] == Approx(100.0));
+  CHECK(weights[1] == Approx(0.5 / 0.35 * 0.5 / 0.35));
+  CHECK(weights[2] == Approx(0.8 / 1.1 * 0.8 / 1.1));
+}
+
+TEST_CASE("objective: natural takes the brightest pixel of each light apart") {
+  Objective objective = objective_preset("natural");
+  objective.lights = parse_lights("headlight,60", 3.0);
+  const std::vector<float> source = {1.0f, 2.0f, 10.0f, 20.0f}, cosines = {1.0f, 1.0f};
+  const auto weights = squared_weights(objective, source, cosines);
+  CHECK(weights[0] == weights[2]);
+  CHECK(weights[1] == weights[3]);
+}
+
+TEST_CASE("objective: paper is a headlight and weights of 1") {
+  const Objective paper = objective_preset("paper");
+  CHECK(paper.lights == std::vector<Light>{Light{}});
+  const std::vector<float> source = {0.0f, 3.0f}, cosines = {1.0f, 0.1f};
+  CHECK(squared_weights(paper, source, cosines) == std::vector<float>{1.0f, 1.0f});
+}
+
+TEST_CASE("objective: lights are parsed, nonsense is refused") {
+  CHECK(parse_lights("headlight,45,-30", 5.0) == std::vector<Light>{{0.0, 5.0}, {45.0, 5.0}, {-30.0, 5.0}});
+  CHECK_THROWS_WITH(parse_lights("45,sun", 3.0), Catch::Contains("\"sun\""));
+  CHECK_THROWS_WITH(parse_lights("400", 3.0), Catch::Contains("degrees"));
+  CHECK_THROWS_WITH(objective_preset("papper"), Catch::Contains("did you mean paper?"));
+  CHECK_THROWS_WITH(weighting_from_name("relativ"), Catch::Contains("did you mean relative?"));
+}

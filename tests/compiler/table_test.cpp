@@ -1,0 +1,109 @@
+// Tables in and out, column maps, and every complaint with its place.
+#include "table/table.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "error.hpp"
+#include "files.hpp"
+#include "support/shared_data.hpp"
+
+using namespace remapc;
+
+namespace {
+
+const std::string kHeader = "alpha1,specular1,alpha2,specular2,error,status\n";
+
+Table parse(const std::string& text) { return parse_table(text, "t.csv"); }
+
+}  // namespace
+
+TEST_CASE("table: what is written is read back number for number") {
+  Table table;
+  table.name = "t.csv";
+  table.comments = {{"source", "mitsuba/ward"},
+                    {"target", "mitsuba/phong"},
+                    {"target_roughness", "exponent"},
+                    {"target_specular", "specular"},
+                    {"note", "a: b"}};
+  table.rows = {{0.1, 1.0 / 3.0, 1e-17, 123456.789, 0.0, RowStatus::kOk, 0},
+                {0.2, 0.5, 0.25, 0.125, 1e300, RowStatus::kClamped, 0},
+                {0.3, 0.0, 0.3, 0.0, 0.0, RowStatus::kFlat, 0},
+                {0.4, 0.5, 0.3, 0.1, 0.2, RowStatus::kUnstable, 0}};
+  const Table back = parse(table_text(table));
+  CHECK(table_text(back) == table_text(table));
+  REQUIRE(back.rows.size() == 4);
+  CHECK(back.rows[0].specular1 == 1.0 / 3.0);
+  CHECK(back.rows[1].status == RowStatus::kClamped);
+  CHECK(back.rows[3].line == 10);
+  CHECK(back.source.model == "mitsuba/ward");
+  CHECK(back.target.roughness == remap::RoughnessConvention::kExponent);
+}
+
+TEST_CASE("table: comma, tab and semicolon are told apart, spaces, quotes, BOM and CRLF are no harm") {
+  for (const char delimiter : {',', '\t', ';'}) {
+    std::string text =
+        "\xEF\xBB\xBF# source: a/b\r\n\"alpha1\", specular1,alpha2,specular2,k2\r\n0.1, "
+        "0.2,0.3,+0.4,-100\r\n\r\n";
+    for (char& c : text) c = c == ',' ? delimiter : c;
+    const Table table = parse(text);
+    REQUIRE(table.rows.size() == 1);
+    CHECK(table.rows[0].specular1 == 0.2);
+    CHECK(table.rows[0].specular2 == 0.4);
+    CHECK(std::isnan(table.rows[0].error));
+    CHECK(table.source.model == "a/b");
+  }
+}
+
+TEST_CASE("table: the published table loads by its preset and by a column map") {
+  const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
+  if (path.empty()) return;
+  const Table preset = read_table(path, column_map("sztrajman-2019"));
+  REQUIRE(preset.rows.size() == 721);
+  CHECK(preset.rows[0].alpha1 == 0.4975);
+  CHECK(preset.rows[0].specular2 == 0.083393910193);
+  CHECK(preset.source.model == "mitsuba/ward");
+  CHECK(preset.target.specular == "f0");
+  const Table mapped = read_table(path, column_map("specular2=eta2,specular1=specular1"));
+  CHECK(table_text(mapped) == table_text([&] {
+          Table same = preset;
+          same.comments = mapped.comments;
+          return same;
+        }()));
+  CHECK_THROWS_WITH(read_table(path), Catch::Contains("has no column specular2; did you mean specular1?"));
+}
+
+TEST_CASE("table: a bad number is named with line and column") {
+  CHECK_THROWS_WITH(parse("# c: d\n" + kHeader + "0.1,0.2,0.3,0.4,0,ok\n0.1,0.2,0.3x,0.4,0,ok\n"),
+                    "t.csv:4:9: alpha2 is \"0.3x\"; expected a number");
+  CHECK_THROWS_WITH(parse(kHeader + "0.1,,0.3,0.4,0,ok\n"), Catch::Contains("t.csv:2:5: specular1 is \"\""));
+  CHECK_THROWS_WITH(parse(kHeader + "0.1,0.2,0.3,0.4,0,fine\n"),
+                    Catch::Contains("t.csv:2:19: status is \"fine\""));
+}
+
+TEST_CASE("table: a missing column is named with the nearest there is") {
+  CHECK_THROWS_WITH(parse("alpha1,specular1,width2,specular2\n1,2,3,4\n"),
+                    "t.csv:1:1: has no column alpha2; did you mean alpha1?");
+}
+
+TEST_CASE("table: a wrong delimiter is recognised") {
+  CHECK_THROWS_WITH(parse("alpha1|specular1|alpha2|specular2\n1|2|3|4\n"),
+                    Catch::Contains("comma, tab or semicolon"));
+}
+
+TEST_CASE("table: a row of another length is named") {
+  CHECK_THROWS_WITH(parse(kHeader + "0.1,0.2,0.3\n"),
+                    "t.csv:2:1: the row has 3 columns; expected 6 as in the header");
+}
+
+TEST_CASE("table: text without header or rows is refused") {
+  CHECK_THROWS_WITH(parse(""), Catch::Contains("no header row"));
+  CHECK_THROWS_WITH(parse("# a: b\n"), Catch::Contains("no header row"));
+  CHECK_THROWS_WITH(parse(kHeader), Catch::Contains("no rows"));
+}
+
+TEST_CASE("column map: unknown presets and columns are answered with the nearest") {
+  CHECK_THROWS_WITH(column_map("sztrajman-2018"), Catch::Contains("did you mean sztrajman-2019?"));
+  CHECK_THROWS_WITH(column_map("alpa1=x"), Catch::Contains("did you mean alpha1?"));
+}

@@ -1,0 +1,77 @@
+// Fit files: exact round trip, and every complaint with its place.
+#include "model/fit_json.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "error.hpp"
+
+using namespace remap;
+
+namespace {
+
+Fit sample_fit() {
+  Fit fit;
+  fit.id = "a_b_to_c_d";
+  fit.source = {"a/b", RoughnessConvention::kAlpha, "specular"};
+  fit.target = {"c/d", RoughnessConvention::kExponent, "f0"};
+  fit.domain = {{1.0 / 3.0 * 0.1, 0.99}, {0.0, 0.7}};
+  fit.mapping = Parametric{{1.0 / 3.0, -0.1, 1e-17, 0.25}, 1.1, -0.5, 0.0, 1.0 / 7.0, 3.0};
+  fit.roughness_error = {1e-4, 2e-4, 3e-4};
+  fit.specular_error = {4e-4, 5e-4, 6e-4};
+  fit.split = {42, 0.2, 80, 20, {{"clamped", 3}}};
+  fit.table = {"t.csv", "00ff", {{"objective", "natural"}}};
+  fit.tool_version = "0.1.0";
+  return fit;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t start = text.find(from);
+  REQUIRE(start != std::string::npos);
+  return text.replace(start, from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("fit file: what is written is read back bit for bit") {
+  const Fit fit = sample_fit();
+  const std::string json = fit_to_json(fit);
+  CHECK(fit_from_json(json, "x.json") == fit);
+  CHECK(fit_to_json(fit_from_json(json, "x.json")) == json);
+}
+
+TEST_CASE("fit file: complaints name the file and the field") {
+  const std::string json = fit_to_json(sample_fit());
+  const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
+  CHECK_THROWS_WITH(read("{"), Catch::StartsWith("x.json: is no JSON"));
+  CHECK_THROWS_WITH(read("[]"), Catch::StartsWith("x.json: is []"));
+  CHECK_THROWS_WITH(read(replaced(json, "remap-fit", "other")), Catch::Contains("is no fit file"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"version\": 1", "\"version\": 2")),
+                    Catch::Contains("format version 2; this program reads version 1"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"seed\"", "\"sed\"")), "x.json.split: has no field \"seed\"");
+  CHECK_THROWS_WITH(read(replaced(json, "\"a_b_to_c_d\"", "\"a b\"")),
+                    Catch::StartsWith("x.json.id: is \"a b\""));
+  CHECK_THROWS_WITH(read(replaced(json, "\"exponent\"", "\"sharpness\"")),
+                    Catch::Contains("x.json.target.roughness"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"parametric\"", "\"magic\"")),
+                    Catch::Contains("x.json.mapping.kind"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"ramp\": -0.5", "\"ramp\": \"x\"")),
+                    Catch::Contains("expected a number"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"ramp_rate\": 0.0", "\"ramp_rate\": -1.0")),
+                    Catch::Contains("a rate from 0"));
+  CHECK_THROWS_WITH(read(replaced(json, "0.99", "0.001")), Catch::Contains("min < max"));
+}
+
+TEST_CASE("fit file: numbers that are not finite are never written") {
+  Fit fit = sample_fit();
+  std::get<Parametric>(fit.mapping).ramp = NAN;
+  CHECK_THROWS_WITH(fit_to_json(fit), Catch::Contains("not finite"));
+}
+
+TEST_CASE("id: models become an identifier") {
+  CHECK(converter_id("mitsuba/ward", "cycles-5/ggx") == "mitsuba_ward_to_cycles_5_ggx");
+  CHECK(converter_id("threejs-r187/standard", "a//b") == "threejs_r187_standard_to_a_b");
+  CHECK(is_valid_id("mitsuba_ward_to_mitsuba_as"));
+  for (const std::string bad : {"", "1a", "a-b", "int", "_a", "a__b", "a b"}) CHECK_FALSE(is_valid_id(bad));
+}

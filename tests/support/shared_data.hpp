@@ -1,0 +1,24 @@
+// Real data that lies beside the repository, where it does.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+namespace remap {
+
+// `name` in the folder of shared data: REMAP_SHARED_DATA, or ../shared/data beside the source tree. Where it
+// is missing: an empty path, and a line that says which test is skipped for it.
+inline std::filesystem::path shared_data(const std::string& name) {
+  const char* given = std::getenv("REMAP_SHARED_DATA");
+  const std::filesystem::path folder =
+      given != nullptr ? std::filesystem::path(given)
+                       : std::filesystem::path(REMAP_SOURCE_DIR) / ".." / "shared" / "data";
+  const std::filesystem::path path = folder / name;
+  if (std::filesystem::exists(path)) return path;
+  std::cout << "skipped: " << name << " is not in " << folder.lexically_normal().string() << "\n";
+  return {};
+}
+
+}  // namespace remap
