@@ -23,6 +23,14 @@ double rounded_up(double value, int digits) {
   return std::copysign(scale >= 1.0 ? scaled / scale : scaled * std::pow(10.0, magnitude - digits + 1), value);
 }
 
+double decimal_value(float value) {
+  std::array<char, 64> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  double decimal = static_cast<double>(value);
+  std::from_chars(buffer.data(), end, decimal);
+  return decimal;
+}
+
 std::string float_literal(float value) {
   if (!std::isfinite(value))
     throw Error(ErrorKind::kNumeric,

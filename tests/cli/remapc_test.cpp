@@ -1,0 +1,283 @@
+// remapc as a person meets it: the chain of commands, and one wrong input a test with its message and exit
+// code.
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+#include "files.hpp"
+#include "model/fit_json.hpp"
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+using namespace remap;
+namespace fs = std::filesystem;
+
+namespace {
+
+// remapc in a folder of its own.
+class Session {
+ public:
+  ProcessResult remapc(std::vector<std::string> arguments, const ProcessLimits& limits = {}) const {
+    arguments.insert(arguments.begin(), REMAPC_PROGRAM);
+    return run(arguments, limits);
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  void write(const std::string& name, const std::string& content) const {
+    write_file(folder_.path() / name, content);
+  }
+  std::size_t file_count() const {
+    return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(folder_.path()), {}));
+  }
+
+  // A small sweep, ward to as.
+  std::vector<std::string> sweep(const std::string& table) const {
+    return {"sweep",
+            "--source",
+            "mitsuba/ward",
+            "--target",
+            "mitsuba/as",
+            "--resolution",
+            "64",
+            "--roughness-samples",
+            "12",
+            "--specular-samples",
+            "3",
+            "-o",
+            path(table)};
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+const std::string kHeader = "alpha1,specular1,alpha2,specular2,error,status\n";
+
+void check_failure(const ProcessResult& result, int exit_code, const std::string& message) {
+  INFO(result.errors);
+  CHECK(result.exit_code == exit_code);
+  CHECK(result.last_error().find(message) != std::string::npos);
+  CHECK(result.last_error().starts_with("remapc: "));
+  CHECK(result.output.find("Segmentation") == std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") {
+  const Session session;
+  ProcessResult result = session.remapc(session.sweep("t.csv"));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.errors.find("36 rows (36 ok)") != std::string::npos);
+  CHECK_FALSE(fs::exists(session.path("t.csv.partial")));
+  CHECK(session.remapc({"check", session.path("t.csv")}).exit_code == 0);
+  REQUIRE(session.remapc({"fit", session.path("t.csv"), "-o", session.path("fits")}).exit_code == 0);
+  const std::string fit = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
+  CHECK(load_fit(fit).table.comments.at("objective") == "natural");
+  REQUIRE(session.remapc({"emit", "--all", "--fits", session.path("fits"), "-o", session.path("generated")})
+              .exit_code == 0);
+  CHECK(fs::exists(session.path("generated/registry.hpp")));
+  result = session.remapc({"eval", fit, session.path("t.csv"), "--json"});
+  CHECK(result.exit_code == 0);
+  CHECK(result.output.find("\"rows\": 36") != std::string::npos);
+  CHECK(result.output.find("\"fitted_from_this_table\": true") != std::string::npos);
+  CHECK(session.remapc({"list", "--fits", session.path("fits")}).output.find("parametric") !=
+        std::string::npos);
+  result = session.remapc({"show", "mitsuba_ward_to_mitsuba_as", "--fits", session.path("fits")});
+  CHECK(result.output.find("mitsuba/as (alpha, f0)") != std::string::npos);
+}
+
+TEST_CASE("remapc: every command has help with an example") {
+  const Session session;
+  for (const std::string command : {"render", "sweep", "check", "fit", "emit", "eval", "list", "show"}) {
+    const ProcessResult result = session.remapc({command, "--help"});
+    CHECK(result.exit_code == 0);
+    CHECK(result.output.find("Example:\n  remapc " + command) != std::string::npos);
+  }
+  CHECK(session.remapc({"--version"}).output == "remapc " REMAPC_VERSION "\n");
+}
+
+TEST_CASE("remapc: wrong usage is exit code 2 and names the nearest") {
+  const Session session;
+  check_failure(session.remapc({}), 2, "command: is missing");
+  check_failure(session.remapc({"swep"}), 2, "did you mean sweep?");
+  check_failure(session.remapc({"sweep", "--sorce", "a"}), 2, "did you mean --source?");
+  check_failure(session.remapc({"sweep", "--source", "mitsuba/wardd", "--target", "mitsuba/as", "-o",
+                                session.path("t")}),
+                2, "did you mean mitsuba/ward?");
+  check_failure(session.remapc({"sweep", "--source", "mitsuba/ward", "--target", "nothing/like", "-o",
+                                session.path("t")}),
+                2, "known: mitsuba/ward, ");
+  auto sweep = session.sweep("t.csv");
+  sweep.insert(sweep.end(), {"--objective", "natura"});
+  check_failure(session.remapc(sweep), 2, "did you mean natural?");
+  sweep = session.sweep("t.csv");
+  sweep.insert(sweep.end(), {"--roughness-range", "0.5,2"});
+  check_failure(session.remapc(sweep), 2, "out of range; expected alpha");
+  check_failure(session.remapc({"show", "nix", "--fits", session.path("")}), 2, "neither a file nor a fit");
+  CHECK(session.file_count() == 0);
+}
+
+TEST_CASE("remapc check: a bad number is named by file, line and column") {
+  const Session session;
+  session.write("t.csv", kHeader + "0.1,0.2,0.3,0.4,0,ok\n0.1,zwei,0.3,0.4,0,ok\n");
+  check_failure(session.remapc({"check", session.path("t.csv")}), 1, "t.csv:3:5: specular1 is \"zwei\"");
+}
+
+TEST_CASE("remapc check: a wrong delimiter and a missing column are named") {
+  const Session session;
+  session.write("a.csv", "alpha1|specular1|alpha2|specular2\n1|2|3|4\n");
+  check_failure(session.remapc({"check", session.path("a.csv")}), 1, "comma, tab or semicolon");
+  session.write("b.csv", "alpha1,specular1,alpha2\n1,2,3\n");
+  check_failure(session.remapc({"check", session.path("b.csv")}), 1, "has no column specular2");
+}
+
+TEST_CASE("remapc check and fit: a table that cannot be fitted is exit code 1, and no fit is written") {
+  const Session session;
+  session.write("few.csv", "# source: a/b\n# target: c/d\n" + kHeader + "0.1,0.2,0.3,0.4,0,ok\n");
+  const ProcessResult check = session.remapc({"check", session.path("few.csv")});
+  check_failure(check, 1, "cannot be fitted: 1 error");
+  CHECK(check.output.find("rows: has 1 usable rows") != std::string::npos);
+  check_failure(session.remapc({"fit", session.path("few.csv"), "-o", session.path("fits")}), 1,
+                "has 1 usable rows");
+  CHECK_FALSE(fs::exists(session.path("fits")));
+}
+
+TEST_CASE("remapc fit: a missing table is named with the reason") {
+  const Session session;
+  check_failure(session.remapc({"fit", session.path("no.csv")}), 1, "no.csv: cannot be read: No such file");
+}
+
+TEST_CASE("remapc fit: an output folder that cannot be is named") {
+  const Session session;
+  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  check_failure(session.remapc({"fit", session.path("t.csv"), "-o", session.path("t.csv")}), 1, "folder");
+}
+
+TEST_CASE("remapc sweep: an output folder that cannot be is named before the work starts") {
+  const Session session;
+  session.write("file", "x");
+  auto sweep = session.sweep("file/t.csv");
+  sweep[sweep.size() - 1] = session.path("file/t.csv");
+  check_failure(session.remapc(sweep), 1, "folder");
+}
+
+TEST_CASE("remapc sweep: a table or an unfinished sweep is not replaced unasked") {
+  const Session session;
+  session.write("t.csv", "mine");
+  check_failure(session.remapc(session.sweep("t.csv")), 1, "--force");
+  CHECK(read_file(session.path("t.csv")) == "mine");
+  session.write("u.csv.partial", "begun");
+  check_failure(session.remapc(session.sweep("u.csv")), 1, "--resume");
+  auto resume = session.sweep("u.csv");
+  resume.emplace_back("--resume");
+  check_failure(session.remapc(resume), 1, "begun with other options");
+  CHECK(read_file(session.path("u.csv.partial")) == "begun");
+}
+
+TEST_CASE("remapc sweep: a full disk is an error, and nothing lies under the final name") {
+  const Session session;
+  ProcessLimits limits;
+  limits.file_bytes = 2048;
+  check_failure(session.remapc(session.sweep("t.csv"), limits), 1, "cannot be written");
+  CHECK_FALSE(fs::exists(session.path("t.csv")));
+}
+
+TEST_CASE("remapc sweep: killed and resumed it gives the bytes of one run") {
+  const Session session;
+  auto whole = session.sweep("whole.csv");
+  auto broken = session.sweep("broken.csv");
+  for (auto* arguments : {&whole, &broken}) {
+    (*arguments)[6] = "256";  // slow enough to be caught in the middle
+    (*arguments)[8] = "40";
+  }
+  REQUIRE(session.remapc(whole).exit_code == 0);
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    auto arguments = broken;
+    arguments.insert(arguments.begin(), REMAPC_PROGRAM);
+    arguments.emplace_back(fs::exists(session.path("broken.csv.partial")) ? "--resume" : "--quiet");
+    Process process(arguments);
+    const auto size = [&] {
+      std::error_code none;
+      const auto bytes = fs::file_size(session.path("broken.csv.partial"), none);
+      return none ? 0 : bytes;
+    };
+    const auto begun = std::max<std::uintmax_t>(size(), 900);
+    while (process.is_running() && size() < begun + 300)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    process.send(signal);
+    const ProcessResult result = process.wait();
+    CHECK((signal == SIGKILL ? result.signal == SIGKILL : result.exit_code == 1));
+    CHECK_FALSE(fs::exists(session.path("broken.csv")));
+    REQUIRE(fs::exists(session.path("broken.csv.partial")));
+  }
+  broken.emplace_back("--resume");
+  REQUIRE(session.remapc(broken).exit_code == 0);
+  CHECK(read_file(session.path("broken.csv")) == read_file(session.path("whole.csv")));
+  CHECK_FALSE(fs::exists(session.path("broken.csv.partial")));
+}
+
+TEST_CASE("remapc emit: --check finds a changed, a missing and an orphaned header") {
+  const Session session;
+  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  REQUIRE(session.remapc({"fit", session.path("t.csv"), "-o", session.path("fits")}).exit_code == 0);
+  const std::vector<std::string> emit = {
+      "emit", "--all", "--fits", session.path("fits"), "-o", session.path("generated")};
+  REQUIRE(session.remapc(emit).exit_code == 0);
+  auto check = emit;
+  check.emplace_back("--check");
+  CHECK(session.remapc(check).exit_code == 0);
+
+  const std::string header = session.path("generated/mitsuba_ward_to_mitsuba_as.hpp");
+  const std::string original = read_file(header);
+  write_file(header, original + "\n");
+  check_failure(session.remapc(check), 1, "not up to date");
+  CHECK(session.remapc(check).output.find("differs from what its fit gives") != std::string::npos);
+  fs::remove(header);
+  CHECK(session.remapc(check).output.find("is missing") != std::string::npos);
+  write_file(header, original);
+  session.write("generated/old_to_gone.hpp", "");
+  CHECK(session.remapc(check).output.find("old_to_gone.hpp: has no fit") != std::string::npos);
+}
+
+TEST_CASE("remapc emit: a fit that is none is named with the field") {
+  const Session session;
+  session.write("fits/a_to_b.json", "{\"format\": \"remap-fit\", \"version\": 1}");
+  check_failure(session.remapc({"emit", session.path("fits/a_to_b.json"), "-o", session.path("out")}), 1,
+                "a_to_b.json: has no field \"id\"");
+  CHECK_FALSE(fs::exists(session.path("out")));
+  check_failure(session.remapc({"emit"}), 2, "either fits to emit, or --all");
+}
+
+TEST_CASE("remapc render: writes an EXR that OpenImageIO's own tools read") {
+  const Session session;
+  const ProcessResult result =
+      session.remapc({"render", "--model", "mitsuba/ggx", "--set", "alpha=0.3", "--set", "f0=0.9,0.6,0.2",
+                      "--light", "45", "--resolution", "32", "-o", session.path("s.exr")});
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  const ProcessResult info = run({"/usr/bin/oiiotool", "--info", "-v", session.path("s.exr")});
+  CHECK(info.output.find("32 x   32, 3 channel, float openexr") != std::string::npos);
+  CHECK(info.output.find("remap:model: \"mitsuba/ggx\"") != std::string::npos);
+}
+
+TEST_CASE("remapc render: wrong parameters, files and folders are named") {
+  const Session session;
+  const auto render = [&](std::vector<std::string> more, const std::string& file) {
+    std::vector<std::string> arguments = {"render", "--model", "mitsuba/ggx",     "--resolution",
+                                          "16",     "-o",      session.path(file)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return session.remapc(arguments);
+  };
+  check_failure(render({"--set", "alpha=0.3"}, "s.exr"), 2, "needs --set f0=VALUE");
+  check_failure(render({"--set", "alpha=0.3", "--set", "f0=x"}, "s.exr"), 2, "\"x\" is no number");
+  check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5", "--set", "alhpa=1"}, "s.exr"), 2,
+                "did you mean alpha?");
+  check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5"}, "s.png"), 2, "expected an OpenEXR file");
+  session.write("file", "x");
+  check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5"}, "file/s.exr"), 1, "folder");
+  CHECK(session.file_count() == 1);
+}
