@@ -46,7 +46,10 @@ void run(const CheckOptions& options) {
         table.name + ": cannot be fitted: " + std::to_string(errors) + (errors == 1 ? " error" : " errors"));
   if (!options.json)
     std::cout << table.name << ": " << table.rows.size() << " rows, can be fitted"
-              << (findings.empty() ? "" : " (" + std::to_string(findings.size()) + " remarks)") << "\n";
+              << (findings.empty() ? ""
+                                   : " (" + std::to_string(findings.size()) +
+                                         (findings.size() == 1 ? " remark)" : " remarks)"))
+              << "\n";
 }
 
 }  // namespace

@@ -13,15 +13,28 @@ constexpr std::size_t kCoarseStride = 6;
 // neighbour.
 constexpr double kRivalError = 1.01;
 
-// Weighted sum of products in double precision, in a fixed order whatever the compiler makes of it.
-double inner_product(const float* weighted, const float* values, std::size_t count) {
-  std::array<double, 4> sums{};
-  std::size_t i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (std::size_t lane = 0; lane < 4; ++lane)
-      sums[lane] += static_cast<double>(weighted[i + lane]) * static_cast<double>(values[i + lane]);
-  for (; i < count; ++i) sums[0] += static_cast<double>(weighted[i]) * static_cast<double>(values[i]);
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+// Sums over pixels run in double precision, in as many lanes as two registers hold and in a fixed order, so
+// that the result does not depend on what the compiler makes of the loop.
+constexpr std::size_t kLanes = 4;
+using LaneSums = std::array<double, kLanes>;
+
+double total(const LaneSums& sums) { return (sums[0] + sums[1]) + (sums[2] + sums[3]); }
+
+// Calls `add(pixel, lane)` for every pixel, pixel i in lane i modulo kLanes.
+template <typename Add>
+void for_each_pixel(std::size_t count, const Add& add) {
+  const std::size_t whole = count - count % kLanes;
+  for (std::size_t i = 0; i < whole; i += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) add(i + lane, lane);
+  for (std::size_t i = whole; i < count; ++i) add(i, i - whole);
+}
+
+double inner_product(const float* a, const float* b, std::size_t count) {
+  LaneSums sums{};
+  for_each_pixel(count, [&](std::size_t i, std::size_t lane) {
+    sums[lane] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  });
+  return total(sums);
 }
 
 // Lagrange basis on `nodes` at `x`: values and first derivatives.
@@ -64,17 +77,22 @@ const Matcher::Products& Matcher::products(std::size_t node) {
   const auto known = products_.find(node);
   if (known != products_.end()) return known->second;
   const BankEntry& entry = bank_.entry(node);
-  const std::size_t count = weights_.size();
-  std::vector<float> weighted(count);
+  const float *base = entry.base.data(), *slope = entry.slope.data();
+  const float *weights = weights_.data(), *source = weighted_basis_[0].data();
+  LaneSums aa{}, ab{}, bb{}, xa{}, xb{};
+  for_each_pixel(weights_.size(), [&](std::size_t i, std::size_t lane) {
+    const double a = base[i], b = slope[i], w = weights[i], x = source[i];
+    aa[lane] += w * a * a;
+    ab[lane] += w * a * b;
+    bb[lane] += w * b * b;
+    xa[lane] += x * a;
+    xb[lane] += x * b;
+  });
   Products p;
-  for (std::size_t i = 0; i < count; ++i) weighted[i] = entry.base[i] * weights_[i];
-  p.aa = inner_product(weighted.data(), entry.base.data(), count);
-  p.ab = inner_product(weighted.data(), entry.slope.data(), count);
-  for (std::size_t i = 0; i < count; ++i) weighted[i] = entry.slope[i] * weights_[i];
-  p.bb = inner_product(weighted.data(), entry.slope.data(), count);
-  for (std::size_t k = 0; k < basis_.size(); ++k) {
-    p.xa[k] = inner_product(weighted_basis_[k].data(), entry.base.data(), count);
-    p.xb[k] = inner_product(weighted_basis_[k].data(), entry.slope.data(), count);
+  p.aa = total(aa), p.ab = total(ab), p.bb = total(bb), p.xa[0] = total(xa), p.xb[0] = total(xb);
+  if (basis_.size() == 2) {
+    p.xa[1] = inner_product(weighted_basis_[1].data(), base, weights_.size());
+    p.xb[1] = inner_product(weighted_basis_[1].data(), slope, weights_.size());
   }
   return products_.emplace(node, p).first->second;
 }
@@ -173,26 +191,31 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   return match;
 }
 
-Match Matcher::match(const std::vector<double>& coefficients) {
+// Minima of the loss on every sixth node.
+std::vector<std::size_t> Matcher::coarse_minima(const std::vector<double>& coefficients) {
   std::vector<std::size_t> coarse;
   for (std::size_t node = 0; node < bank_.size(); node += kCoarseStride) coarse.push_back(node);
   if (coarse.back() + 1 != bank_.size()) coarse.push_back(bank_.size() - 1);
-
   std::vector<std::size_t> minima;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     const double loss = loss_at_node(coarse[i], coefficients);
     const bool left = i == 0 || loss <= loss_at_node(coarse[i - 1], coefficients);
     const bool right = i + 1 == coarse.size() || loss <= loss_at_node(coarse[i + 1], coefficients);
-    if (left && right) minima.push_back(descend(coarse[i], coefficients));
+    if (left && right) minima.push_back(coarse[i]);
   }
-  std::sort(minima.begin(), minima.end());
-  minima.erase(std::unique(minima.begin(), minima.end()), minima.end());
+  return minima;
+}
+
+Match Matcher::match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima) {
+  if (minima->empty()) *minima = coarse_minima(coefficients);
+  for (std::size_t& node : *minima) node = descend(node, coefficients);
+  std::sort(minima->begin(), minima->end());
+  minima->erase(std::unique(minima->begin(), minima->end()), minima->end());
 
   std::vector<Match> candidates;
-  for (const std::size_t node : minima) candidates.push_back(refine(node, coefficients));
+  for (const std::size_t node : *minima) candidates.push_back(refine(node, coefficients));
   const auto better = [](const Match& a, const Match& b) { return a.error < b.error; };
-  const auto best = std::min_element(candidates.begin(), candidates.end(), better);
-  Match match = *best;
+  Match match = *std::min_element(candidates.begin(), candidates.end(), better);
   for (const Match& rival : candidates) {
     const bool apart = std::fabs(std::log(rival.alpha / match.alpha)) > 2.0 * bank_.log_step();
     if (apart && rival.error < kRivalError * match.error) match.status = RowStatus::kUnstable;

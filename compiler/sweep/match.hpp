@@ -30,7 +30,9 @@ class Matcher {
   // `basis`: 1 or 2 pictures; `squared_weights`: w^2 of each pixel, as long as they are.
   Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, std::vector<float> squared_weights);
 
-  Match match(const std::vector<double>& coefficients);
+  // `minima`: nodes of the bank to start from, and on return those of the minima found. Empty: the whole bank is
+  // searched. Materials that differ little in specular share their minima, and most of the search with them.
+  Match match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima);
 
  private:
   // Weighted inner products of one bank node: base (a), slope (b) and the basis (x).
@@ -51,6 +53,7 @@ class Matcher {
   Quadratic quadratic(const Products& p, const std::vector<double>& coefficients) const;
   Optimum optimum(const Quadratic& q) const;
   double loss_at_node(std::size_t node, const std::vector<double>& coefficients);
+  std::vector<std::size_t> coarse_minima(const std::vector<double>& coefficients);
   std::size_t descend(std::size_t node, const std::vector<double>& coefficients);
   Match refine(std::size_t node, const std::vector<double>& coefficients);
   double source_power(const std::vector<double>& coefficients) const;

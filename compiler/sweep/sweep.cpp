@@ -88,6 +88,7 @@ TableRow matched_row(const SamplePoint& sample, const Match& match) {
 // Pictures of the source where nothing is known of how they depend on specular: one for each sample.
 std::vector<TableRow> match_each(const Setup& setup, const Block& block) {
   std::vector<TableRow> rows;
+  std::vector<std::size_t> minima;
   for (const std::size_t index : block.samples) {
     const SamplePoint& sample = setup.options.samples[index];
     auto picture = setup.photographer.take(setup.source, {sample.alpha, sample.specular, 0.0});
@@ -98,7 +99,7 @@ std::vector<TableRow> match_each(const Setup& setup, const Block& block) {
     auto weights =
         squared_weights(setup.photographer.objective(), picture, setup.photographer.view_cosines());
     Matcher matcher(setup.bank, {std::move(picture)}, std::move(weights));
-    rows.push_back(matched_row(sample, matcher.match({1.0})));
+    rows.push_back(matched_row(sample, matcher.match({1.0}, &minima)));
   }
   return rows;
 }
@@ -121,10 +122,11 @@ std::vector<TableRow> match_together(const Setup& setup, const Block& block) {
   std::vector<TableRow> rows;
   for (const std::size_t index : block.samples) {
     const SamplePoint& sample = setup.options.samples[index];
+    std::vector<std::size_t> minima;  // products are shared, so every material can search the whole bank
     std::vector<double> coefficients = {sample.specular};
     if (!proportional) coefficients.push_back(1.0);
     rows.push_back(sample.specular == 0.0 ? flat_row(sample, setup.target)
-                                          : matched_row(sample, matcher.match(coefficients)));
+                                          : matched_row(sample, matcher.match(coefficients, &minima)));
   }
   return rows;
 }
