@@ -1,6 +1,10 @@
 # OpenImageIO as the target OpenImageIO::OpenImageIO, for the runtime and for the compiler.
 include_guard(DIRECTORY)  # imported targets are visible in the folder that finds them
+
+# Debian's package of Imath reports libraries for Python that nobody asked for.
+set(CMAKE_MESSAGE_LOG_LEVEL NOTICE)
 find_package(OpenImageIO 2.4 REQUIRED)
+unset(CMAKE_MESSAGE_LOG_LEVEL)
 
 # Debian's package names the headers of OpenCV among its own, and nothing installs them: CMake refuses a
 # target with a folder that is not there.

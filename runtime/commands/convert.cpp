@@ -1,0 +1,242 @@
+// `texremap convert`: one texture set through one converter. Checks everything that can be checked before
+// the first texel is read.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
+#include "command_line/run_app.hpp"
+#include "commands/commands.hpp"
+#include "commands/output_paths.hpp"
+#include "convert/converter.hpp"
+#include "error.hpp"
+#include "model/fit_json.hpp"
+#include "nearest_name.hpp"
+#include "number_text.hpp"
+#include "texture/texture_pass.hpp"
+#include "version.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kProgram = "texremap";
+
+struct ConvertOptions {
+  std::string from;
+  std::string to;
+  std::string fit;
+  std::string roughness;
+  std::string specular;
+  std::string output;
+  std::string roughness_channel;
+  std::string format;
+  std::string type;
+  int thread_count = 0;
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+// A converter that is compiled in, or one that was made for this run.
+struct ChosenConverter {
+  std::unique_ptr<Converter> owned;
+  const Converter* converter = nullptr;
+};
+
+void require_agreement(const std::string& option, const std::string& asked, const std::string& file,
+                       const std::string& found) {
+  if (asked.empty() || asked == found) return;
+  throw Error(ErrorKind::kUsage, file + ": is a fit of " + found + "; expected " + asked + " of " + option);
+}
+
+ChosenConverter choose_converter(const ConvertOptions& options) {
+  ChosenConverter chosen;
+  if (!options.fit.empty()) {
+    chosen.owned = make_interpreted_converter(load_fit(options.fit));
+    chosen.converter = chosen.owned.get();
+    const ConverterInfo& info = chosen.converter->info();
+    require_agreement("--from", options.from, options.fit, info.source.model);
+    require_agreement("--to", options.to, options.fit, info.target.model);
+    return chosen;
+  }
+  if (options.from.empty() || options.to.empty())
+    throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") +
+                                       ": is missing; expected --from and --to, or --fit");
+  chosen.converter = &find_converter(options.from, options.to);
+  if (!chosen.converter->self_test())
+    throw Error(ErrorKind::kNumeric,
+                chosen.converter->info().id + ": fails its self-test; expected the values it was made with");
+  return chosen;
+}
+
+std::optional<PixelType> chosen_type(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  static const std::array<std::string, 4> kNames = {"uint8", "uint16", "half", "float"};
+  if (std::find(kNames.begin(), kNames.end(), name) == kNames.end())
+    throw Error(ErrorKind::kUsage, "--type: is " + name + suggestion(name, kNames));
+  return pixel_type_from_name(name);
+}
+
+TextureSetRequest set_request(const ConvertOptions& options) {
+  TextureSetRequest request{options.roughness, specular_source(options.specular), std::nullopt};
+  if (!options.roughness_channel.empty()) request.roughness_channel = options.roughness_channel;
+  return request;
+}
+
+ImageChanges changes_for(const ConvertOptions& options, const ConverterInfo& info) {
+  ImageChanges changes;
+  changes.type = chosen_type(options.type);
+  changes.metadata = {{"remap:converter", info.id},
+                      {"remap:source", info.source.model},
+                      {"remap:target", info.target.model},
+                      {"remap:version", kVersion}};
+  return changes;
+}
+
+TargetMaps open_targets(const OutputPaths& paths, const TextureSet& set, ImageChanges changes) {
+  ImageWriter roughness(paths.roughness, set.roughness.reader, changes);
+  if (const auto* map = std::get_if<SourceMap>(&set.specular))
+    return {std::move(roughness), ImageWriter(paths.specular, map->reader, changes)};
+  changes.channels = set.specular_channel_count() == 1 ? std::vector<std::string>{"Y"}
+                                                       : std::vector<std::string>{"R", "G", "B"};
+  return {std::move(roughness), ImageWriter(paths.specular, set.roughness.reader, changes)};
+}
+
+void warn(const ConvertOptions& options, const std::string& message) {
+  if (!options.quiet) print_message(kProgram, "warning: " + message);
+}
+
+void warn_of_doubts(const ConvertOptions& options, const TextureSet& set, const TargetMaps& target) {
+  for (const std::string& doubt : doubts(set)) warn(options, doubt);
+  for (const ImageWriter* writer : {&target.roughness, &target.specular}) {
+    if (const std::string& lossy = writer->layout().lossy_compression; !lossy.empty())
+      warn(options, writer->path().string() + ": " + lossy +
+                        " compression changes values; --format png or exr keeps them");
+  }
+}
+
+int thread_count(const ConvertOptions& options) {
+  if (options.thread_count > 0) return options.thread_count;
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+struct Outcome {
+  const ConverterInfo& converter;
+  const TargetMaps& target;
+  PassStatistics statistics;
+  double seconds = 0.0;
+};
+
+std::string domain_text(const ConverterInfo& info) {
+  return std::string(convention_name(info.source.roughness)) + " " + number_text(info.roughness.min) +
+         " to " + number_text(info.roughness.max) + ", " + info.source.specular + " " +
+         number_text(info.specular.min) + " to " + number_text(info.specular.max);
+}
+
+void print_summary(const Outcome& outcome) {
+  const PassStatistics& counts = outcome.statistics;
+  const auto line = [](std::size_t count, const std::string& what) {
+    if (count > 0) print_message(kProgram, std::to_string(count) + what);
+  };
+  std::array<char, 32> seconds;
+  std::snprintf(seconds.data(), seconds.size(), "%.2f", outcome.seconds);
+  line(counts.texel_count, " texels in " + std::string(seconds.data()) + " s by " + outcome.converter.id +
+                               ": " + outcome.target.roughness.path().string() + ", " +
+                               outcome.target.specular.path().string());
+  line(counts.out_of_domain_count, " texels outside " + domain_text(outcome.converter) +
+                                       ": width clamped, specular extrapolated in proportion");
+  line(counts.nan_count, " texels with NaN: kept as NaN where the pixel type can hold it");
+  line(counts.infinite_count, " texels with infinite values");
+  line(counts.negative_count, " texels with negative values");
+  line(counts.clipped_count, " values clipped to [0, 1] by an integer pixel type");
+}
+
+void print_json(const Outcome& outcome) {
+  using Json = nlohmann::ordered_json;
+  const ConverterInfo& info = outcome.converter;
+  const PassStatistics& counts = outcome.statistics;
+  const Json result = {{"converter", info.id},
+                       {"source", info.source.model},
+                       {"target", info.target.model},
+                       {"roughness", outcome.target.roughness.path().string()},
+                       {"specular", outcome.target.specular.path().string()},
+                       {"texels", counts.texel_count},
+                       {"out_of_domain", counts.out_of_domain_count},
+                       {"nan", counts.nan_count},
+                       {"infinite", counts.infinite_count},
+                       {"negative", counts.negative_count},
+                       {"clipped_values", counts.clipped_count},
+                       {"seconds", outcome.seconds}};
+  // File names need not be UTF-8.
+  std::cout << result.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+void convert(const ConvertOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const ChosenConverter chosen = choose_converter(options);
+  const ConverterInfo& info = chosen.converter->info();
+  const TextureSetRequest request = set_request(options);
+  const ImageChanges changes = changes_for(options, info);
+  const OutputPaths paths = output_paths(request, {options.output, options.format, options.force});
+
+  set_image_thread_count(thread_count(options));
+  TextureSet set = open_texture_set(request);
+  create_output_folder(options.output);
+  TargetMaps target = open_targets(paths, set, changes);
+  warn_of_doubts(options, set, target);
+
+  PassOptions pass;
+  pass.thread_count = thread_count(options);
+  pass.cancelled = &interruption();
+  Outcome outcome{info, target, {}, 0.0};
+  {
+    Progress progress(info.id, static_cast<std::size_t>(set.height()), !options.quiet);
+    pass.progress = [&](std::size_t rows) { progress.advance_to(rows); };
+    outcome.statistics = run_texture_pass(set, target, *chosen.converter, pass);
+  }
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!options.quiet) print_summary(outcome);
+  if (options.json) print_json(outcome);
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+  auto options = std::make_shared<ConvertOptions>();
+  CLI::App* command = app.add_subcommand("convert", "Convert a roughness map and a specular map");
+  command->add_option("--from", options->from, "Source model, e.g. mitsuba/ward");
+  command->add_option("--to", options->to, "Target model, e.g. mitsuba/as");
+  command->add_option("--fit", options->fit, "Evaluate this fit (JSON) instead of a compiled converter");
+  command->add_option("--roughness", options->roughness, "Roughness map of the source model")->required();
+  command
+      ->add_option("--specular", options->specular,
+                   "Specular map, or a linear constant: 0.5, or 0.9,0.6,0.2 for red, green, blue")
+      ->required();
+  command->add_option("-o,--output", options->output, "Folder of the results; their names are the inputs'")
+      ->required();
+  command->add_option("--roughness-channel", options->roughness_channel,
+                      "Channel of the roughness map to convert; the others pass through");
+  command->add_option("--format", options->format, "Extension of the results: exr, tif, png, ...");
+  command->add_option("--type", options->type, "Pixel type of the results: uint8, uint16, half, float");
+  command->add_option("--threads", options->thread_count, "Threads; 0, the default, is one a core")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--force", options->force, "Replace results that exist (never an input)");
+  command->add_flag("--json", options->json, "Machine-readable result on standard output");
+  command->add_flag("--quiet", options->quiet, "Nothing on standard error but failures");
+  command->footer(
+      "Example:\n  texremap convert --from mitsuba/ward --to mitsuba/as --roughness r.exr --specular s.exr "
+      "-o out");
+  command->callback([options] { convert(*options); });
+}
+
+}  // namespace remap

@@ -1,0 +1,64 @@
+#include "convert/converter.hpp"
+
+#include <array>
+#include <utility>
+
+#include "error.hpp"
+#include "model/interpreter.hpp"
+#include "number_text.hpp"
+
+namespace remap {
+namespace {
+
+Range decimal(const Range& range) {
+  return {decimal_value(static_cast<float>(range.min)), decimal_value(static_cast<float>(range.max))};
+}
+
+ConverterInfo info_of(const Fit& fit) {
+  return {fit.id,
+          fit.source,
+          fit.target,
+          decimal(own_roughness_range(fit)),
+          decimal(specular_range(fit)),
+          fit.roughness_error.rms,
+          fit.specular_error.rms};
+}
+
+class InterpretedConverter final : public Converter {
+ public:
+  explicit InterpretedConverter(Fit fit) : Converter(info_of(fit)), fit_(std::move(fit)) {}
+
+  std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
+                      float* roughness_out, std::span<float* const> specular_out) const override {
+    std::array<double, 3> in{}, out{};
+    const std::size_t channels = specular.size();
+    if (channels > in.size())
+      throw Error(ErrorKind::kUsage,
+                  "converter: got " + std::to_string(channels) + " specular channels; expected 1 to 3");
+    std::size_t outside_count = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t c = 0; c < channels; ++c) in[c] = static_cast<double>(specular[c][i]);
+      bool in_domain = true;
+      const double width = evaluate_texel(fit_, static_cast<double>(roughness[i]), {in.data(), channels},
+                                          {out.data(), channels}, &in_domain);
+      roughness_out[i] = static_cast<float>(width);
+      for (std::size_t c = 0; c < channels; ++c) specular_out[c][i] = static_cast<float>(out[c]);
+      outside_count += !in_domain;
+    }
+    return outside_count;
+  }
+
+  // It is the definition that golden vectors are made from.
+  bool self_test() const override { return true; }
+
+ private:
+  Fit fit_;
+};
+
+}  // namespace
+
+std::unique_ptr<Converter> make_interpreted_converter(Fit fit) {
+  return std::make_unique<InterpretedConverter>(std::move(fit));
+}
+
+}  // namespace remap

@@ -1,0 +1,45 @@
+// What the reader and the writer of images share: the only header that brings OpenImageIO in. Private to
+// image_reader.cpp, image_writer.cpp and output_spec.cpp.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <OpenImageIO/imageio.h>
+
+#include "texture/image_io.hpp"
+
+namespace remap {
+
+// An attribute that keeps OpenImageIO from multiplying or dividing colours by alpha: maps hold data.
+inline constexpr const char* kUnassociatedAlpha = "oiio:UnassociatedAlpha";
+
+// The first line of a message of OpenImageIO, or `otherwise` where it said nothing.
+std::string first_line(const std::string& text, const std::string& otherwise);
+
+// The type to hand rows over in, so that none is converted. Channels of several types need TypeUnknown, which
+// the TIFF writer of OpenImageIO 2.4 gets wrong at the right and lower edge of tiled images.
+OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec);
+
+// Throws kInput where a channel has a type that cannot be converted.
+ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
+                      const std::filesystem::path& path);
+
+struct ImageReader::State {
+  std::filesystem::path path;
+  std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+  ImageLayout layout;
+
+  void open();
+  void refuse_what_is_not_one_plane();
+  [[noreturn]] void fail(const std::string& what) const;
+};
+
+// The description of a new file that follows `model` in everything but `changes`, as far as the format of
+// `output` can hold it. Throws kOutput, naming `path`, where it cannot hold the channels or the type asked.
+OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& model_format,
+                            const OIIO::ImageOutput& output, const ImageChanges& changes,
+                            const std::filesystem::path& path);
+
+}  // namespace remap

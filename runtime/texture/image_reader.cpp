@@ -1,0 +1,129 @@
+// The reading half of image_io.hpp.
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string_view>
+
+#include "error.hpp"
+#include "texture/image_library.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+// The compression, where it changes values.
+std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& format) {
+  if (format == "jpeg") return format;
+  const std::string compression = spec.get_string_attribute("Compression");
+  for (const std::string_view lossy : {"dwaa", "dwab", "b44", "pxr24", "jpeg"}) {
+    if (compression.starts_with(lossy)) return compression;
+  }
+  return "";
+}
+
+std::optional<PixelType> pixel_type(OIIO::TypeDesc type) {
+  return type.is_array() ? std::nullopt : pixel_type_from_name(type.c_str());
+}
+
+}  // namespace
+
+std::string first_line(const std::string& text, const std::string& otherwise) {
+  const std::string line = text.substr(0, text.find('\n'));
+  return line.empty() ? otherwise : line;
+}
+
+OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec) {
+  return spec.channelformats.empty() ? spec.format : OIIO::TypeDesc(OIIO::TypeUnknown);
+}
+
+ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, const fs::path& path) {
+  ImageLayout layout;
+  layout.width = spec.width;
+  layout.height = spec.height;
+  layout.x = spec.x;
+  layout.y = spec.y;
+  layout.alpha_channel = spec.alpha_channel;
+  layout.tile_height = spec.tile_width > 0 ? spec.tile_height : 0;
+  layout.format = format;
+  layout.lossy_compression = lossy_compression(spec, format);
+  const std::string colour_space = spec.get_string_attribute("oiio:ColorSpace", "Linear");
+  layout.is_tagged_nonlinear = colour_space == "sRGB" || colour_space.starts_with("Gamma");
+  for (int c = 0; c < spec.nchannels; ++c) {
+    const std::string name = spec.channel_name(c);
+    const auto type = pixel_type(spec.channelformat(c));
+    if (!type)
+      throw Error(ErrorKind::kInput, path.string() + ": channel " + name + " is " +
+                                         spec.channelformat(c).c_str() +
+                                         "; expected integers of up to 32 bits, half, float or double");
+    layout.channels.push_back({name, *type, layout.texel_bytes});
+    layout.texel_bytes += byte_count(*type);
+  }
+  return layout;
+}
+
+void set_image_thread_count(int count) {
+  OIIO::attribute("threads", count);
+  // -1 tells OpenEXR to work in the calling thread; 1 would start a thread and leave the caller idle.
+  OIIO::attribute("exr_threads", count == 1 ? -1 : count);
+}
+
+void ImageReader::State::fail(const std::string& what) const {
+  throw Error(ErrorKind::kInput, path.string() + ": " + what);
+}
+
+void ImageReader::State::open() {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) fail("is a folder; expected an image file");
+  // OpenImageIO does not say why a file cannot be opened.
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) fail(std::string("cannot be read: ") + std::strerror(errno));
+  std::fclose(file);
+  OIIO::ImageSpec hints;
+  hints.attribute(kUnassociatedAlpha, 1);
+  input = OIIO::ImageInput::open(path.string(), &hints);
+  if (!input) fail("cannot be read as an image: " + first_line(OIIO::geterror(), "unknown format"));
+  (void)input->geterror();  // remarks on odd headers
+  spec = input->spec();
+  refuse_what_is_not_one_plane();
+  layout = layout_of(spec, input->format_name(), path);
+}
+
+void ImageReader::State::refuse_what_is_not_one_plane() {
+  if (spec.deep) fail("is a deep image; expected a flat one");
+  if (spec.depth > 1) fail("is a volume; expected a flat image");
+  if (input->seek_subimage(1, 0))
+    fail("has more than one part; expected one (oiiotool --subimage 0 extracts it)");
+  if (input->seek_subimage(0, 1))
+    fail("has mip levels; expected one level (oiiotool --selectmip 0 extracts it)");
+  (void)input->geterror();
+  if (!input->seek_subimage(0, 0)) fail("cannot be read: " + first_line(input->geterror(), "no image in it"));
+}
+
+ImageReader::ImageReader(const fs::path& path) : state_(std::make_unique<State>()) {
+  state_->path = path;
+  state_->open();
+}
+ImageReader::~ImageReader() = default;
+ImageReader::ImageReader(ImageReader&&) noexcept = default;
+ImageReader& ImageReader::operator=(ImageReader&&) noexcept = default;
+
+const fs::path& ImageReader::path() const noexcept { return state_->path; }
+const ImageLayout& ImageReader::layout() const noexcept { return state_->layout; }
+
+void ImageReader::read_rows(int first_row, int row_count, std::byte* texels) {
+  const OIIO::ImageSpec& spec = state_->spec;
+  OIIO::ImageInput& input = *state_->input;
+  const int begin = spec.y + first_row, end = begin + row_count;
+  const bool read =
+      spec.tile_width > 0
+          ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0,
+                             spec.nchannels, native_type(spec), texels)
+          : input.read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, native_type(spec), texels);
+  // Truncated TIFF and JPEG files are read "successfully": only the message tells.
+  const std::string message = input.geterror();
+  if (!read || !message.empty())
+    state_->fail("rows " + std::to_string(first_row) + " to " + std::to_string(first_row + row_count - 1) +
+                 " cannot be read: " + first_line(message, "unknown reason") + "; expected a whole file");
+}
+
+}  // namespace remap

@@ -1,0 +1,180 @@
+// The writing half of image_io.hpp.
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include <OpenImageIO/filesystem.h>
+
+#include "error.hpp"
+#include "files.hpp"
+#include "texture/image_library.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+// A file that remembers the first failure to write to it, because some encoders forget it (libpng) or end
+// the process (libjpeg). They are told that all went well; the writer asks after every band.
+class CheckedFile : public OIIO::Filesystem::IOProxy {
+ public:
+  explicit CheckedFile(const fs::path& path)
+      : IOProxy(path.string(), Write), file_(std::fopen(path.c_str(), "wb")) {
+    if (file_ == nullptr) note_failure();
+  }
+  ~CheckedFile() override { close_file(); }
+  CheckedFile(const CheckedFile&) = delete;
+  CheckedFile& operator=(const CheckedFile&) = delete;
+
+  const char* proxytype() const override { return "checked"; }
+  bool opened() const override { return file_ != nullptr; }
+  std::int64_t tell() override { return static_cast<std::int64_t>(::ftello(file_)); }
+  bool seek(std::int64_t offset) override {
+    if (::fseeko(file_, static_cast<off_t>(offset), SEEK_SET) != 0) note_failure();
+    return true;
+  }
+  std::size_t write(const void* buffer, std::size_t size) override {
+    if (std::fwrite(buffer, 1, size, file_) != size) note_failure();
+    end_ = std::max(end_, tell());
+    return size;
+  }
+  std::size_t size() const override { return static_cast<std::size_t>(end_); }  // where footers go
+  void flush() const override { std::fflush(file_); }
+
+  void close_file() {
+    if (file_ != nullptr && std::fclose(file_) != 0) note_failure();
+    file_ = nullptr;
+  }
+  // The reason of the first failure, empty where all went well.
+  const std::string& failure() const noexcept { return failure_; }
+
+ private:
+  void note_failure() {
+    if (failure_.empty()) failure_ = std::strerror(errno);
+  }
+  std::FILE* file_;
+  std::int64_t end_ = 0;
+  std::string failure_;
+};
+
+bool same_storage(const ImageLayout& a, const ImageLayout& b) {
+  return a.width == b.width && a.height == b.height &&
+         std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
+                    [](const Channel& x, const Channel& y) { return x.type == y.type; });
+}
+
+}  // namespace
+
+struct ImageWriter::State {
+  fs::path path;
+  fs::path unfinished;
+  std::unique_ptr<CheckedFile> file;
+  std::unique_ptr<OIIO::ImageOutput> output;  // after `file`, which it uses until it is gone
+  OIIO::ImageSpec spec;
+  ImageLayout layout;
+  bool is_open = false;
+  bool is_committed = false;
+
+  ~State() {
+    output.reset();
+    file.reset();
+    std::error_code ignored;
+    if (!is_committed && !unfinished.empty()) fs::remove(unfinished, ignored);
+  }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ErrorKind::kOutput, path.string() + ": " + what);
+  }
+  void plan(const OIIO::ImageSpec& model, const std::string& model_format, const ImageChanges& changes);
+  void open();
+  void check(bool done) const;
+  void check_finished() const;
+};
+
+// Everything but the first byte: encoders that are opened and given no texels complain aloud (libpng).
+void ImageWriter::State::plan(const OIIO::ImageSpec& model, const std::string& model_format,
+                              const ImageChanges& changes) {
+  output = OIIO::ImageOutput::create(path.string());
+  if (!output) {
+    (void)OIIO::geterror();
+    fail("has no known image format; expected a name that ends in .exr, .tif, .png, ...");
+  }
+  spec = output_spec(model, model_format, *output, changes, path);
+  layout = layout_of(spec, output->format_name(), path);
+  unfinished = unfinished_name(path);
+  file = std::make_unique<CheckedFile>(unfinished);
+  if (!file->failure().empty()) fail("cannot be written: " + file->failure());
+}
+
+void ImageWriter::State::open() {
+  // The TIFF writer of OpenImageIO 2.4 loses the directory of a file with Exif data behind a proxy. By
+  // itself it reports refused bytes, except for the last ones, which `check_finished` looks at.
+  if (layout.format == "tiff")
+    file->close_file();
+  else
+    output->set_ioproxy(file.get());
+  check(output->open(unfinished.string(), spec));
+  if (!same_storage(layout_of(output->spec(), output->format_name(), path), layout))
+    fail("cannot be written: the format " + layout.format + " would change the pixel type");
+  is_open = true;
+}
+
+// Throws where the system refused bytes or OpenImageIO failed.
+void ImageWriter::State::check(bool done) const {
+  const std::string message = output->geterror();
+  if (!file->failure().empty()) fail("cannot be written: " + file->failure());
+  if (!done) fail("cannot be written: " + first_line(message, "unknown reason"));
+}
+
+// Reads the closed file's head, and its last rows where that does not mean to read all of it.
+void ImageWriter::State::check_finished() const {
+  try {
+    ImageReader reader(unfinished);
+    if (!same_storage(reader.layout(), layout)) fail("was written, but reads as another image");
+    if (layout.format != "tiff") return;
+    const int unit = std::max(layout.tile_height, 1), first = (layout.height - 1) / unit * unit;
+    const int row_count = layout.height - first;
+    std::vector<std::byte> rows(static_cast<std::size_t>(row_count) * layout.row_bytes());
+    reader.read_rows(first, row_count, rows.data());
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kOutput) throw;
+    const std::string reason = std::string(error.what()).substr(unfinished.string().size());
+    fail("cannot be written whole" + reason);
+  }
+}
+
+ImageWriter::ImageWriter(const fs::path& path, const ImageReader& model, const ImageChanges& changes)
+    : state_(std::make_unique<State>()) {
+  state_->path = path;
+  state_->plan(model.state_->spec, model.layout().format, changes);
+}
+ImageWriter::~ImageWriter() = default;
+ImageWriter::ImageWriter(ImageWriter&&) noexcept = default;
+ImageWriter& ImageWriter::operator=(ImageWriter&&) noexcept = default;
+
+const fs::path& ImageWriter::path() const noexcept { return state_->path; }
+const ImageLayout& ImageWriter::layout() const noexcept { return state_->layout; }
+
+void ImageWriter::write_rows(int first_row, int row_count, const std::byte* texels) {
+  if (!state_->is_open) state_->open();
+  const OIIO::ImageSpec& spec = state_->spec;
+  OIIO::ImageOutput& output = *state_->output;
+  const int begin = spec.y + first_row, end = begin + row_count;
+  state_->check(spec.tile_width > 0 ? output.write_tiles(spec.x, spec.x + spec.width, begin, end, spec.z,
+                                                         spec.z + 1, native_type(spec), texels)
+                                    : output.write_scanlines(begin, end, spec.z, native_type(spec), texels));
+}
+
+void ImageWriter::finish() {
+  const bool closed = state_->output->close();
+  state_->check(closed);
+  state_->file->close_file();
+  state_->check(true);
+  state_->check_finished();
+}
+
+void ImageWriter::commit() {
+  commit_file(state_->unfinished, state_->path);
+  state_->is_committed = true;
+}
+
+}  // namespace remap

@@ -1,0 +1,107 @@
+// How a new file follows another: what is kept, what the change of pixels or format makes untrue, and what
+// each format can hold.
+#include <array>
+#include <string_view>
+
+#include "error.hpp"
+#include "texture/image_library.hpp"
+
+namespace remap {
+namespace {
+
+// Attributes that tell how the pixels were coded; they mean something else in another format.
+constexpr std::array kCodingAttributes = {
+    "Compression",          "CompressionQuality", "jpeg:subsampling", "tiff:Compression",
+    "tiff:RowsPerStrip",    "tiff:ColorSpace",    "tiff:zipquality",  "tiff:PhotometricInterpretation",
+    "png:compressionLevel", "oiio:BitsPerSample"};
+// Attributes that OpenImageIO derives from the pixels, which are about to change.
+constexpr std::array kPixelSummaries = {"oiio:SHA-1", "oiio:ConstantColor", "oiio:AverageColor"};
+
+OIIO::TypeDesc type_desc(PixelType type) { return OIIO::TypeDesc(std::string(pixel_type_name(type))); }
+
+// The type in which `format` holds values of `type` with the least loss; none for formats that are not
+// written. OpenImageIO would choose by itself, but takes 8 bits where it has 16.
+std::optional<PixelType> stored_type(std::string_view format, PixelType type) {
+  if (format == "openexr") {
+    if (type == PixelType::kHalf || type == PixelType::kFloat || type == PixelType::kUint32) return type;
+    return byte_count(type) == 1 ? PixelType::kHalf : PixelType::kFloat;
+  }
+  if (format == "tiff") return type == PixelType::kHalf ? PixelType::kFloat : type;
+  if (format == "png") return type == PixelType::kUint8 ? type : PixelType::kUint16;
+  if (format == "jpeg" || format == "targa" || format == "bmp") return PixelType::kUint8;
+  return std::nullopt;
+}
+
+void choose_channels(OIIO::ImageSpec& spec, const std::vector<std::string>& names) {
+  spec.set_format(spec.channelformat(0));  // and drops the types of single channels
+  spec.nchannels = static_cast<int>(names.size());
+  spec.channelnames = names;
+  spec.alpha_channel = -1;
+  spec.z_channel = -1;
+  // A profile belongs to a number of channels.
+  spec.erase_attribute("ICCProfile.*");
+  spec.erase_attribute("tiff:PhotometricInterpretation");
+}
+
+// Empty, or why a file of this format cannot hold the channels of `spec`.
+std::string channels_refused(const OIIO::ImageOutput& output, const OIIO::ImageSpec& spec) {
+  if (output.supports("nchannels")) return "";
+  const bool has_alpha = spec.alpha_channel >= 0;
+  const int colours = spec.nchannels - (has_alpha ? 1 : 0);
+  if ((colours == 1 || colours == 3) && (!has_alpha || output.supports("alpha"))) return "";
+  return "cannot hold the " + std::to_string(spec.nchannels) + " channels of the source; expected exr or tif";
+}
+
+void leave_coding_behind(OIIO::ImageSpec& spec, const OIIO::ImageOutput& output) {
+  for (const char* name : kCodingAttributes) spec.erase_attribute(name);
+  const bool is_tiff = std::string_view(output.format_name()) == "tiff";
+  const bool sides_fit = !is_tiff || (spec.tile_width % 16 == 0 && spec.tile_height % 16 == 0);
+  if (!output.supports("tiles") || !sides_fit) spec.tile_width = spec.tile_height = spec.tile_depth = 0;
+}
+
+// Peculiarities of single formats.
+void suit_format(OIIO::ImageSpec& spec, std::string_view format) {
+  // TIFF tags associated alpha as such and stores it as it is; the other formats would divide by it.
+  if (format != "tiff" || spec.alpha_channel < 0) spec.attribute(kUnassociatedAlpha, 1);
+  // Rows are written from the top; the order in the file is no property of the picture.
+  if (format == "openexr") spec.attribute("openexr:lineOrder", "increasingY");
+  // OpenImageIO 2.4 cannot write this tag, and drops all of Exif with it.
+  if (format == "tiff") spec.erase_attribute("Exif:ImageHistory");
+  if (format == "jpeg") {
+    spec.attribute("Compression", "jpeg:100");
+    spec.attribute("jpeg:subsampling", "4:4:4");
+  }
+}
+
+}  // namespace
+
+OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& model_format,
+                            const OIIO::ImageOutput& output, const ImageChanges& changes,
+                            const std::filesystem::path& path) {
+  const std::string format = output.format_name();
+  const auto fail = [&](const std::string& what) {
+    throw Error(ErrorKind::kOutput, path.string() + ": the format " + format + " " + what);
+  };
+  OIIO::ImageSpec spec = model;
+  for (const char* name : kPixelSummaries) spec.erase_attribute(name);
+  if (changes.channels) choose_channels(spec, *changes.channels);
+  if (std::string reason = channels_refused(output, spec); !reason.empty()) fail(reason);
+
+  if (!output.supports("channelformats")) spec.channelformats.clear();
+  const bool is_mixed = !spec.channelformats.empty() && !changes.type;
+  const PixelType type = changes.type.value_or(pixel_type_from_name(spec.format.c_str()).value());
+  const std::optional<PixelType> stored = stored_type(format, type);
+  if (!stored) fail("cannot be written; --format chooses another, e.g. exr, tif or png");
+  if (changes.type && *stored != *changes.type)
+    fail("cannot hold " + std::string(pixel_type_name(type)) + " pixels; expected " +
+         std::string(pixel_type_name(*stored)));
+  if (!is_mixed && type_desc(*stored) != model.format) spec.erase_attribute("oiio:BitsPerSample");
+  if (!is_mixed) spec.set_format(type_desc(*stored));
+
+  if (format != model_format) leave_coding_behind(spec, output);
+  suit_format(spec, format);
+  for (const auto& [name, value] : changes.metadata) spec.attribute(name, value);
+  return spec;
+}
+
+}  // namespace remap

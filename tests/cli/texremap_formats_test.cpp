@@ -1,0 +1,283 @@
+// What texremap writes, read by OpenImageIO: converted channels against the converter, everything else as it
+// was.
+#include <cstring>
+
+#include <catch2/catch.hpp>
+
+#include "cli/texremap_session.hpp"
+#include "support/shared_data.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kWidth = 70, kHeight = 50;
+
+struct Case {
+  std::string extension;
+  OIIO::TypeDesc type;
+  int tile = 0;
+  std::string compression;
+  std::vector<std::string> channels;
+};
+
+const std::vector<std::string> kColour = {"R", "G", "B"};
+const std::vector<std::string> kWithAlpha = {"R", "G", "B", "A"};
+const std::vector<std::string> kWithMask = {"R", "G", "B", "A", "mask"};
+
+std::vector<Case> cases() {
+  return {{"exr", OIIO::TypeHalf, 0, "zip", kWithMask},     {"exr", OIIO::TypeHalf, 32, "piz", kWithMask},
+          {"exr", OIIO::TypeFloat, 0, "piz", kWithMask},    {"exr", OIIO::TypeFloat, 16, "zips", kWithAlpha},
+          {"exr", OIIO::TypeHalf, 0, "none", kColour},      {"tif", OIIO::TypeUInt8, 0, "lzw", kWithMask},
+          {"tif", OIIO::TypeUInt16, 32, "zip", kWithAlpha}, {"tif", OIIO::TypeFloat, 0, "zip", kWithMask},
+          {"png", OIIO::TypeUInt8, 0, "", kWithAlpha},      {"png", OIIO::TypeUInt16, 0, "", kWithAlpha},
+          {"tga", OIIO::TypeUInt8, 0, "", kWithAlpha},      {"bmp", OIIO::TypeUInt8, 0, "", kColour}};
+}
+
+OIIO::ImageSpec spec_of(const Case& format, const std::vector<std::string>& channels) {
+  OIIO::ImageSpec spec = test_spec(kWidth, kHeight, channels, format.type);
+  spec.tile_width = spec.tile_height = format.tile;
+  if (!format.compression.empty()) spec.attribute("Compression", format.compression);
+  spec.attribute("Copyright", "nobody");
+  return spec;
+}
+
+void check_converted(const TestImage& roughness, const TestImage& specular, const TestImage& roughness_out,
+                     const TestImage& specular_out) {
+  for (int y = 0; y < specular.spec.height; ++y) {
+    for (int x = 0; x < specular.spec.width; ++x) {
+      const std::array<float, 4> expected = converted_texel(
+          roughness.at(x, y, 0), {specular.at(x, y, 0), specular.at(x, y, 1), specular.at(x, y, 2)});
+      REQUIRE(roughness_out.at(x, y, 0) == as_stored(expected[0], roughness_out.spec.format));
+      for (int c = 0; c < 3; ++c)
+        REQUIRE(specular_out.at(x, y, c) ==
+                as_stored(expected[static_cast<std::size_t>(c) + 1], specular_out.spec.format));
+    }
+  }
+}
+
+// Channels from the fourth on, bit for bit.
+void check_passed_through(const TestImage& in, const TestImage& out) {
+  REQUIRE(in.bytes.size() == out.bytes.size());
+  const std::size_t texel = in.spec.pixel_bytes(true), colours = in.spec.pixel_bytes(0, 3, true);
+  for (std::size_t i = 0; i < in.bytes.size(); i += texel)
+    REQUIRE(std::memcmp(&in.bytes[i + colours], &out.bytes[i + colours], texel - colours) == 0);
+}
+
+void check_same_kind(const OIIO::ImageSpec& in, const OIIO::ImageSpec& out) {
+  CHECK(out.format == in.format);
+  CHECK(out.channelformats == in.channelformats);
+  CHECK(out.channelnames == in.channelnames);
+  CHECK(out.alpha_channel == in.alpha_channel);
+  CHECK(out.tile_width == in.tile_width);
+  CHECK(out.tile_height == in.tile_height);
+  CHECK(out.roi() == in.roi());
+  CHECK(out.roi_full() == in.roi_full());
+  for (const char* name : {"Compression", "Copyright", "oiio:ColorSpace"})
+    CHECK(out.get_string_attribute(name) == in.get_string_attribute(name));
+  CHECK(out.get_int_attribute("oiio:UnassociatedAlpha") == in.get_int_attribute("oiio:UnassociatedAlpha"));
+}
+
+}  // namespace
+
+TEST_CASE("texremap: every format keeps its kind and everything that is not converted") {
+  for (const Case& format : cases()) {
+    const Session session;
+    const std::string r = "r." + format.extension, s = "s." + format.extension;
+    INFO(format.extension << " " << format.type.c_str() << " " << format.compression << " " << format.tile);
+    write_image(session.path(r), spec_of(format, {"Y"}), noise);
+    write_image(session.path(s), spec_of(format, format.channels),
+                [](int x, int y, int c) { return noise(x, y, c + 1); });
+    const ProcessResult result = session.convert(r, s);
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    const TestImage roughness = read_image(session.path(r)), specular = read_image(session.path(s));
+    const TestImage roughness_out = read_image(session.path("out/" + r));
+    const TestImage specular_out = read_image(session.path("out/" + s));
+    check_same_kind(roughness.spec, roughness_out.spec);
+    check_same_kind(specular.spec, specular_out.spec);
+    check_converted(roughness, specular, roughness_out, specular_out);
+    check_passed_through(specular, specular_out);
+    CHECK(session.file_count() == 2);
+  }
+}
+
+TEST_CASE("texremap: what was done is written into the metadata") {
+  const Session session;
+  session.write_pair("exr");
+  REQUIRE(session.convert("r.exr", "s.exr", {"--format", GENERATE("exr", "png")}).exit_code == 0);
+  for (const auto& entry : fs::directory_iterator(session.path("out"))) {
+    const OIIO::ImageSpec spec = read_image(entry.path()).spec;
+    CHECK(spec.get_string_attribute("remap:converter") == "mitsuba_ward_to_mitsuba_as");
+    CHECK(spec.get_string_attribute("remap:source") == "mitsuba/ward");
+    CHECK(spec.get_string_attribute("remap:target") == "mitsuba/as");
+    CHECK(spec.get_string_attribute("remap:version") == REMAP_VERSION);
+  }
+}
+
+TEST_CASE("texremap: Exif in a TIFF survives") {
+  const Session session;
+  Case format{"tif", OIIO::TypeUInt8, 0, "zip", kColour};
+  OIIO::ImageSpec spec = spec_of(format, {"Y"});
+  spec.attribute("Exif:LensModel", "a lens");
+  write_image(session.path("r.tif"), spec, noise);
+  REQUIRE(session.convert("r.tif", "r.tif", {"--specular", "0.5"}).exit_code == 2);
+  std::vector<std::string> words = session.conversion("r.tif", "");
+  words[8] = "0.5";
+  REQUIRE(session.texremap(words).exit_code == 0);
+  CHECK(read_image(session.path("out/r.tif")).spec.get_string_attribute("Exif:LensModel") == "a lens");
+}
+
+TEST_CASE("texremap: the windows of an EXR are kept") {
+  const Session session;
+  for (const char* name : {"r.exr", "s.exr"}) {
+    OIIO::ImageSpec spec =
+        test_spec(kWidth, kHeight, name[0] == 'r' ? std::vector<std::string>{"Y"} : kColour, OIIO::TypeHalf);
+    spec.x = 10;
+    spec.y = -7;
+    spec.full_width = 200;
+    spec.full_height = 100;
+    write_image(session.path(name), spec, noise);
+  }
+  REQUIRE(session.convert("r.exr", "s.exr").exit_code == 0);
+  const TestImage in = read_image(session.path("s.exr")), out = read_image(session.path("out/s.exr"));
+  check_same_kind(in.spec, out.spec);
+  CHECK(out.spec.y == -7);
+  check_converted(read_image(session.path("r.exr")), in, read_image(session.path("out/r.exr")), out);
+}
+
+TEST_CASE("texremap: channels of different pixel types keep them") {
+  const Session session;
+  write_image(session.path("r.exr"), test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeFloat), noise);
+  OIIO::ImageSpec spec = test_spec(kWidth, kHeight, {"R", "G", "B", "id"}, OIIO::TypeFloat);
+  spec.channelformats = {OIIO::TypeHalf, OIIO::TypeHalf, OIIO::TypeHalf, OIIO::TypeUInt32};
+  write_image(session.path("s.exr"), spec, noise);
+  REQUIRE(session.convert("r.exr", "s.exr").exit_code == 0);
+  const TestImage in = read_image(session.path("s.exr")), out = read_image(session.path("out/s.exr"));
+  REQUIRE(in.spec.channelformats.size() == 4);
+  check_same_kind(in.spec, out.spec);
+  check_passed_through(in, out);
+}
+
+TEST_CASE("texremap: associated alpha in a TIFF is neither multiplied nor relabelled") {
+  const Session session;
+  write_image(session.path("r.tif"), test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeUInt16), noise);
+  OIIO::ImageSpec spec = test_spec(kWidth, kHeight, kWithAlpha, OIIO::TypeUInt16);
+  spec.erase_attribute("oiio:UnassociatedAlpha");
+  write_image(session.path("s.tif"), spec, noise);
+  REQUIRE(session.convert("r.tif", "s.tif").exit_code == 0);
+  const TestImage in = read_image(session.path("s.tif")), out = read_image(session.path("out/s.tif"));
+  check_same_kind(in.spec, out.spec);
+  check_passed_through(in, out);
+  check_converted(read_image(session.path("r.tif")), in, read_image(session.path("out/r.tif")), out);
+}
+
+TEST_CASE("texremap: another format takes the least lossy type that it has") {
+  const Session session;
+  const std::string extension = GENERATE("png", "tif", "exr");
+  session.write_pair("exr", 64, OIIO::TypeHalf);
+  REQUIRE(session.convert("r.exr", "s.exr", {"--format", extension}).exit_code == 0);
+  const TestImage out = read_image(session.path("out/s." + extension));
+  CHECK(out.spec.format == (extension == "png"   ? OIIO::TypeUInt16
+                            : extension == "tif" ? OIIO::TypeFloat
+                                                 : OIIO::TypeHalf));
+  check_converted(read_image(session.path("r.exr")), read_image(session.path("s.exr")),
+                  read_image(session.path("out/r." + extension)), out);
+}
+
+TEST_CASE("texremap: --type chooses the pixel type, and clipped values are counted") {
+  const Session session;
+  write_image(session.path("r.exr"), test_spec(64, 64, {"Y"}, OIIO::TypeFloat), noise);
+  write_image(session.path("s.exr"), test_spec(64, 64, kColour, OIIO::TypeFloat),
+              [](int x, int y, int c) { return x == 5 && y == 6 ? 9.0f : 0.3f * noise(x, y, c); });
+  const ProcessResult result = session.convert("r.exr", "s.exr", {"--format", "tif", "--type", "uint8"});
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.errors, Contains("3 values clipped to [0, 1]"));
+  const TestImage out = read_image(session.path("out/s.tif"));
+  CHECK(out.spec.format == OIIO::TypeUInt8);
+  check_converted(read_image(session.path("r.exr")), read_image(session.path("s.exr")),
+                  read_image(session.path("out/r.tif")), out);
+}
+
+TEST_CASE("texremap: channels that a format has no place for are refused") {
+  const Session session;
+  session.write_pair("exr");
+  write_image(session.path("s.exr"), test_spec(64, 64, kWithMask, OIIO::TypeHalf), noise);
+  const ProcessResult result = session.convert("r.exr", "s.exr", {"--format", "png"});
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.last_error(), Contains("the format png cannot hold the 5 channels"));
+}
+
+TEST_CASE("texremap: a constant specular becomes a map of the same size") {
+  const Session session;
+  session.write_pair("exr");
+  std::vector<std::string> words = session.conversion("r.exr", "");
+  words[8] = GENERATE("0.5", "0.9,0.6,0.2");
+  REQUIRE(session.texremap(words).exit_code == 0);
+  const TestImage in = read_image(session.path("r.exr")), out = read_image(session.path("out/specular.exr"));
+  CHECK(out.spec.width == 64);
+  CHECK(out.spec.channelnames == (words[8] == "0.5" ? std::vector<std::string>{"Y"} : kColour));
+  const std::array<float, 3> specular =
+      words[8] == "0.5" ? std::array{0.5f, 0.5f, 0.5f} : std::array{0.9f, 0.6f, 0.2f};
+  for (int x = 0; x < 64; ++x) {
+    const std::array<float, 4> expected = converted_texel(in.at(x, 9, 0), specular);
+    for (int c = 0; c < out.spec.nchannels; ++c)
+      CHECK(out.at(x, 9, c) == as_stored(expected[static_cast<std::size_t>(c) + 1], OIIO::TypeHalf));
+  }
+}
+
+TEST_CASE("texremap: a JPEG stays one, with a warning") {
+  const Session session;
+  session.write_pair("jpg", 64, OIIO::TypeUInt8);
+  const ProcessResult result = session.convert("r.jpg", "s.jpg");
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.errors, Contains("jpeg compression changes values") && Contains("read as linear"));
+  const TestImage in = read_image(session.path("r.jpg")), out = read_image(session.path("out/r.jpg"));
+  // Quality 100 rounds the coefficients of 8 x 8 cosines to whole numbers: a few steps of 1/255 at most.
+  for (int x = 0; x < 64; ++x)
+    CHECK(out.at(x, 3, 0) == Approx(converted_texel(in.at(x, 3, 0), {})[0]).margin(4.0 / 255.0));
+}
+
+TEST_CASE("texremap: a photographed roughness map with a constant specular") {
+  const fs::path brass = shared_data("textures/brass_roughness.jpg");
+  if (brass.empty()) return;
+  const Session session;
+  REQUIRE(session
+              .texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
+                         brass.string(), "--specular", "0.9,0.6,0.2", "-o", session.path("out"), "--format",
+                         "png", "--type", "uint16"})
+              .exit_code == 0);
+  const TestImage in = read_image(brass);
+  const TestImage out = read_image(session.path("out/brass_roughness.png"));
+  const TestImage specular = read_image(session.path("out/specular.png"));
+  REQUIRE(specular.spec.nchannels == 3);
+  for (int y = 0; y < in.spec.height; y += 17) {
+    for (int x = 0; x < in.spec.width; x += 13) {
+      const std::array<float, 4> expected = converted_texel(in.at(x, y, 0), {0.9f, 0.6f, 0.2f});
+      REQUIRE(out.at(x, y, 0) == as_stored(expected[0], OIIO::TypeUInt16));
+      for (int c = 0; c < 3; ++c)
+        REQUIRE(specular.at(x, y, c) ==
+                as_stored(expected[static_cast<std::size_t>(c) + 1], OIIO::TypeUInt16));
+    }
+  }
+}
+
+TEST_CASE("texremap: idiff finds the passed-through alpha unchanged") {
+  const Session session;
+  write_image(session.path("r.png"), test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeUInt16), noise);
+  write_image(session.path("s.png"), test_spec(kWidth, kHeight, kWithAlpha, OIIO::TypeUInt16), noise);
+  REQUIRE(session.convert("r.png", "s.png").exit_code == 0);
+  const std::string tool = REMAP_OIIOTOOL;
+  if (!fs::exists(tool)) {
+    WARN("skipped: oiiotool is not installed");
+    return;
+  }
+  const auto diff = [&](const std::string& channel) {
+    return run({tool, "-iconfig", "oiio:UnassociatedAlpha", "1", session.path("s.png"), "--ch", channel,
+                session.path("out/s.png"), "--ch", channel, "--diff"});
+  };
+  CHECK(diff("A").exit_code == 0);
+  CHECK(diff("R").exit_code != 0);
+}

@@ -1,0 +1,73 @@
+// Maps that do not fit the memory texremap may take. Slow: run by `texremap_test "[large]"`.
+#include <catch2/catch.hpp>
+
+#include "cli/texremap_session.hpp"
+
+using namespace remap;
+
+namespace {
+
+constexpr int kSize = 8192, kBand = 64;
+
+// Writes noise a band at a time.
+void write_large(const std::string& path, const std::vector<std::string>& channels) {
+  OIIO::ImageSpec spec = test_spec(kSize, kSize, channels, OIIO::TypeHalf);
+  spec.attribute("Compression", "zip");
+  const auto output = OIIO::ImageOutput::create(path);
+  REQUIRE(output->open(path, spec));
+  std::vector<float> band(static_cast<std::size_t>(kBand) * kSize * channels.size());
+  for (int top = 0; top < kSize; top += kBand) {
+    auto value = band.begin();
+    for (int y = top; y < top + kBand; ++y)
+      for (int x = 0; x < kSize; ++x)
+        for (int c = 0; c < spec.nchannels; ++c)  // as smooth as textures are, with noise on top
+          *value++ = static_cast<float>(x + 2 * y) / (3.0f * kSize) * 0.9f + 0.1f * noise(x, y, c);
+    REQUIRE(output->write_scanlines(top, top + kBand, 0, OIIO::TypeFloat, band.data()));
+  }
+  REQUIRE(output->close());
+}
+
+class BandReader {
+ public:
+  explicit BandReader(const std::string& path) : input_(OIIO::ImageInput::open(path)) {
+    REQUIRE(input_);
+    band_.resize(static_cast<std::size_t>(kBand * kSize * input_->spec().nchannels));
+  }
+  const std::vector<float>& read(int top) {
+    REQUIRE(input_->read_scanlines(0, 0, top, top + kBand, 0, 0, input_->spec().nchannels, OIIO::TypeFloat,
+                                   band_.data()));
+    return band_;
+  }
+
+ private:
+  std::unique_ptr<OIIO::ImageInput> input_;
+  std::vector<float> band_;
+};
+
+}  // namespace
+
+TEST_CASE("texremap: 8192 x 8192 in 300 MB, equal to the converter texel by texel", "[.][large]") {
+  const Session session;
+  write_large(session.path("r.exr"), {"Y"});
+  write_large(session.path("s.exr"), {"R", "G", "B"});
+  const ProcessResult result = session.convert("r.exr", "s.exr");
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  WARN(result.errors << result.peak_kilobytes / 1024 << " MB at most");
+  CHECK(result.peak_kilobytes < 300 * 1024);
+
+  BandReader roughness(session.path("r.exr")), specular(session.path("s.exr"));
+  BandReader roughness_out(session.path("out/r.exr")), specular_out(session.path("out/s.exr"));
+  std::size_t different = 0;
+  for (int top = 0; top < kSize; top += kBand) {
+    const auto &r = roughness.read(top), &s = specular.read(top), &r_out = roughness_out.read(top),
+               &s_out = specular_out.read(top);
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      const std::array<float, 4> expected = converted_texel(r[i], {s[3 * i], s[3 * i + 1], s[3 * i + 2]});
+      different += r_out[i] != as_stored(expected[0], OIIO::TypeHalf);
+      for (std::size_t c = 0; c < 3; ++c)
+        different += s_out[3 * i + c] != as_stored(expected[c + 1], OIIO::TypeHalf);
+    }
+  }
+  CHECK(different == 0);
+}

@@ -1,0 +1,79 @@
+// texremap in a folder of its own, with images to convert.
+#pragma once
+
+#include <Imath/half.h>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "convert/converter.hpp"
+#include "files.hpp"
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_image.hpp"
+
+namespace remap {
+
+class Session {
+ public:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  ProcessResult texremap(std::vector<std::string> arguments, const ProcessLimits& limits = {}) const {
+    arguments.insert(arguments.begin(), REMAP_TEXREMAP);
+    return run(arguments, limits);
+  }
+  // The words of a conversion of two files of this folder to its folder `out`.
+  std::vector<std::string> conversion(const std::string& roughness, const std::string& specular) const {
+    return {"convert",       "--from",     "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
+            path(roughness), "--specular", path(specular), "-o",   path("out")};
+  }
+  ProcessResult convert(const std::string& roughness, const std::string& specular,
+                        const std::vector<std::string>& more = {}, const ProcessLimits& limits = {}) const {
+    std::vector<std::string> words = conversion(roughness, specular);
+    words.insert(words.end(), more.begin(), more.end());
+    return texremap(words, limits);
+  }
+  // r.<extension> and s.<extension> of noise.
+  void write_pair(const std::string& extension, int size = 64, OIIO::TypeDesc type = OIIO::TypeHalf) const {
+    write_image(path("r." + extension), test_spec(size, size, {"Y"}, type), noise);
+    write_image(path("s." + extension), test_spec(size, size, {"R", "G", "B"}, type), noise);
+  }
+  // Files in `out` that are not hidden, and all of them.
+  std::size_t result_count() const { return count(false); }
+  std::size_t file_count() const { return count(true); }
+
+ private:
+  std::size_t count(bool hidden_too) const {
+    std::size_t files = 0;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(path("out"), none))
+      files += hidden_too || entry.path().filename().string().front() != '.';
+    return files;
+  }
+  TemporaryFolder folder_;
+};
+
+// Ward to Ashikhmin-Shirley for one texel: the roughness, then the specular channels.
+inline std::array<float, 4> converted_texel(float roughness, const std::array<float, 3>& specular) {
+  std::array<float, 4> result{};
+  const std::array<const float*, 3> in = {&specular[0], &specular[1], &specular[2]};
+  const std::array<float*, 3> out = {&result[1], &result[2], &result[3]};
+  find_converter("mitsuba/ward", "mitsuba/as").convert(1, &roughness, in, &result[0], out);
+  return result;
+}
+
+// What a file of this pixel type makes of `value`.
+inline float as_stored(float value, OIIO::TypeDesc type) {
+  const auto whole = [value](double largest) {
+    const double clipped = std::isnan(value) ? 0.0 : std::min(std::max(static_cast<double>(value), 0.0), 1.0);
+    return static_cast<float>(std::floor(clipped * largest + 0.5)) / static_cast<float>(largest);
+  };
+  if (type == OIIO::TypeUInt8) return whole(255.0);
+  if (type == OIIO::TypeUInt16) return whole(65535.0);
+  if (type == OIIO::TypeHalf) return static_cast<float>(Imath::half(value));
+  return value;
+}
+
+}  // namespace remap

@@ -1,0 +1,84 @@
+// Converters behind their interface: the compiled ones against their fits' domain, the interpreted one
+// against the interpreter.
+#include "convert/converter.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "error.hpp"
+#include "model/interpreter.hpp"
+#include "support/example_fit.hpp"
+
+using namespace remap;
+
+TEST_CASE("converter: the interpreted one gives the interpreter's values") {
+  const Fit fit = example_fit();
+  const auto converter = make_interpreted_converter(fit);
+  const std::array<float, 4> roughness = {0.1f, 0.7f, 3.0f, NAN};
+  const std::array<float, 4> red = {0.1f, 0.2f, 0.3f, 0.1f}, green = {0.3f, 2.0f, 0.1f, 0.1f},
+                             blue = {0.0f, 0.1f, 0.4f, 0.1f};
+  std::array<float, 4> roughness_out{}, red_out{}, green_out{}, blue_out{};
+  const std::array<const float*, 3> in = {red.data(), green.data(), blue.data()};
+  const std::array<float*, 3> out = {red_out.data(), green_out.data(), blue_out.data()};
+  CHECK(converter->convert(4, roughness.data(), in, roughness_out.data(), out) == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::array<double, 3> specular = {red[i], green[i], blue[i]};
+    std::array<double, 3> expected{};
+    const double width = evaluate_texel(fit, static_cast<double>(roughness[i]), specular, expected);
+    CHECK(roughness_out[i] == static_cast<float>(width));
+    CHECK(red_out[i] == static_cast<float>(expected[0]));
+    CHECK(green_out[i] == static_cast<float>(expected[1]));
+    CHECK(blue_out[i] == static_cast<float>(expected[2]));
+  }
+  CHECK(std::isnan(roughness_out[3]));
+  CHECK(std::isnan(green_out[3]));
+}
+
+TEST_CASE("converter: an output row may be its input row") {
+  for (const auto& converter : compiled_converters()) {
+    std::array<float, 2> roughness = {0.2f, 0.9f}, specular = {0.1f, 0.3f}, roughness_out{}, specular_out{};
+    const std::array<const float*, 1> in = {specular.data()};
+    const std::array<float*, 1> apart = {specular_out.data()}, same = {specular.data()};
+    converter->convert(2, roughness.data(), in, roughness_out.data(), apart);
+    converter->convert(2, roughness.data(), in, roughness.data(), same);
+    CHECK(roughness == roughness_out);
+    CHECK(specular == specular_out);
+  }
+}
+
+TEST_CASE("converter: compiled ones are sorted, tested and found by their models") {
+  std::string last;
+  for (const auto& converter : compiled_converters()) {
+    const ConverterInfo& info = converter->info();
+    CHECK(last < info.id);
+    last = info.id;
+    CHECK(converter->self_test());
+    CHECK(&find_converter(info.source.model, info.target.model) == converter.get());
+    CHECK(info.roughness.min < info.roughness.max);
+  }
+  CHECK_FALSE(compiled_converters().empty());
+}
+
+TEST_CASE("converter: an unknown model is answered with the nearest") {
+  try {
+    find_converter("mitsuba/wrad", "mitsuba/as");
+    FAIL("no exception");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::kUsage);
+    CHECK(std::string(error.what()) ==
+          "mitsuba/wrad: is no source of a converter; did you mean mitsuba/ward?");
+  }
+  CHECK_THROWS_WITH(find_converter("mitsuba/ward", "mitsuba/sa"),
+                    Catch::Matchers::Contains("mitsuba/sa: is no target of a converter"));
+}
+
+TEST_CASE("converter: two specular channels are refused") {
+  const std::array<float, 1> row = {0.5f};
+  std::array<float, 1> out{};
+  const std::array<const float*, 2> in = {row.data(), row.data()};
+  const std::array<float*, 2> specular_out = {out.data(), out.data()};
+  for (const auto& converter : compiled_converters())
+    CHECK_THROWS_AS(converter->convert(1, row.data(), in, out.data(), specular_out), Error);
+}

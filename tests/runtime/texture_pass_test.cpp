@@ -1,0 +1,170 @@
+// The streaming pass against the converter applied texel by texel.
+#include "texture/texture_pass.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "error.hpp"
+#include "support/example_fit.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_image.hpp"
+
+using namespace remap;
+
+namespace {
+
+constexpr int kWidth = 150, kHeight = 301;
+
+struct Texel {
+  float roughness;
+  std::array<float, 3> specular;
+};
+
+Texel converted(const Converter& converter, const Texel& texel) {
+  Texel result{};
+  std::array<const float*, 3> in;
+  std::array<float*, 3> out;
+  for (std::size_t c = 0; c < 3; ++c) {
+    in[c] = &texel.specular[c];
+    out[c] = &result.specular[c];
+  }
+  converter.convert(1, &texel.roughness, in, &result.roughness, out);
+  return result;
+}
+
+struct Scene {
+  TemporaryFolder folder;
+  std::filesystem::path roughness = folder.path() / "r.exr", specular = folder.path() / "s.exr";
+  std::filesystem::path roughness_out = folder.path() / "r_out.exr",
+                        specular_out = folder.path() / "s_out.exr";
+
+  explicit Scene(int tile = 0) {
+    auto spec = test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeFloat);
+    write_image(roughness, spec, noise);
+    spec = test_spec(kWidth, kHeight, {"R", "G", "B", "A", "mask"}, OIIO::TypeFloat);
+    spec.tile_width = spec.tile_height = tile;
+    write_image(specular, spec, [](int x, int y, int c) { return noise(x, y, c + 1); });
+  }
+  PassStatistics pass(const Converter& converter, const PassOptions& options) const {
+    TextureSet set = open_texture_set({roughness, specular, {}});
+    TargetMaps target{ImageWriter(roughness_out, set.roughness.reader, {}),
+                      ImageWriter(specular_out, std::get<SourceMap>(set.specular).reader, {})};
+    return run_texture_pass(set, target, converter, options);
+  }
+};
+
+void check_every_texel(const Scene& scene, const Converter& converter) {
+  const TestImage in = read_image(scene.specular), width_in = read_image(scene.roughness);
+  const TestImage out = read_image(scene.specular_out), width_out = read_image(scene.roughness_out);
+  REQUIRE(out.spec.channelnames == in.spec.channelnames);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const Texel expected =
+          converted(converter, {width_in.at(x, y, 0), {in.at(x, y, 0), in.at(x, y, 1), in.at(x, y, 2)}});
+      REQUIRE(width_out.at(x, y, 0) == expected.roughness);
+      for (int c = 0; c < 3; ++c) REQUIRE(out.at(x, y, c) == expected.specular[static_cast<std::size_t>(c)]);
+      REQUIRE(out.at(x, y, 3) == in.at(x, y, 3));
+      REQUIRE(out.at(x, y, 4) == in.at(x, y, 4));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("texture pass: equals the converter texel by texel, whatever the threads and the bands") {
+  const auto converter = make_interpreted_converter(example_fit());
+  const int tile = GENERATE(0, 48);
+  const Scene scene(tile);
+  for (const int threads : {1, 2, 5}) {
+    for (const std::size_t bytes : {std::size_t{1}, std::size_t{200'000}, std::size_t{64} << 20}) {
+      PassOptions options;
+      options.thread_count = threads;
+      options.band_bytes = bytes;
+      std::size_t last = 0;
+      options.progress = [&](std::size_t rows) {
+        CHECK(rows > last);
+        last = rows;
+      };
+      const PassStatistics statistics = scene.pass(*converter, options);
+      CHECK(statistics.texel_count == kWidth * kHeight);
+      CHECK(last == kHeight);
+      check_every_texel(scene, *converter);
+    }
+  }
+}
+
+TEST_CASE("texture pass: the compiled converters give in a map what they give alone") {
+  const Scene scene;
+  for (const auto& converter : compiled_converters()) {
+    scene.pass(*converter, {});
+    check_every_texel(scene, *converter);
+  }
+}
+
+TEST_CASE("texture pass: odd values are counted by texel") {
+  const Scene scene;
+  const float inf = std::numeric_limits<float>::infinity();
+  write_image(scene.roughness, test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeFloat), [&](int x, int y, int) {
+    if (y == 7) return x < 3 ? NAN : x < 5 ? inf : x < 6 ? -inf : 0.5f;
+    return 0.5f;
+  });
+  write_image(scene.specular, test_spec(kWidth, kHeight, {"R", "G", "B"}, OIIO::TypeFloat),
+              [&](int x, int y, int c) {
+                if (y == 9 && c > 0 && x < 4) return -1.0f;  // two channels of four texels
+                if (y == 7 && c == 0 && x < 4) return NAN;   // three of them have a NaN width, too
+                return 0.25f;
+              });
+  const auto converter = make_interpreted_converter(example_fit());
+  const PassStatistics statistics = scene.pass(*converter, {});
+  CHECK(statistics.nan_count == 4);
+  CHECK(statistics.infinite_count == 3);
+  CHECK(statistics.negative_count == 5);
+  CHECK(statistics.out_of_domain_count == 10);
+  CHECK(statistics.clipped_count == 0);
+  const TestImage out = read_image(scene.specular_out);
+  CHECK(std::isnan(out.at(0, 7, 1)));
+  CHECK(std::isfinite(out.at(0, 8, 1)));
+}
+
+TEST_CASE("texture pass: cancelled, it says so and leaves no file") {
+  const Scene scene;
+  const auto converter = make_interpreted_converter(example_fit());
+  const std::atomic<bool> cancelled{true};
+  PassOptions options;
+  options.thread_count = GENERATE(1, 2);
+  options.cancelled = &cancelled;
+  try {
+    scene.pass(*converter, options);
+    FAIL("no exception");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::kInterrupted);
+  }
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(scene.folder.path())) ++files;
+  CHECK(files == 2);
+}
+
+TEST_CASE("texture pass: a roughness map that is not grey is refused with the texel") {
+  const Scene scene;
+  write_image(scene.roughness, test_spec(kWidth, kHeight, {"R", "G", "B"}, OIIO::TypeFloat),
+              [](int x, int y, int c) { return x == 12 && y == 300 && c == 2 ? 0.75f : 0.5f; });
+  const auto converter = make_interpreted_converter(example_fit());
+  CHECK_THROWS_WITH(scene.pass(*converter, {}),
+                    Catch::Matchers::Contains("texel (12, 300) is not grey, R is 0.5 and B is 0.75"));
+}
+
+TEST_CASE("texture pass: a grey roughness map stays grey in all its channels") {
+  const Scene scene;
+  write_image(scene.roughness, test_spec(kWidth, kHeight, {"R", "G", "B", "A"}, OIIO::TypeFloat),
+              [](int x, int y, int c) { return noise(x, y, c == 3 ? 1 : 0); });
+  const auto converter = make_interpreted_converter(example_fit());
+  scene.pass(*converter, {});
+  const TestImage in = read_image(scene.roughness), out = read_image(scene.roughness_out);
+  for (int x = 0; x < kWidth; ++x) {
+    const float expected = converted(*converter, {in.at(x, 5, 0), {0.0f, 0.0f, 0.0f}}).roughness;
+    for (int c = 0; c < 3; ++c) CHECK(out.at(x, 5, c) == expected);
+    CHECK(out.at(x, 5, 3) == in.at(x, 5, 3));
+  }
+}

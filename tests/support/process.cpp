@@ -1,0 +1,99 @@
+#include "support/process.hpp"
+
+#include <csignal>
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+std::string content(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// Between fork and exec: only calls that are safe there.
+[[noreturn]] void become(char* const* arguments, const char* output, const char* errors,
+                         const ProcessLimits& limits) {
+  const int out = ::open(output, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int err = ::open(errors, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  ::dup2(out, STDOUT_FILENO);
+  ::dup2(err, STDERR_FILENO);
+  if (limits.file_bytes) {
+    const rlimit limit{*limits.file_bytes, *limits.file_bytes};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ::execv(arguments[0], arguments);
+  ::_exit(127);
+}
+
+}  // namespace
+
+std::string ProcessResult::last_error() const {
+  std::string text = errors;
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  const std::size_t line = text.rfind('\n');
+  return line == std::string::npos ? text : text.substr(line + 1);
+}
+
+Process::Process(const std::vector<std::string>& arguments, const ProcessLimits& limits) {
+  std::vector<std::string> words = arguments;
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const std::string output = folder_.path() / "output", errors = folder_.path() / "errors";
+  pid_ = ::fork();
+  if (pid_ < 0) throw std::runtime_error("fork failed");
+  if (pid_ == 0) become(pointers.data(), output.c_str(), errors.c_str(), limits);
+}
+
+Process::~Process() {
+  if (result_) return;
+  send(SIGKILL);
+  wait();
+}
+
+void Process::send(int signal) const {
+  if (!result_) ::kill(pid_, signal);
+}
+
+bool Process::is_running() {
+  if (result_) return false;
+  int status = 0;
+  rusage usage{};
+  if (::wait4(pid_, &status, WNOHANG, &usage) == 0) return true;
+  collect(status, usage.ru_maxrss);
+  return false;
+}
+
+ProcessResult Process::wait() {
+  if (!result_) {
+    int status = 0;
+    rusage usage{};
+    if (::wait4(pid_, &status, 0, &usage) != pid_) throw std::runtime_error("wait failed");
+    collect(status, usage.ru_maxrss);
+  }
+  return *result_;
+}
+
+void Process::collect(int status, long peak_kilobytes) {
+  ProcessResult result;
+  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+  result.output = content(folder_.path() / "output");
+  result.errors = content(folder_.path() / "errors");
+  result.peak_kilobytes = peak_kilobytes;
+  result_ = std::move(result);
+}
+
+ProcessResult run(const std::vector<std::string>& arguments, const ProcessLimits& limits) {
+  return Process(arguments, limits).wait();
+}
+
+}  // namespace remap

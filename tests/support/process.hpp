@@ -1,0 +1,53 @@
+// Runs a program the way a shell would and keeps what it said.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <sys/resource.h>
+#include <sys/types.h>
+#include <vector>
+
+#include "support/temporary_folder.hpp"
+
+namespace remap {
+
+struct ProcessResult {
+  int exit_code = -1;  // -1 where a signal ended the process
+  int signal = 0;      // that signal
+  std::string output;  // standard output
+  std::string errors;  // standard error
+  long peak_kilobytes = 0;
+
+  // The last line of standard error: some libraries talk before the program does.
+  std::string last_error() const;
+};
+
+struct ProcessLimits {
+  std::optional<rlim_t> file_bytes;  // as by `ulimit -f`: writing beyond fails
+};
+
+// A process that runs beside the test. The destructor kills it if it was not waited for.
+class Process {
+ public:
+  // `arguments` begins with the path of the program. Throws std::runtime_error where it cannot be started.
+  explicit Process(const std::vector<std::string>& arguments, const ProcessLimits& limits = {});
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void send(int signal) const;
+  bool is_running();
+  ProcessResult wait();
+
+ private:
+  TemporaryFolder folder_;
+  pid_t pid_ = -1;
+  std::optional<ProcessResult> result_;
+  void collect(int status, long peak_kilobytes);
+};
+
+// Starts it and waits for it.
+ProcessResult run(const std::vector<std::string>& arguments, const ProcessLimits& limits = {});
+
+}  // namespace remap

@@ -1,0 +1,39 @@
+// Images for tests, written and read by OpenImageIO alone, so that they can judge the image I/O of the
+// project.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+
+namespace remap {
+
+struct TestImage {
+  OIIO::ImageSpec spec;
+  std::vector<float> values;         // interleaved, integers divided by their largest
+  std::vector<unsigned char> bytes;  // as stored
+
+  float at(int x, int y, int channel) const {
+    return values[static_cast<std::size_t>((y * spec.width + x) * spec.nchannels + channel)];
+  }
+  int channel(const std::string& name) const { return spec.channelindex(name); }
+};
+
+// A repeatable value in [0, 1) for a texel and a channel.
+float noise(int x, int y, int channel);
+
+using TexelFunction = std::function<float(int x, int y, int channel)>;
+
+// A description with channels of these names (R, G, B, A, Y, ... get their usual roles).
+OIIO::ImageSpec test_spec(int width, int height, const std::vector<std::string>& channels,
+                          OIIO::TypeDesc type);
+
+// Throws std::runtime_error where OpenImageIO fails.
+void write_image(const std::filesystem::path& path, const OIIO::ImageSpec& spec, const TexelFunction& texel);
+TestImage read_image(const std::filesystem::path& path);
+
+}  // namespace remap
