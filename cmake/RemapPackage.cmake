@@ -1,0 +1,41 @@
+# What another CMake project sees of this one, be it installed or a subfolder: remap::headers, remap::remapc and
+# remap_add_converter().
+include(RemapAddConverter)
+
+# Users write `#include <remap/ID.hpp>`; in this tree the folder has another name.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
+file(CREATE_LINK ${REMAP_GENERATED_DIR} ${PROJECT_BINARY_DIR}/include/remap SYMBOLIC)
+
+add_library(remap_headers INTERFACE)
+add_library(remap::headers ALIAS remap_headers)
+set_target_properties(remap_headers PROPERTIES EXPORT_NAME headers)
+target_compile_features(remap_headers INTERFACE cxx_std_17)
+target_include_directories(remap_headers INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+
+set(tools texremap)
+if(TARGET remapc)
+  list(APPEND tools remapc)
+endif()
+foreach(tool IN LISTS tools)
+  add_executable(remap::${tool} ALIAS ${tool})
+endforeach()
+
+if(NOT REMAP_INSTALL)
+  return()
+endif()
+
+include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/remap)
+install(TARGETS remap_headers ${tools} EXPORT remapTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(EXPORT remapTargets NAMESPACE remap:: DESTINATION ${package_folder})
+install(DIRECTORY ${REMAP_GENERATED_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/remap
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "LICENSE")
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/remapConfig.cmake.in
+                              ${PROJECT_BINARY_DIR}/remapConfig.cmake INSTALL_DESTINATION ${package_folder})
+# Until version 1.0 a minor version may change names.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/remapConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/remapConfig.cmake ${PROJECT_BINARY_DIR}/remapConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/RemapAddConverter.cmake
+        DESTINATION ${package_folder})

@@ -1,0 +1,70 @@
+# What scripts/demo, scripts/test and .ci/run share: one line a step on the terminal, everything else in a log
+# file, whose end is shown when a step fails. To be sourced.
+
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+cd "$repository"
+log=/dev/null
+last_seconds=0.0
+
+# open_log NAME: from here on steps write to build/logs/NAME.log.
+open_log() {
+  log=$repository/build/logs/$1.log
+  mkdir -p "${log%/*}"
+  : >"$log"
+}
+
+microseconds() { echo "${EPOCHREALTIME//[!0-9]/}"; }
+
+# seconds_since MICROSECONDS: with one decimal.
+seconds_since() {
+  local -r tenths=$((($(microseconds) - $1) / 100000))
+  echo "$((tenths / 10)).$((tenths % 10))"
+}
+
+# step TITLE COMMAND [ARGUMENT...]: leaves its time in last_seconds.
+step() {
+  local -r title=$1 start=$(microseconds)
+  local status=0
+  shift
+  printf '%-52s' "$title"
+  printf '\n== %s: %s\n' "$title" "$*" >>"$log"
+  "$@" </dev/null >>"$log" 2>&1 || status=$?
+  last_seconds=$(seconds_since "$start")
+  if [[ $status == 0 ]]; then
+    printf '%8s s\n' "$last_seconds"
+  else
+    printf '  failed\n'
+    tail -n 30 "$log" >&2
+    echo "Failed: $title (exit code $status); the whole log: $log" >&2
+  fi
+  return "$status"
+}
+
+# save_output FILE COMMAND...: for a step whose standard output is a result.
+save_output() {
+  local -r file=$1
+  shift
+  "$@" >"$file"
+}
+
+# json_number FILE KEY [N]: the Nth number (default: first) of that name, where each stands on a line of its own.
+json_number() {
+  sed -n 's/.*"'"$2"'": *\(-\{0,1\}[0-9][0-9.eE+-]*\).*/\1/p' "$1" | sed -n "${3:-1}p"
+}
+
+# build_preset PRESET [TARGET...]: configures and builds; all targets when none is named.
+build_preset() {
+  local -r preset=$1
+  shift
+  cmake --preset "$preset" && cmake --build --preset "$preset" ${1:+--target "$@"}
+}
+
+# run_tests PRESET: shows what fails and ctest's summary; a passed test is a line in the log only.
+run_tests() {
+  local -r passed='^ *(Start +[0-9]+:|[0-9]+/[0-9]+ +Test +#[0-9]+:.* Passed )'
+  local -a statuses
+  echo "Testing (preset $1)"
+  ctest --preset "$1" --parallel "$(nproc)" </dev/null 2>&1 | tee -a "$log" | grep -vE "$passed" && return 0
+  statuses=("${PIPESTATUS[@]}")
+  return "${statuses[0]}"
+}

@@ -1,0 +1,51 @@
+# A project outside of the tree finds the installed package, uses a shipped header and one emitted at build time,
+# and emits again when its fit changes.
+source "$(dirname "$0")/check.bash"
+build=$3
+compiler=$4
+id=mitsuba_ward_to_mitsuba_as
+prefix=$work/prefix
+
+# The project must not lie in the tree, where a lookup upwards could find what is not installed.
+project=$(mktemp -d)
+trap 'rm -rf "$project"' EXIT
+cp -r "$source_folder/examples/outside_project/." "$project"
+
+expect_exit 0 cmake --install "$build" --prefix "$prefix"
+for file in bin/remapc bin/texremap include/remap/$id.hpp include/remap/registry.hpp include/remap/LICENSE; do
+  [[ -f $prefix/$file ]] || fail "$file: is not installed"
+done
+! grep -rlF -e "$source_folder" -e "$build" "$prefix"/lib* "$prefix/include" ||
+  fail "an installed file names a folder of the build"
+
+configure() {
+  cmake -S "$project" -B "$project/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
+    -DCMAKE_BUILD_TYPE=Release
+}
+# second_row PROGRAM: what it gives for alpha 0.2, specular 0.7 0.5 0.
+second_row() {
+  expect_exit 0 "$project/build/$1"
+  expect_output "0 texels out of domain"
+  numbers "$(sed -n 2p "$work/output")"
+}
+own_fit() { expected_row "$project/$id.json" 0.2 0.7 0.5 0; }
+
+expect_exit 1 configure
+expect_output "$id.json: there is no such file"
+echo '{"name": "no fit"}' >"$project/$id.json"
+expect_exit 1 configure
+expect_output "$id.json: is no fit"
+
+cp "$source_folder/fits/$id.json" "$project"
+shipped=$(own_fit)
+expect_exit 0 configure
+expect_exit 0 cmake --build "$project/build"
+[[ -f $project/build/remap_generated/remap/$id.hpp ]] || fail "the header was not emitted in the binary folder"
+expect_close "$(second_row shipped)" "$shipped"
+expect_close "$(second_row own_fit)" "$shipped"
+
+sed -i 's/"start": [0-9.]*/"start": 0.75/' "$project/$id.json"
+[[ $(own_fit) != "$shipped" ]] || fail "the fit was to be changed"
+expect_exit 0 cmake --build "$project/build"
+expect_close "$(second_row shipped)" "$shipped"
+expect_close "$(second_row own_fit)" "$(own_fit)"
