@@ -20,7 +20,8 @@ double rounded_up(double value, int digits) {
   const double scale = std::pow(10.0, digits - 1 - magnitude);
   // Scaling is not exact: 0.07 is 7.000000000000001 hundredths and still needs no rounding.
   const double scaled = std::ceil(std::fabs(value) * scale * (1.0 - 1e-14));
-  return std::copysign(scale >= 1.0 ? scaled / scale : scaled * std::pow(10.0, magnitude - digits + 1), value);
+  return std::copysign(scale >= 1.0 ? scaled / scale : scaled * std::pow(10.0, magnitude - digits + 1),
+                       value);
 }
 
 double decimal_value(float value) {

@@ -10,7 +10,8 @@ namespace remap {
 // The shortest text that reads back as exactly the same double. `nan`, `inf` for those.
 std::string number_text(double value);
 
-// `value` rounded away from 0 to `digits` significant decimal digits: an error figure as people read it. 0 for 0.
+// `value` rounded away from 0 to `digits` significant decimal digits: an error figure as people read it. 0
+// for 0.
 double rounded_up(double value, int digits);
 
 // The double that a person would write for `value`: 0.01, not 0.00999999977.

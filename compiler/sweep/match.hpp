@@ -30,8 +30,9 @@ class Matcher {
   // `basis`: 1 or 2 pictures; `squared_weights`: w^2 of each pixel, as long as they are.
   Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, std::vector<float> squared_weights);
 
-  // `minima`: nodes of the bank to start from, and on return those of the minima found. Empty: the whole bank is
-  // searched. Materials that differ little in specular share their minima, and most of the search with them.
+  // `minima`: nodes of the bank to start from, and on return those of the minima found. Empty: the whole bank
+  // is searched. Materials that differ little in specular share their minima, and most of the search with
+  // them.
   Match match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima);
 
  private:

@@ -194,7 +194,8 @@ Fit fit_from_json(std::string_view text, const std::string& place) {
   fit.target = read_side(root["target"]);
   fit.domain = {read_range(root["domain"]["alpha"]), read_range(root["domain"]["specular"])};
   root["domain"]["alpha"].require(fit.domain.alpha.min > 0.0, "an alpha above 0");
-  root["domain"]["specular"].require(fit.domain.specular.min == 0.0, "a range from 0: every mapping takes 0 to 0");
+  root["domain"]["specular"].require(fit.domain.specular.min == 0.0,
+                                     "a range from 0: every mapping takes 0 to 0");
   fit.mapping = read_mapping(root["mapping"]);
   fit.roughness_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
   fit.specular_error = read_figures(root["error_on_held_out_rows"]["specular"]);

@@ -11,7 +11,8 @@ namespace {
 double rise(double rate, double x) { return rate == 0.0 ? x : -std::expm1(-rate * x) / rate; }
 
 Range rounded_to_float(const Range& range) {
-  return {static_cast<double>(static_cast<float>(range.min)), static_cast<double>(static_cast<float>(range.max))};
+  return {static_cast<double>(static_cast<float>(range.min)),
+          static_cast<double>(static_cast<float>(range.max))};
 }
 
 }  // namespace

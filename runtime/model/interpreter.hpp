@@ -31,8 +31,8 @@ double roughness_derivative(const MappingKind& mapping, double alpha);
 double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
                       std::span<double> specular_out, bool* in_domain = nullptr);
 
-// The covered ranges of the source's own width parameter and of its specular, rounded to float: texels are floats,
-// and generated headers and the interpreter must agree about the texel on the edge.
+// The covered ranges of the source's own width parameter and of its specular, rounded to float: texels are
+// floats, and generated headers and the interpreter must agree about the texel on the edge.
 Range own_roughness_range(const Fit& fit);
 Range specular_range(const Fit& fit);
 
