@@ -63,11 +63,13 @@ class ImageReader {
   std::unique_ptr<State> state_;
 };
 
+using Metadata = std::vector<std::pair<std::string, std::string>>;  // name and text
+
 // What shall differ from the image that a new one follows.
 struct ImageChanges {
-  std::optional<PixelType> type;                              // of all channels
-  std::optional<std::vector<std::string>> channels;           // other channels, all of the type of the first
-  std::vector<std::pair<std::string, std::string>> metadata;  // to add
+  std::optional<PixelType> type;                     // of all channels
+  std::optional<std::vector<std::string>> channels;  // other channels, all of the type of the first
+  Metadata metadata;                                 // to add; TIFF and JPEG keep it in the tag Software
 };
 
 // Writes an image that follows another in everything but `changes`: pixel types, compression, tiling, channel

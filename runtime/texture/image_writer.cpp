@@ -34,7 +34,7 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
     return true;
   }
   std::size_t write(const void* buffer, std::size_t size) override {
-    if (std::fwrite(buffer, 1, size, file_) != size) note_failure();
+    if (size > 0 && std::fwrite(buffer, 1, size, file_) != size) note_failure();
     end_ = std::max(end_, tell());
     return size;
   }

@@ -73,6 +73,16 @@ void suit_format(OIIO::ImageSpec& spec, std::string_view format) {
   }
 }
 
+void note_metadata(OIIO::ImageSpec& spec, std::string_view format, const Metadata& metadata) {
+  std::string all;
+  for (const auto& [name, value] : metadata) {
+    spec.attribute(name, value);
+    all += (all.empty() ? "" : "; ") + name + "=" + value;
+  }
+  // These have no place for names of one's own; the tag for the writing program is the nearest.
+  if (!all.empty() && (format == "tiff" || format == "jpeg")) spec.attribute("Software", all);
+}
+
 }  // namespace
 
 OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& model_format,
@@ -100,7 +110,7 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
 
   if (format != model_format) leave_coding_behind(spec, output);
   suit_format(spec, format);
-  for (const auto& [name, value] : changes.metadata) spec.attribute(name, value);
+  note_metadata(spec, format, changes.metadata);
   return spec;
 }
 

@@ -117,6 +117,17 @@ TEST_CASE("texremap: what was done is written into the metadata") {
   }
 }
 
+TEST_CASE("texremap: where a format has no metadata of one's own, the tag Software tells") {
+  const Session session;
+  session.write_pair("exr");
+  const std::string extension = GENERATE("tif", "jpg");
+  REQUIRE(session.convert("r.exr", "s.exr", {"--format", extension}).exit_code == 0);
+  const OIIO::ImageSpec spec = read_image(session.path("out/s." + extension)).spec;
+  CHECK(spec.get_string_attribute("Software") ==
+        "remap:converter=mitsuba_ward_to_mitsuba_as; remap:source=mitsuba/ward; remap:target=mitsuba/as; "
+        "remap:version=" REMAP_VERSION);
+}
+
 TEST_CASE("texremap: Exif in a TIFF survives") {
   const Session session;
   Case format{"tif", OIIO::TypeUInt8, 0, "zip", kColour};

@@ -10,14 +10,14 @@ for map in roughness specular; do
   expect_exit 0 oiiotool "$work/first/$map.exr" "$work/second/$map.exr" --fail 0 --diff
 done
 expect_exit 0 oiiotool --stats "$work/first/roughness.exr"
-expect_output "128 x  128, 1 channel, half openexr"
+expect_output "128 x 128, 1 channel, half openexr"
 expect_output "NanCount: 0"
 # Alpha between 0.03 and 0.9, and varied: that is what the demo is to show.
 LC_ALL=C awk '/Stats Min/ { low = $3 } /Stats Max/ { high = $3 } /Stats StdDev/ { spread = $3 }
   END { exit !(low >= 0.0299 && high <= 0.9001 && spread > 0.05) }' "$work/output" ||
   fail "the roughness is out of range: $(cat "$work/output")"
 expect_exit 0 oiiotool --stats "$work/first/specular.exr"
-expect_output "128 x  128, 3 channel, half openexr"
+expect_output "128 x 128, 3 channel, half openexr"
 expect_output "Monochrome: No"
 
 expect_exit 1 "$bin/scratched_metal" "$work/no such folder" 16
