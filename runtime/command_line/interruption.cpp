@@ -25,7 +25,6 @@ void watch(int signal) {
 void watch_interruptions() {
   watch(SIGINT);
   watch(SIGTERM);
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 const std::atomic<bool>& interruption() noexcept { return interrupted; }

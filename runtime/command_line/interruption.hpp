@@ -6,7 +6,6 @@
 namespace remap {
 
 // From now on SIGINT and SIGTERM set the flag instead of ending the process, once: the second signal ends it.
-// A file that grows beyond the limit of the process is a failing write instead of a signal.
 void watch_interruptions();
 
 // Set when the program was asked to stop.

@@ -1,6 +1,7 @@
 #include "command_line/run_app.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -111,6 +112,9 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
 }  // namespace
 
 int run_app(CLI::App& app, int argc, const char* const* argv) noexcept {
+  // A file that grows beyond the limit of the process is then a failing write, which is reported as any
+  // other.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     try {
       return parse_and_run(app, argc, argv);

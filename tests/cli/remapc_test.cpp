@@ -186,6 +186,23 @@ TEST_CASE("remapc sweep: a full disk is an error, and nothing lies under the fin
   CHECK_FALSE(fs::exists(session.path("t.csv")));
 }
 
+TEST_CASE("remapc fit, emit and render: a full disk is an error, and nothing lies under the final name") {
+  const Session session;
+  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  REQUIRE(session.remapc({"fit", session.path("t.csv"), "-o", session.path("fits")}).exit_code == 0);
+  const std::string fit = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
+  ProcessLimits limits;
+  limits.file_bytes = 1024;
+  check_failure(session.remapc({"fit", session.path("t.csv"), "-o", session.path("out")}, limits), 1,
+                "cannot be written");
+  check_failure(session.remapc({"emit", fit, "-o", session.path("out")}, limits), 1, "cannot be written");
+  check_failure(session.remapc({"render", "--model", "mitsuba/ward", "--set", "alpha=0.5", "--set",
+                                "specular=0.5", "-o", session.path("out/s.exr")},
+                               limits),
+                1, "cannot be written");
+  CHECK(fs::is_empty(session.path("out")));
+}
+
 TEST_CASE("remapc sweep: killed and resumed it gives the bytes of one run") {
   const Session session;
   auto whole = session.sweep("whole.csv");
