@@ -9,7 +9,8 @@
 
 namespace remapc {
 
-// The generated header `<id>.hpp`. Throws kNumeric where a coefficient is not finite as a float.
+// The generated header `<id>.hpp`. Throws kNumeric where a coefficient is not finite as a float,
+// kInput where a specular parameter has a name that the header uses itself.
 std::string emit_header(const remap::Fit& fit);
 
 // `registry.hpp` for headers of these fits, which stand beside it: one entry a converter, in the order of

@@ -6,6 +6,7 @@
 
 #include "emit/emit.hpp"
 #include "emit/text_template.hpp"
+#include "error.hpp"
 #include "model/interpreter.hpp"
 #include "number_text.hpp"
 #include "version.hpp"
@@ -205,6 +206,15 @@ inline bool self_test() noexcept {
 #endif  // @guard@
 )";
 
+// Names of the layout beside which a parameter's own name would not compile.
+void require_free_name(const std::string& name) {
+  constexpr std::array<std::string_view, 12> kTaken = {
+      "count", "start", "size", "c", "i", "in", "out", "close", "slopes", "detail", "golden", "passed"};
+  if (std::find(kTaken.begin(), kTaken.end(), name) == kTaken.end()) return;
+  throw remap::Error(remap::ErrorKind::kInput, "emit: the specular parameter is called " + name +
+                                                   ", as a variable of the header; expected another");
+}
+
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
@@ -326,6 +336,8 @@ std::string golden_text(const std::vector<std::array<float, 4>>& vectors) {
 }  // namespace
 
 std::string emit_header(const Fit& fit) {
+  require_free_name(fit.source.specular);
+  require_free_name(fit.target.specular);
   const MappingCode code =
       std::visit([&](const auto& form) { return mapping_code(form, fit.domain); }, fit.mapping);
   const Range own = remap::own_roughness_range(fit), specular = remap::specular_range(fit);

@@ -31,10 +31,19 @@ remap::Domain covered_domain(const Table& table) {
 }
 
 void require_models(const Table& table) {
-  if (!table.source.model.empty() && !table.target.model.empty()) return;
-  throw Error(ErrorKind::kInput, table.name +
-                                     ": does not say which models it converts; expected `# source: ...` and "
-                                     "`# target: ...` lines, or --source and --target");
+  if (table.source.model.empty() || table.target.model.empty())
+    throw Error(ErrorKind::kInput,
+                table.name +
+                    ": does not say which models it converts; expected `# source: ...` and "
+                    "`# target: ...` lines, or --source and --target");
+  for (const remap::ModelSide& side : {table.source, table.target}) {
+    if (!remap::is_valid_model(side.model))
+      throw Error(ErrorKind::kInput,
+                  table.name + ": model \"" + side.model + "\"; expected letters, digits and _ - . / only");
+    if (!remap::is_valid_specular(side.specular))
+      throw Error(ErrorKind::kInput, table.name + ": specular parameter \"" + side.specular + "\" of " +
+                                         side.model + "; expected an identifier that names no width");
+  }
 }
 
 }  // namespace

@@ -60,4 +60,15 @@ bool is_valid_id(const std::string& id) {
   return std::all_of(id.begin(), id.end(), [](char c) { return is_identifier_character(c) || c == '_'; });
 }
 
+bool is_valid_model(const std::string& name) {
+  const auto allowed = [](char c) {
+    return is_identifier_character(c) || c == '_' || c == '-' || c == '.' || c == '/';
+  };
+  return !name.empty() && std::all_of(name.begin(), name.end(), allowed);
+}
+
+bool is_valid_specular(const std::string& name) {
+  return is_valid_id(name) && !convention_from_name(name).has_value();
+}
+
 }  // namespace remap

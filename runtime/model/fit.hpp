@@ -109,4 +109,11 @@ std::string converter_id(const std::string& source_model, const std::string& tar
 // doubled underscore.
 bool is_valid_id(const std::string& id);
 
+// Whether `name` can name a model: letters, digits and `_ - . /`, so that it can stand in file names,
+// messages and generated code as it is.
+bool is_valid_model(const std::string& name);
+
+// Whether `name` can name a specular parameter: an identifier that is no name of a width parameter.
+bool is_valid_specular(const std::string& name);
+
 }  // namespace remap

@@ -1,5 +1,6 @@
 #include "model/fit_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -59,7 +60,10 @@ class Field {
   }
   std::string text() const {
     require(value_.is_string(), "a text");
-    return value_.get<std::string>();
+    const std::string text = value_.get<std::string>();
+    const bool one_line = std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; });
+    require(one_line, "a text of one line");  // it may become a comment in generated code
+    return text;
   }
   double number() const {
     require(value_.is_number(), "a number");
@@ -105,8 +109,10 @@ ModelSide read_side(const Field& field) {
   const auto convention = convention_from_name(name);
   field["roughness"].require(convention.has_value(), "alpha, roughness, exponent or glossiness");
   const std::string specular = field["specular"].text();
-  field["specular"].require(is_valid_id(specular), "an identifier");
-  return {field["model"].text(), *convention, specular};
+  field["specular"].require(is_valid_specular(specular), "an identifier that names no width");
+  const std::string model = field["model"].text();
+  field["model"].require(is_valid_model(model), "letters, digits and _ - . /");
+  return {model, *convention, specular};
 }
 
 ErrorFigures read_figures(const Field& field) {

@@ -92,6 +92,12 @@ TEST_CASE("emit: a coefficient that is no finite float is refused") {
   CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("not finite"));
 }
 
+TEST_CASE("emit: a parameter named as a variable of the header is refused") {
+  remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
+  fit.target.specular = "count";
+  CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("called count"));
+}
+
 TEST_CASE("emit: the registry lists converters in the order of their ids") {
   remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
   remap::Fit other = fit;

@@ -160,6 +160,15 @@ TEST_CASE("fit: a table that does not name its models is refused") {
   CHECK_THROWS_WITH(fit_of(table), Catch::Contains("--source and --target"));
 }
 
+TEST_CASE("fit: names that cannot stand in generated code are refused") {
+  Table table = table_of({{1.0, 0.0, 0.0, 0.0}, 0.7, 0.0, 0.0, 0.0, 0.0});
+  table.source.model = "a\"b";
+  CHECK_THROWS_WITH(fit_of(table), Catch::Contains("letters, digits"));
+  table.source.model = "a/b";
+  table.target.specular = "two words";
+  CHECK_THROWS_WITH(fit_of(table), Catch::Contains("\"two words\" of mitsuba/as"));
+}
+
 TEST_CASE("fit: an id that is no identifier is refused") {
   const Table table = table_of({{1.0, 0.0, 0.0, 0.0}, 0.7, 0.0, 0.0, 0.0, 0.0});
   for (const std::string id : {"2fast", "a-b", "class", "a__b", "_a"}) {

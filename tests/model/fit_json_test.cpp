@@ -60,6 +60,11 @@ TEST_CASE("fit file: complaints name the file and the field") {
                     Catch::Contains("expected a number"));
   CHECK_THROWS_WITH(read(replaced(json, "\"ramp_rate\": 0.0", "\"ramp_rate\": -1.0")),
                     Catch::Contains("a rate from 0"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"a/b\"", "\"a\\\"; b\"")),
+                    Catch::Contains("letters, digits and _ - . /"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"f0\"", "\"alpha\"")), Catch::Contains("names no width"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"natural\"", "\"a\\nint b;\"")),
+                    Catch::Contains("a text of one line"));
   CHECK_THROWS_WITH(read(replaced(json, "0.99", "0.001")), Catch::Contains("min < max"));
 }
 
