@@ -17,7 +17,10 @@ int main(int argc, char** argv) {
   remapc::add_check_command(app);
   remapc::add_fit_command(app);
   remapc::add_emit_command(app);
+  remapc::add_export_command(app);
   remapc::add_eval_command(app);
+  remapc::add_import_command(app);
+  remapc::add_compare_command(app);
   remapc::add_list_command(app);
   remapc::add_show_command(app);
   return remap::run_app(app, argc, argv);

@@ -41,6 +41,28 @@ inline constexpr std::array<ConverterEntry, 1> kConverters = {{
      &mitsuba_ward_to_mitsuba_as::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_as::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_as::self_test},
 }};
 
+// The same converters as types. Through a type a compiler sees what it calls, which no pointer of the table above lets
+// it: a program can compile all of them for another instruction set, as texremap does.
+namespace converters {
+
+struct mitsuba_ward_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+}  // namespace converters
+
+template <typename... Converters>
+struct ConverterList {};
+
+// In the order of kConverters.
+using ConverterTypes = ConverterList<
+    converters::mitsuba_ward_to_mitsuba_as>;
+
 }  // namespace remap
 
 #endif  // REMAP_GENERATED_REGISTRY_HPP

@@ -11,7 +11,10 @@ void add_sweep_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_fit_command(CLI::App& app);
 void add_emit_command(CLI::App& app);
+void add_export_command(CLI::App& app);
 void add_eval_command(CLI::App& app);
+void add_import_command(CLI::App& app);
+void add_compare_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 void add_show_command(CLI::App& app);
 

@@ -16,11 +16,13 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-struct EmitOptions {
+struct EmitCommand {
   std::vector<std::string> fits;  // files or ids
   std::filesystem::path fit_folder = "fits";
   std::filesystem::path output = "generated";
   bool all = false, check = false;
+  double tolerance = 1e-5;
+  EmitOptions code;
 };
 
 struct GeneratedFile {
@@ -28,20 +30,24 @@ struct GeneratedFile {
   std::string content;
 };
 
-std::vector<GeneratedFile> generate(const EmitOptions& options) {
+std::vector<GeneratedFile> generate(const EmitCommand& options) {
   std::vector<remap::Fit> fits;
   if (options.all)
     fits = load_fits(options.fit_folder);
   else
     for (const std::string& name : options.fits) fits.push_back(find_fit(name, options.fit_folder));
+  EmitOptions code = options.code;
+  code.lowering.alpha_tolerance = options.tolerance;
+  code.lowering.specular_tolerance = 10.0 * options.tolerance;
   std::vector<GeneratedFile> files;
-  for (const remap::Fit& fit : fits) files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
+  for (const remap::Fit& fit : fits)
+    files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit, code)});
   if (options.all) files.push_back({options.output / "registry.hpp", emit_registry(fits)});
   return files;
 }
 
 // Names every file that is not what the fits give, and every header without a fit.
-std::vector<std::string> differences(const EmitOptions& options, const std::vector<GeneratedFile>& files) {
+std::vector<std::string> differences(const EmitCommand& options, const std::vector<GeneratedFile>& files) {
   std::vector<std::string> found;
   for (const GeneratedFile& file : files) {
     if (!std::filesystem::exists(file.path))
@@ -60,7 +66,7 @@ std::vector<std::string> differences(const EmitOptions& options, const std::vect
   return found;
 }
 
-void run(const EmitOptions& options) {
+void run(const EmitCommand& options) {
   if (options.all == !options.fits.empty())
     throw Error(ErrorKind::kUsage, "emit: expected either fits to emit, or --all");
   const std::vector<GeneratedFile> files = generate(options);
@@ -83,13 +89,30 @@ void run(const EmitOptions& options) {
 void add_emit_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("emit", "Write the C++ header of a fit, or of all fits with their registry");
-  auto options = std::make_shared<EmitOptions>();
+  auto options = std::make_shared<EmitCommand>();
   command->add_option("fits", options->fits, "Fits: files, or ids in the folder of fits");
   command->add_flag("--all", options->all, "Every fit of the folder, and registry.hpp");
   command->add_flag("--check", options->check,
                     "Write nothing; exit code 1 where a header is not what its fit gives");
   command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
   command->add_option("-o,--output", options->output, "Folder for the headers")->capture_default_str();
+  CLI::Option* lower =
+      command
+          ->add_option(
+              "--lower", options->tolerance,
+              "Lower the mapping to polynomials on few pieces, proven within this of the fit: absolute in "
+              "target alpha, ten times it relative to the largest target specular")
+          ->check(CLI::PositiveNumber)
+          ->capture_default_str();
+  command
+      ->add_flag("--exact", options->code.exact,
+                 "The mapping as it was fitted: loops over support vectors or layers, exponentials")
+      ->excludes(lower);
+  command
+      ->add_option("--table-limit", options->code.lowering.table_limit,
+                   "Numbers that a lowered output may consist of; beyond, the fit is refused")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->footer(
       "Example:\n  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n  remapc emit --all "
       "--check");

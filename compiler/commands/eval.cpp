@@ -4,12 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/fit_folder.hpp"
 #include "commands/table_input.hpp"
 #include "error.hpp"
 #include "fit/fit_table.hpp"
-#include "number_text.hpp"
+#include "fit/split.hpp"
 
 namespace remapc {
 namespace {
@@ -40,24 +41,20 @@ void run(const EvalOptions& options) {
                        table.name + ": has no usable row in the domain of " + fit.id);
   const RowErrors errors = row_errors(fit, rows);
   const bool same_table = sha256(bytes) == fit.table.sha256;
-  const auto json_of = [](const remap::ErrorFigures& f) {
-    return nlohmann::ordered_json{{"rms", f.rms}, {"p99", f.p99}, {"max", f.max}};
-  };
   if (options.json) {
     const nlohmann::ordered_json json = {{"fit", fit.id},
                                          {"table", table.name},
                                          {"fitted_from_this_table", same_table},
                                          {"rows", rows.size()},
                                          {"rows_outside_domain", outside},
-                                         {"alpha_error", json_of(errors.alpha)},
-                                         {"specular_error", json_of(errors.specular)}};
+                                         {"alpha_error", figures_json(errors.alpha)},
+                                         {"specular_error", figures_json(errors.specular)}};
     std::cout << json.dump(2) << "\n";
     return;
   }
   const auto print = [](const std::string& name, const remap::ErrorFigures& f) {
-    const auto digits = [](double value) { return remap::number_text(remap::rounded_up(value, 3)); };
-    std::cout << "  " << name << ": rms " << digits(f.rms) << ", 99 % " << digits(f.p99) << ", max "
-              << digits(f.max) << "\n";
+    std::cout << "  " << name << ": rms " << error_text(f.rms) << ", 99 % " << error_text(f.p99) << ", max "
+              << error_text(f.max) << "\n";
   };
   std::cout << fit.id << " on " << rows.size() << " rows of " << table.name
             << (same_table ? " (the table it was fitted to, training rows included)" : "") << "\n";

@@ -1,12 +1,15 @@
 // `remapc list` and `remapc show`: what there is, and the card of one fit.
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/fit_folder.hpp"
+#include "fit/split.hpp"
 #include "model/fit_json.hpp"
 #include "number_text.hpp"
 #include "sweep/renderer.hpp"
@@ -21,8 +24,6 @@ struct ListOptions {
   std::string fit;  // of show
   bool models = false, json = false;
 };
-
-std::string digits(double value) { return number_text(remap::rounded_up(value, 2)); }
 
 std::string range_text(const remap::Range& range) {
   return number_text(range.min) + " to " + number_text(range.max);
@@ -47,7 +48,9 @@ void list_models(bool json) {
 
 void list_fits(const ListOptions& options) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const remap::Fit& fit : load_fits(options.fit_folder)) {
+  const std::vector<remap::Fit> fits = load_fits(options.fit_folder);
+  if (fits.empty()) std::cerr << options.fit_folder.string() << ": holds no fits (*.json)\n";
+  for (const remap::Fit& fit : fits) {
     list.push_back({{"id", fit.id},
                     {"source", fit.source.model},
                     {"target", fit.target.model},
@@ -55,9 +58,8 @@ void list_fits(const ListOptions& options) {
                     {"alpha_rms_error", fit.roughness_error.rms},
                     {"specular_rms_error", fit.specular_error.rms}});
     if (!options.json)
-      std::cout << std::left << std::setw(40) << fit.id << " " << kind_name(fit.mapping) << "  alpha rms "
-                << digits(fit.roughness_error.rms) << "  " << fit.target.specular << " rms "
-                << digits(fit.specular_error.rms) << "\n";
+      std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << kind_name(fit.mapping)
+                << errors_text(fit, "held out") << "\n";
   }
   if (options.json) std::cout << list.dump(2) << "\n";
 }
@@ -67,19 +69,91 @@ std::string side_text(const remap::ModelSide& side) {
 }
 
 std::string figures_text(const remap::ErrorFigures& f) {
-  return "rms " + digits(f.rms) + ", 99 % " + digits(f.p99) + ", max " + digits(f.max);
+  return "rms " + error_text(f.rms) + ", 99 % " + error_text(f.p99) + ", max " + error_text(f.max);
 }
 
+// ` + c` or ` - c`, or the number itself at the front of a sum.
+std::string summand(double coefficient, bool first) {
+  if (first) return number_text(coefficient);
+  return (coefficient < 0.0 ? " - " : " + ") + number_text(std::fabs(coefficient));
+}
+
+std::string specular_power(std::size_t power) {
+  if (power == 0) return "";
+  return power == 1 ? " s" : " s^" + std::to_string(power);
+}
+
+std::string curve_text(const remap::AlphaCurve& curve) {
+  std::string text = curve.start == 0.0 ? "" : summand(curve.start, true);
+  const auto add = [&](double coefficient, const std::string& function) {
+    if (coefficient != 0.0) text += summand(coefficient, text.empty()) + " " + function;
+  };
+  add(curve.ramp, "phi(" + number_text(curve.ramp_rate) + ", a)");
+  add(curve.bump, "phi(" + number_text(curve.bump_rate) + ", a^2)");
+  add(curve.pole, "/ a");
+  return text.empty() ? "0" : text;
+}
+
+std::string inputs_text(std::size_t count) { return count == 1 ? "alpha" : "alpha and specular"; }
+
+// How a mapping is read, with a = alpha1, s = specular1.
 struct PrintMapping {
   void operator()(const remap::Parametric& form) const {
-    const auto& r = form.roughness;
-    std::cout << "  alpha2 = " << r[0] << " a + " << r[1] << " a^2 + " << r[2] << " a^3 + " << r[3]
-              << " a^4\n"
-              << "  specular2 = specular1 (" << form.start << " + " << form.ramp << " phi(" << form.ramp_rate
-              << ", a) + " << form.bump << " phi(" << form.bump_rate
-              << ", a^2)),  phi(c, x) = (1 - exp(-c x)) / c\n";
+    for (std::size_t j = 0; j < form.roughness.size(); ++j) {
+      std::cout << (j == 0 ? "  alpha2 = (" : "\n         + (");
+      for (std::size_t i = 0; i < form.roughness[j].size(); ++i)
+        std::cout << summand(form.roughness[j][i], i == 0) << " a"
+                  << (i == 0 ? "" : "^" + std::to_string(i + 1));
+      std::cout << ")" << specular_power(j);
+    }
+    std::cout << "\n";
+    for (std::size_t t = 0; t < form.specular.size(); ++t) {
+      const auto& [power, factor] = form.specular[t];
+      std::cout << (t == 0 ? "  specular2 = (" : "            + (") << curve_text(factor) << ")"
+                << specular_power(static_cast<std::size_t>(power)) << "\n";
+    }
+    std::cout << "  phi(c, x) = (1 - exp(-c x)) / c\n";
+  }
+  void operator()(const remap::Svr& svr) const {
+    print("alpha2", svr.alpha);
+    print("specular2", svr.specular);
+  }
+  void operator()(const remap::Mlp& mlp) const {
+    print("alpha2", mlp.alpha);
+    print("specular2", mlp.specular);
+  }
+
+ private:
+  static void print(const std::string& output, const remap::KernelExpansion& expansion) {
+    std::cout << "  " << output << ": " << expansion.count() << " Gaussians of "
+              << inputs_text(expansion.inputs.size()) << ", gamma " << number_text(expansion.gamma) << "\n";
+  }
+  static void print(const std::string& output, const remap::Network& network) {
+    std::cout << "  " << output << ": a network of " << inputs_text(network.inputs.size()) << ", layers";
+    for (const remap::Layer& layer : network.layers) std::cout << " " << layer.output_count();
+    std::cout << ", " << activation_name(network.activation) << "\n";
   }
 };
+
+void print_method(const remap::Fit& fit) {
+  if (!fit.method.empty()) std::cout << "Method\n";
+  for (const auto& [key, value] : fit.method) std::cout << "  " << key << ": " << value << "\n";
+  if (!fit.candidates.empty())
+    std::cout << "Compared with\n" << candidate_text(fit.candidates, fit.target.specular);
+}
+
+void print_errors(const remap::Fit& fit) {
+  if (fit.split.held_out_rows == 0) {
+    std::cout << "Errors unknown: no rows were held out\n";
+    return;
+  }
+  std::cout << "Error on " << fit.split.held_out_rows << " rows "
+            << (fit.split.trained_rows == 0 ? "(trained elsewhere)"
+                                            : "held out (" + std::to_string(fit.split.trained_rows) +
+                                                  " trained, seed " + std::to_string(fit.split.seed) + ")")
+            << "\n  alpha   " << figures_text(fit.roughness_error) << "\n  " << std::left << std::setw(8)
+            << fit.target.specular << figures_text(fit.specular_error) << "\n";
+}
 
 void show(const ListOptions& options) {
   const remap::Fit fit = find_fit(options.fit, options.fit_folder);
@@ -92,15 +166,13 @@ void show(const ListOptions& options) {
             << "  to      " << side_text(fit.target) << "\n"
             << "  covers  alpha " << range_text(fit.domain.alpha) << ", " << fit.source.specular << " "
             << range_text(fit.domain.specular) << "\n"
-            << "  kind    " << kind_name(fit.mapping) << ", by remapc " << fit.tool_version << "\n"
-            << "Error on " << fit.split.held_out_rows << " rows held out (" << fit.split.trained_rows
-            << " trained, seed " << fit.split.seed << ")\n"
-            << "  alpha   " << figures_text(fit.roughness_error) << "\n"
-            << "  " << std::left << std::setw(8) << fit.target.specular << figures_text(fit.specular_error)
-            << "\n"
-            << "Mapping\n";
+            << "  kind    " << kind_name(fit.mapping) << ", by remapc " << fit.tool_version << "\n";
+  print_errors(fit);
+  std::cout << "Mapping\n";
   std::visit(PrintMapping{}, fit.mapping);
-  std::cout << "Table " << fit.table.name << "\n  sha256 " << fit.table.sha256 << "\n";
+  print_method(fit);
+  std::cout << "Table " << fit.table.name << "\n";
+  if (!fit.table.sha256.empty()) std::cout << "  sha256 " << fit.table.sha256 << "\n";
   for (const auto& [key, value] : fit.table.comments) std::cout << "  " << key << ": " << value << "\n";
 }
 

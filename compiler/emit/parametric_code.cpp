@@ -1,47 +1,28 @@
-// The generated code of the parametric kind: a quartic for the width, a polynomial for the slope where one is
-// close enough to its exponentials, else the exponentials.
+// The parametric kind as it was fitted: polynomials for the width, exponentials for the specular.
+#include <algorithm>
 #include <cmath>
+#include <set>
 
-#include "emit/emit.hpp"
-#include "emit/slope_polynomial.hpp"
+#include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
-#include "model/interpreter.hpp"
-#include "number_text.hpp"
 
 namespace remapc {
 namespace {
 
-using remap::float_literal;
+using remap::AlphaCurve;
 using remap::Parametric;
 
-// Together with the rounding of a few float operations this stays within the 1e-6 that self_test() allows.
-constexpr double kSlopeTolerance = 2e-7;
-// Beyond this two exponentials are no dearer.
-constexpr int kMaxDegree = 14;
-// Below this rate * width the closed form of phi loses digits to cancellation and the series is used.
+// Below this product of rate and range an exponential is written as its series: 1 - exp(-x) would cancel.
 constexpr double kSeriesLimit = 0.5;
 
-std::string literal(double value) { return float_literal(static_cast<float>(value)); }
-
-// `((c3 * x + c2) * x + c1) * x + c0` as one statement a step: readable at any degree.
+// Horner form from the highest coefficient down: every product feeds one sum, so that a compiler that fuses,
+// fuses the same in every copy of the loop.
 std::string horner(const std::vector<double>& coefficients, const std::string& result,
                    const std::string& variable) {
   std::string text = "float " + result + " = " + literal(coefficients.back()) + ";\n";
   for (std::size_t i = coefficients.size() - 1; i-- > 0;)
     text += result + " = " + result + " * " + variable + " + " + literal(coefficients[i]) + ";\n";
   return text;
-}
-
-// The even and the odd powers as two chains of half the length (Estrin 1960, first step): a processor works
-// on both at once, where Horner's single chain would wait for itself.
-std::string even_odd(const std::vector<double>& coefficients, const std::string& variable) {
-  if (coefficients.size() <= 4) return horner(coefficients, "k", variable) + "return k;\n";
-  std::vector<double> even, odd;
-  for (std::size_t i = 0; i < coefficients.size(); ++i) (i % 2 == 0 ? even : odd).push_back(coefficients[i]);
-  const std::string square = variable + "_2";
-  return "const float " + square + " = " + variable + " * " + variable + ";\n" +
-         horner(even, "even", square) + horner(odd, "odd", square) + "return odd * " + variable +
-         " + even;\n";
 }
 
 constexpr std::string_view kExponential = R"(
@@ -61,32 +42,6 @@ inline float exp_of_minus(float x) noexcept {
 }
 )";
 
-// factor * phi(rate, x) as an expression, and the statements it needs. `largest`: of x on the domain.
-struct RiseTerm {
-  std::string statements;
-  std::string expression;
-};
-
-RiseTerm rise_term(const std::string& name, double factor, double rate, const std::string& x,
-                   double largest) {
-  if (rate * largest <= kSeriesLimit) {
-    // phi = x - rate x^2 / 2 + rate^2 x^3 / 6 - ...; eight terms leave 1e-8 of the first.
-    std::vector<double> coefficients = {0.0};
-    double coefficient = factor;
-    for (int i = 1; i <= 8; ++i) {
-      coefficients.push_back(coefficient);
-      coefficient *= -rate / (i + 1);
-    }
-    return {horner(coefficients, name, x), name};
-  }
-  // Past 87 an exponential is below the smallest float; rates are held there by scaling x at its largest.
-  const std::string argument = literal(rate) + " * " + x;
-  const std::string bounded = rate * largest <= 87.0 ? argument : "smaller(" + argument + ", 87.0f)";
-  return {
-      "const float " + name + " = " + literal(factor / rate) + " * (1.0f - exp_of_minus(" + bounded + "));\n",
-      name};
-}
-
 constexpr std::string_view kSmaller = R"(
 // The smaller of two numbers that are not negative: as integers, which every compiler vectorises.
 inline float smaller(float a, float b) noexcept {
@@ -95,59 +50,201 @@ inline float smaller(float a, float b) noexcept {
 }
 )";
 
-constexpr std::string_view kWidth = R"(
-// Target alpha, Horner form.
+// factor * phi(rate, x) as a sum's term, and the statements it needs. `largest`: of x on the domain.
+struct RiseTerm {
+  std::string statements;
+  std::string expression;  // with a leading " + ", or empty
+};
+
+RiseTerm rise_term(const std::string& name, double factor, double rate, const std::string& x,
+                   double largest) {
+  if (factor == 0.0) return {};
+  if (rate * largest <= kSeriesLimit) {
+    // phi = x - rate x^2 / 2 + rate^2 x^3 / 6 - ...; eight terms leave 1e-8 of the first.
+    std::vector<double> coefficients = {0.0};
+    double coefficient = factor;
+    for (int i = 1; i <= 8; ++i) {
+      coefficients.push_back(coefficient);
+      coefficient *= -rate / (i + 1);
+    }
+    return {horner(coefficients, name, x), " + " + name};
+  }
+  // Past 87 an exponential is below the smallest float; rates are held there by scaling x at its largest.
+  const std::string argument = literal(rate) + " * " + x;
+  const std::string bounded = rate * largest <= 87.0 ? argument : "smaller(" + argument + ", 87.0f)";
+  return {
+      "const float " + name + " = " + literal(factor / rate) + " * (1.0f - exp_of_minus(" + bounded + "));\n",
+      " + " + name};
+}
+
+std::string curve_code(const AlphaCurve& curve, const std::string& name, double largest) {
+  const RiseTerm ramp = rise_term(name + "_ramp", curve.ramp, curve.ramp_rate, "alpha", largest);
+  const RiseTerm bump = rise_term(name + "_bump", curve.bump, curve.bump_rate, "alpha_2", largest * largest);
+  const std::string pole = curve.pole == 0.0 ? "" : " + " + literal(curve.pole) + " / alpha";
+  return ramp.statements + bump.statements + "const float " + name + " = " + literal(curve.start) +
+         ramp.expression + bump.expression + pole + ";\n";
+}
+
+// Target alpha: rows of a polynomial in alpha, one a power of specular.
+std::string alpha_statements(const Parametric& form) {
+  std::string text;
+  for (std::size_t j = 0; j < form.roughness.size(); ++j) {
+    std::vector<double> row = form.roughness[j];
+    row.insert(row.begin(), 0.0);
+    text += horner(row, "r" + std::to_string(j), "alpha");
+  }
+  const std::size_t last = form.roughness.size() - 1;
+  text += "float sum = r" + std::to_string(last) + ";\n";
+  for (std::size_t j = last; j-- > 0;) text += "sum = sum * specular + r" + std::to_string(j) + ";\n";
+  return text;
+}
+
+constexpr std::string_view kCode = R"(
+inline float target_alpha(@parameters@) noexcept {
+  @alpha@
+  return sum;
+}
+
+// Factors of the powers of the source's specular, the same for all channels: one row of a block for each.
+struct Terms {
+  float alpha[kBlock], @rows@;
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  @independent@
+  for (std::size_t i = 0; i < size; ++i) {
+    @read_alpha@
+    @square@
+    @curves@
+    @store@
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, @specular@) noexcept {
+  @sum@
+  return sum;
+}
+)";
+
+constexpr std::string_view kProportionalCode = R"(
 inline float target_alpha(float alpha) noexcept {
-  return (((@a4@ * alpha + @a3@) * alpha + @a2@) * alpha + @a1@) * alpha;
+  @alpha@
+  return sum;
+}
+
+// The factor between the specular parameters.
+inline float specular_slope(@slope_parameter@) noexcept {
+  @square@
+  @curves@
+  return k1;
 }
 )";
 
-constexpr std::string_view kPolynomialSlope = R"(
-// k(alpha), the factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float u = alpha - @centre@;
-  @polynomial@
+std::set<int> powers_of(const Parametric& form) {
+  std::set<int> powers;
+  for (const remap::SpecularTerm& term : form.specular) powers.insert(term.power);
+  return powers;
 }
-)";
 
-constexpr std::string_view kExponentialSlope = R"(
-// k(alpha), the factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float alpha_2 = alpha * alpha;
-  @ramp@
-  @bump@
-  return @start@ + ramp + bump;
+// `k1` and so on, the factor of each power: terms of one power add up.
+std::string curves_code(const Parametric& form, double largest) {
+  std::string text;
+  for (const int power : powers_of(form)) {
+    const std::string name = "k" + std::to_string(power);
+    std::vector<std::string> parts;
+    for (const remap::SpecularTerm& term : form.specular) {
+      if (term.power != power) continue;
+      parts.push_back(name + static_cast<char>('a' + parts.size()));
+      text += curve_code(term.factor, parts.back(), largest);
+    }
+    text += "const float " + name + " = ";
+    for (const std::string& part : parts) text += (&part == &parts.front() ? "" : " + ") + part;
+    text += ";\n";
+  }
+  return text;
 }
-)";
+
+// The sum over the powers that there are, by Horner's rule.
+std::string sum_statements(const Parametric& form) {
+  const std::set<int> powers = powers_of(form);
+  const int last = *powers.rbegin();
+  std::string text = "float sum = terms.k" + std::to_string(last) + "[i];\n";
+  for (int power = last - 1; power >= 0; --power)
+    text += powers.count(power) != 0 ? "sum = sum * specular + terms.k" + std::to_string(power) + "[i];\n"
+                                     : "sum = sum * specular;\n";
+  return text;
+}
+
+constexpr double kUnit = 6e-8;  // above the unit roundoff of a float
+
+// What float arithmetic leaves of Horner's rule (Higham 2002, section 5.1), literals rounded too.
+double alpha_error(const Parametric& form, const remap::Domain& domain) {
+  double error = 0.0;
+  for (std::size_t j = 0; j < form.roughness.size(); ++j)
+    for (std::size_t i = 0; i < form.roughness[j].size(); ++i) {
+      const auto alpha_power = static_cast<double>(i + 1), specular_power = static_cast<double>(j);
+      error += kUnit * (2.0 * alpha_power + 2.0 * specular_power + 4.0) * std::fabs(form.roughness[j][i]) *
+               std::pow(domain.alpha.max, alpha_power) * std::pow(domain.specular.max, specular_power);
+    }
+  return error;
+}
+
+// The same for curves: a rise is a series of eight terms, or 1 less an exponential of 2e-7, that is, within
+// ten roundings of what it is at most; four more for the sum of a curve, four for every power of specular.
+double specular_error(const Parametric& form, const remap::Domain& domain) {
+  double error = 0.0;
+  for (const remap::SpecularTerm& term : form.specular) {
+    const AlphaCurve& curve = term.factor;
+    const auto risen = [](double factor, double rate, double largest) {
+      return std::fabs(factor) * (rate * largest <= kSeriesLimit ? 2.0 * largest : 1.0 / rate);
+    };
+    const double magnitude = std::fabs(curve.start) + risen(curve.ramp, curve.ramp_rate, domain.alpha.max) +
+                             risen(curve.bump, curve.bump_rate, domain.alpha.max * domain.alpha.max) +
+                             (curve.pole == 0.0 ? 0.0 : std::fabs(curve.pole) / domain.alpha.min);
+    error += kUnit * (14.0 + 4.0 * term.power) * magnitude * std::pow(domain.specular.max, term.power);
+  }
+  return error;
+}
 
 }  // namespace
 
-MappingCode mapping_code(const Parametric& form, const remap::Domain& domain) {
-  const auto& r = form.roughness;
-  std::string functions = fill_template(
-      kWidth, {{"a1", literal(r[0])}, {"a2", literal(r[1])}, {"a3", literal(r[2])}, {"a4", literal(r[3])}});
-  const double scale = std::fabs(remap::specular_slope(form, domain.alpha.min));
-  if (const auto polynomial =
-          approximate_slope(form, domain.alpha, kSlopeTolerance * std::fmax(1.0, scale), kMaxDegree)) {
-    functions += fill_template(kPolynomialSlope, {{"centre", literal(polynomial->centre)},
-                                                  {"polynomial", even_odd(polynomial->coefficients, "u")}});
-    const std::string degree = std::to_string(polynomial->coefficients.size() - 1);
-    return {"Slope k(alpha): the fit's exponentials as a polynomial of degree " + degree +
-                ", proven within " + remap::number_text(remap::rounded_up(polynomial->bound, 2)) +
-                " of them.",
-            functions};
+MappingCode exact_code(const Parametric& form, const remap::Domain& domain) {
+  MappingCode code;
+  const bool alone = form.roughness.size() == 1;
+  code.form = remap::is_proportional(form) && alone ? CodeForm::kProportional : CodeForm::kTerms;
+  code.description = "As fitted: polynomials and exponentials, by an exponential of its own (2e-7).";
+  const std::string curves = curves_code(form, domain.alpha.max);
+  std::string rows, store;
+  for (const int power : powers_of(form)) {
+    const std::string name = "k" + std::to_string(power);
+    rows += (rows.empty() ? "" : ", ") + name + "[kBlock]";
+    store += "terms." + name + "[i] = " + name + ";\n";
   }
-  const double largest = domain.alpha.max;
-  const RiseTerm ramp = rise_term("ramp", form.ramp, form.ramp_rate, "alpha", largest);
-  const RiseTerm bump = rise_term("bump", form.bump, form.bump_rate, "alpha_2", largest * largest);
-  const std::string slope =
-      fill_template(kExponentialSlope,
-                    {{"ramp", ramp.statements}, {"bump", bump.statements}, {"start", literal(form.start)}});
-  std::string helpers;
-  if (slope.find("smaller(") != std::string::npos) helpers += kSmaller;
-  if (slope.find("exp_of_minus(") != std::string::npos) helpers += kExponential;
-  return {"Slope k(alpha): the fit's exponentials, by an exponential of its own.",
-          helpers + functions + slope};
+  code.alpha_error = alpha_error(form, domain);
+  code.specular_error = specular_error(form, domain);
+  const std::string square =
+      curves.find("alpha_2") != std::string::npos ? "const float alpha_2 = alpha * alpha;" : "";
+  std::map<std::string, std::string> holes = {
+      {"alpha", alpha_statements(form)}, {"square", square}, {"curves", curves}};
+  // A factor may be constant.
+  const bool uses_alpha = curves.find("alpha") != std::string::npos;
+  if (code.form == CodeForm::kProportional) holes["slope_parameter"] = uses_alpha ? "float alpha" : "float";
+  if (code.form == CodeForm::kTerms) {
+    holes["specular"] = *powers_of(form).rbegin() > 0 ? "float specular" : "float";
+    holes["read_alpha"] = uses_alpha ? "const float alpha = terms.alpha[i];" : "";
+    holes["rows"] = rows;
+    holes["store"] = store;
+    holes["independent"] = std::string(kIndependentLoop);
+    holes["sum"] = sum_statements(form);
+    holes["parameters"] = alone ? "float alpha, float" : "float alpha, float specular";
+  }
+  const std::string body = fill_template(code.form == CodeForm::kTerms ? kCode : kProportionalCode, holes);
+  if (body.find("smaller(") != std::string::npos) code.functions += kSmaller;
+  if (body.find("exp_of_minus(") != std::string::npos) code.functions += kExponential;
+  code.functions += body;
+  return code;
 }
 
 }  // namespace remapc

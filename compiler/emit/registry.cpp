@@ -47,6 +47,20 @@ inline constexpr std::array<ConverterEntry, @count@> kConverters = {{
     @entries@
 }};
 
+// The same converters as types. Through a type a compiler sees what it calls, which no pointer of the table above lets
+// it: a program can compile all of them for another instruction set, as texremap does.
+namespace converters {
+
+@types@
+}  // namespace converters
+
+template <typename... Converters>
+struct ConverterList {};
+
+// In the order of kConverters.
+using ConverterTypes = ConverterList<
+    @names@>;
+
 }  // namespace remap
 
 #endif  // REMAP_GENERATED_REGISTRY_HPP
@@ -61,22 +75,38 @@ constexpr std::string_view kEntry =
  &@id@::evaluate_batch<1>, &@id@::evaluate_batch<3>, &@id@::self_test},
 )";
 
+constexpr std::string_view kType =
+    R"(struct @id@ {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::@id@::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+)";
+
 }  // namespace
 
 std::string emit_registry(std::vector<remap::Fit> fits) {
   std::sort(fits.begin(), fits.end(), [](const remap::Fit& a, const remap::Fit& b) { return a.id < b.id; });
-  std::string includes, entries;
+  std::string includes, entries, types, names;
   for (const remap::Fit& fit : fits) {
     includes += "#include \"" + fit.id + ".hpp\"\n";
     entries +=
         fill_template(kEntry, {{"id", fit.id},
                                {"roughness", std::string(remap::convention_name(fit.source.roughness))},
                                {"specular", fit.source.specular}});
+    types += fill_template(kType, {{"id", fit.id}});
+    names += (names.empty() ? "converters::" : ",\nconverters::") + fit.id;
   }
   return fill_template(kRegistry, {{"version", remap::kVersion},
                                    {"includes", includes},
                                    {"count", std::to_string(fits.size())},
-                                   {"entries", entries}});
+                                   {"entries", entries},
+                                   {"types", types},
+                                   {"names", names}});
 }
 
 }  // namespace remapc

@@ -6,7 +6,7 @@
 #include <openssl/evp.h>
 
 #include "error.hpp"
-#include "fit/parametric.hpp"
+#include "fit/comparison.hpp"
 #include "fit/split.hpp"
 #include "model/interpreter.hpp"
 #include "table/check.hpp"
@@ -18,16 +18,11 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-// The box that the usable rows cover. Specular starts at 0: every kind maps 0 to 0.
-remap::Domain covered_domain(const Table& table) {
-  remap::Domain domain{{1e300, -1e300}, {0.0, 0.0}};
-  for (const TableRow& row : table.rows) {
-    if (row.status != RowStatus::kOk) continue;
-    domain.alpha.min = std::min(domain.alpha.min, row.alpha1);
-    domain.alpha.max = std::max(domain.alpha.max, row.alpha1);
-    domain.specular.max = std::max(domain.specular.max, row.specular1);
-  }
-  return domain;
+std::vector<TableRow> usable_rows(const Table& table) {
+  std::vector<TableRow> rows;
+  for (const TableRow& row : table.rows)
+    if (row.status == RowStatus::kOk) rows.push_back(row);
+  return rows;
 }
 
 void require_models(const Table& table) {
@@ -72,7 +67,8 @@ RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows) {
   return {error_figures(std::move(alpha_errors)), error_figures(std::move(specular_errors))};
 }
 
-remap::Fit fit_table(const Table& table, std::string_view bytes, const FitOptions& options) {
+FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
+                      const FitProgress& progress) {
   require_models(table);
   require_fittable(table);
   remap::Fit fit;
@@ -82,18 +78,33 @@ remap::Fit fit_table(const Table& table, std::string_view bytes, const FitOption
                 "id: \"" + fit.id + "\"; expected a C++ identifier without leading or doubled underscore");
   fit.source = table.source;
   fit.target = table.target;
-  fit.domain = covered_domain(table);
-  const RowSplit split = split_rows(table, options.seed, options.held_out_fraction);
-  fit.mapping = fit_parametric(split.training, fit.domain.alpha);
-  fit.split = split.record;
-  const RowErrors errors = row_errors(fit, split.held_out);
-  fit.roughness_error = errors.alpha;
-  fit.specular_error = errors.specular;
+  fit.domain = covered_domain(usable_rows(table));
   fit.table.name = std::filesystem::path(table.name).filename().string();
   fit.table.sha256 = sha256(bytes);
   for (const auto& [key, value] : table.comments) fit.table.comments[key] = value;
   fit.tool_version = remap::kVersion;
-  return fit;
+
+  const RowSplit split = split_rows(table, options.regression.seed, options.held_out_fraction);
+  fit.split = split.record;
+  const auto fit_of = [&](const Regression& regression) {
+    remap::Fit one = fit;
+    one.mapping = regression.mapping;
+    one.method = regression.method;
+    const RowErrors errors = row_errors(one, split.held_out);
+    one.roughness_error = errors.alpha;
+    one.specular_error = errors.specular;
+    return one;
+  };
+  if (options.regressor)
+    return {fit_of(regress(*options.regressor, split.training, fit.domain, options.regression, progress)),
+            {}};
+  const Comparison comparison =
+      compare_regressions(split.training, fit.domain, {options.regression, 5, 2}, progress);
+  for (const Contender& contender : comparison.contenders) fit.candidates.push_back(contender.candidate);
+  FittedTable fitted{fit_of(comparison.contenders[comparison.chosen].regression), {}};
+  for (const Contender& contender : comparison.contenders)
+    if (contender.fitted) fitted.compared.push_back(fit_of(contender.regression));
+  return fitted;
 }
 
 }  // namespace remapc

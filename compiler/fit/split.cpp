@@ -1,6 +1,8 @@
 #include "fit/split.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -51,6 +53,15 @@ remap::ErrorFigures error_figures(std::vector<double> errors) {
   std::sort(errors.begin(), errors.end());
   const auto rank = static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(errors.size())));
   return {std::sqrt(sum / static_cast<double>(errors.size())), errors[rank - 1], errors.back()};
+}
+
+std::string error_text(double error) {
+  if (error == 0.0) return "0";
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), remap::rounded_up(error, 2),
+                                 std::chars_format::scientific, 1)
+                       .ptr;
+  return std::string(buffer.data(), end);
 }
 
 }  // namespace remapc

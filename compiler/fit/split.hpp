@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "model/fit.hpp"
@@ -21,5 +22,8 @@ RowSplit split_rows(const Table& table, std::uint64_t seed, double held_out_frac
 
 // Root mean square, 99th percentile (nearest rank) and largest of absolute values. Zeros for none.
 remap::ErrorFigures error_figures(std::vector<double> errors);
+
+// An error as people compare it: two significant digits, rounded away from 0, always as `7.2e-04`; `0` for 0.
+std::string error_text(double error);
 
 }  // namespace remapc

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <mutex>
-#include <thread>
 
 #include "error.hpp"
 #include "number_text.hpp"
+#include "parallel.hpp"
 #include "sweep/match.hpp"
 #include "sweep/photographer.hpp"
 #include "sweep/target_bank.hpp"
@@ -182,31 +181,6 @@ Table empty_table(const Renderer& renderer, const Setup& setup, const SpecularRe
   return table;
 }
 
-// Runs `work(i)` for each i on `jobs` threads; the first exception stops the rest and is thrown here.
-void run_parallel(std::size_t count, unsigned jobs, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto loop = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = count;
-      }
-    }
-  };
-  const std::size_t threads = jobs == 0 ? std::max(1u, std::thread::hardware_concurrency()) : jobs;
-  {
-    std::vector<std::jthread> pool;
-    for (std::size_t t = 1; t < std::min(threads, count); ++t) pool.emplace_back(loop);
-    loop();
-  }
-  if (failure) std::rethrow_exception(failure);
-}
-
 }  // namespace
 
 std::vector<SamplePoint> grid_samples(const Range& alphas, std::size_t alpha_count, const Range& speculars,
@@ -259,7 +233,7 @@ Table run_sweep(const Renderer& renderer, const SweepOptions& options, const Swe
   const std::vector<Block> blocks = blocks_of(options.samples);
   std::mutex mutex;
   std::size_t done = 0;
-  run_parallel(blocks.size(), execution.jobs, [&](std::size_t b) {
+  remap::run_parallel(blocks.size(), execution.jobs, [&](std::size_t b) {
     const Block& block = blocks[b];
     const bool known = std::all_of(block.samples.begin(), block.samples.end(),
                                    [&](std::size_t sample) { return journal.row(sample).has_value(); });

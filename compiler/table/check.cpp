@@ -140,8 +140,10 @@ class Linter {
       const double mean = sum / static_cast<double>(rows.size());
       if (mean <= previous)
         add(Severity::kError, "non-monotone", rows.front()->line,
-            "alpha2 falls from " + number_text(previous) + " at alpha1 " + number_text(previous_alpha) +
-                " to " + number_text(mean) + " at " + number_text(alpha) + "; expected a rising curve");
+            (mean < previous ? "alpha2 falls from " + number_text(previous)
+                             : "alpha2 stays at " + number_text(previous)) +
+                " between alpha1 " + number_text(previous_alpha) + " and " + number_text(alpha) +
+                (mean < previous ? ", to " + number_text(mean) : "") + "; expected a rising curve");
       previous = mean;
       previous_alpha = alpha;
     }

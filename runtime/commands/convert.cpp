@@ -41,6 +41,7 @@ struct ConvertOptions {
   std::string roughness_channel;
   std::string format;
   std::string type;
+  std::string instructions;
   int thread_count = 0;
   bool force = false;
   bool json = false;
@@ -59,20 +60,41 @@ void require_agreement(const std::string& option, const std::string& asked, cons
   throw Error(ErrorKind::kUsage, file + ": is a fit of " + found + "; expected " + asked + " of " + option);
 }
 
+void warn(const ConvertOptions& options, const std::string& message) {
+  if (!options.quiet) print_message(kProgram, "warning: " + message);
+}
+
+InstructionSet chosen_instructions(const ConvertOptions& options) {
+  if (options.instructions.empty()) return best_instruction_set();
+  return instruction_set_from_name("--instructions", options.instructions);
+}
+
+// A fit that cannot be lowered is still converted: as it is, slowly.
+std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, InstructionSet set) {
+  Fit fit = load_fit(options.fit);
+  require_agreement("--from", options.from, options.fit, fit.source.model);
+  require_agreement("--to", options.to, options.fit, fit.target.model);
+  try {
+    return make_lowered_converter(fit, set);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kNumeric) throw;
+    warn(options, options.fit + ": is evaluated by the interpreter, which is slow; " + error.what());
+  }
+  return make_interpreted_converter(std::move(fit));
+}
+
 ChosenConverter choose_converter(const ConvertOptions& options) {
   ChosenConverter chosen;
+  const InstructionSet set = chosen_instructions(options);
   if (!options.fit.empty()) {
-    chosen.owned = make_interpreted_converter(load_fit(options.fit));
+    chosen.owned = converter_of_fit(options, set);
     chosen.converter = chosen.owned.get();
-    const ConverterInfo& info = chosen.converter->info();
-    require_agreement("--from", options.from, options.fit, info.source.model);
-    require_agreement("--to", options.to, options.fit, info.target.model);
-    return chosen;
+  } else {
+    if (options.from.empty() || options.to.empty())
+      throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") +
+                                         ": is missing; expected --from and --to, or --fit");
+    chosen.converter = &find_converter(options.from, options.to, set);
   }
-  if (options.from.empty() || options.to.empty())
-    throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") +
-                                       ": is missing; expected --from and --to, or --fit");
-  chosen.converter = &find_converter(options.from, options.to);
   if (!chosen.converter->self_test())
     throw Error(ErrorKind::kNumeric,
                 chosen.converter->info().id + ": fails its self-test; expected the values it was made with");
@@ -110,10 +132,6 @@ TargetMaps open_targets(const OutputPaths& paths, const TextureSet& set, ImageCh
   changes.channels = set.specular_channel_count() == 1 ? std::vector<std::string>{"Y"}
                                                        : std::vector<std::string>{"R", "G", "B"};
   return {std::move(roughness), ImageWriter(paths.specular, set.roughness.reader, changes)};
-}
-
-void warn(const ConvertOptions& options, const std::string& message) {
-  if (!options.quiet) print_message(kProgram, "warning: " + message);
 }
 
 void warn_of_doubts(const ConvertOptions& options, const TextureSet& set, const TargetMaps& target) {
@@ -176,6 +194,7 @@ void print_json(const Outcome& outcome) {
                        {"infinite", counts.infinite_count},
                        {"negative", counts.negative_count},
                        {"clipped_values", counts.clipped_count},
+                       {"instructions", std::string(instruction_set_name(info.instructions))},
                        {"seconds", outcome.seconds}};
   // File names need not be UTF-8.
   std::cout << result.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
@@ -216,7 +235,7 @@ void add_convert_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("convert", "Convert a roughness map and a specular map");
   command->add_option("--from", options->from, "Source model, e.g. mitsuba/ward");
   command->add_option("--to", options->to, "Target model, e.g. mitsuba/as");
-  command->add_option("--fit", options->fit, "Evaluate this fit (JSON) instead of a compiled converter");
+  command->add_option("--fit", options->fit, "Lower this fit (JSON) instead of taking a compiled converter");
   command->add_option("--roughness", options->roughness, "Roughness map of the source model")->required();
   command
       ->add_option("--specular", options->specular,
@@ -230,6 +249,9 @@ void add_convert_command(CLI::App& app) {
   command->add_option("--type", options->type, "Pixel type of the results: uint8, uint16, half, float");
   command->add_option("--threads", options->thread_count, "Threads; 0, the default, is one a core")
       ->check(CLI::Range(0, 1024));
+  command->add_option("--instructions", options->instructions,
+                      "baseline, avx2 or avx512; the default is the widest of this processor. The results "
+                      "are the same");
   command->add_flag("--force", options->force, "Replace results that exist (never an input)");
   command->add_flag("--json", options->json, "Machine-readable result on standard output");
   command->add_flag("--quiet", options->quiet, "Nothing on standard error but failures");

@@ -36,6 +36,7 @@ Json converter_json(const Converter& converter) {
            {{"roughness", {info.roughness.min, info.roughness.max}},
             {"specular", {info.specular.min, info.specular.max}}}},
           {"rms_error", {{"roughness", info.roughness_rms_error}, {"specular", info.specular_rms_error}}},
+          {"instructions", std::string(instruction_set_name(info.instructions))},
           {"self_test", converter.self_test()}};
 }
 
@@ -53,7 +54,8 @@ void print_converter(const Converter& converter) {
             << info.target.specular << '\n'
             << "  error  rms " << number_text(info.roughness_rms_error) << " in alpha, "
             << number_text(info.specular_rms_error) << " in " << info.target.specular << '\n'
-            << "  test   " << (converter.self_test() ? "passed" : "FAILED") << '\n';
+            << "  test   " << (converter.self_test() ? "passed" : "FAILED") << " with "
+            << instruction_set_name(info.instructions) << " instructions\n";
 }
 
 void list(const ListOptions& options) {

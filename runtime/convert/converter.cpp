@@ -14,19 +14,10 @@ Range decimal(const Range& range) {
   return {decimal_value(static_cast<float>(range.min)), decimal_value(static_cast<float>(range.max))};
 }
 
-ConverterInfo info_of(const Fit& fit) {
-  return {fit.id,
-          fit.source,
-          fit.target,
-          decimal(own_roughness_range(fit)),
-          decimal(specular_range(fit)),
-          fit.roughness_error.rms,
-          fit.specular_error.rms};
-}
-
 class InterpretedConverter final : public Converter {
  public:
-  explicit InterpretedConverter(Fit fit) : Converter(info_of(fit)), fit_(std::move(fit)) {}
+  explicit InterpretedConverter(Fit fit)
+      : Converter(converter_info(fit, InstructionSet::kBaseline)), fit_(std::move(fit)) {}
 
   std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
                       float* roughness_out, std::span<float* const> specular_out) const override {
@@ -56,6 +47,17 @@ class InterpretedConverter final : public Converter {
 };
 
 }  // namespace
+
+ConverterInfo converter_info(const Fit& fit, InstructionSet instructions) {
+  return {fit.id,
+          fit.source,
+          fit.target,
+          decimal(own_roughness_range(fit)),
+          decimal(specular_range(fit)),
+          fit.roughness_error.rms,
+          fit.specular_error.rms,
+          instructions};
+}
 
 std::unique_ptr<Converter> make_interpreted_converter(Fit fit) {
   return std::make_unique<InterpretedConverter>(std::move(fit));

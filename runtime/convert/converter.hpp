@@ -1,5 +1,5 @@
 // A converter as the texture pass sees it: rows of planar floats in, rows of planar floats out. Behind it
-// stands a generated header or, for a fit that has not been compiled, the interpreter.
+// stands a generated header or, for a fit that has not been compiled, its polynomials or the interpreter.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "convert/instruction_set.hpp"
+#include "lower/lowered.hpp"
 #include "model/fit.hpp"
 
 namespace remap {
@@ -21,7 +23,11 @@ struct ConverterInfo {
   Range specular;   // covered range of the source's specular, linear
   double roughness_rms_error = 0.0;
   double specular_rms_error = 0.0;
+  InstructionSet instructions = InstructionSet::kBaseline;  // that it runs on; changes no bit of the results
 };
+
+// What a fit says of itself; ranges as short decimals.
+ConverterInfo converter_info(const Fit& fit, InstructionSet instructions);
 
 class Converter {
  public:
@@ -36,7 +42,8 @@ class Converter {
                               std::span<const float* const> specular, float* roughness_out,
                               std::span<float* const> specular_out) const = 0;
 
-  // Whether the converter still gives the values it was made with (golden vectors of the generated header).
+  // Whether the converter gives the values it was made with: those of the golden vectors of a generated
+  // header, and on every instruction set the bits of the baseline; those of the interpreter for polynomials.
   virtual bool self_test() const = 0;
 
  protected:
@@ -46,14 +53,25 @@ class Converter {
   ConverterInfo info_;
 };
 
-// A converter that evaluates `fit` by the interpreter, in double precision.
+// A converter that evaluates `fit` by the interpreter, in double precision: the oracle, and a hundred times
+// slower than the others.
 std::unique_ptr<Converter> make_interpreted_converter(Fit fit);
 
-// Every converter that was compiled into this program, in the order of their ids.
-const std::vector<std::unique_ptr<Converter>>& compiled_converters();
+// A converter that lowers `fit` to polynomials (lower/lower.hpp, tolerances of LoweringOptions) and evaluates
+// those in floats. Takes up to a second to make. Throws kNumeric where the
+// mapping cannot be lowered.
+std::unique_ptr<Converter> make_lowered_converter(Fit fit, InstructionSet set = best_instruction_set());
+// The same, `lowered` being what lower() made of the fit.
+std::unique_ptr<Converter> make_lowered_converter(Fit fit, const Lowered& lowered, InstructionSet set);
+
+// Every converter that was compiled into this program, in the order of their ids, for an instruction set that
+// this processor has.
+const std::vector<std::unique_ptr<Converter>>& compiled_converters(
+    InstructionSet set = best_instruction_set());
 
 // The compiled converter from one model to another. Throws kUsage with the nearest known model where a name
 // is unknown, and with the targets that can be reached where only the pair is.
-const Converter& find_converter(const std::string& source_model, const std::string& target_model);
+const Converter& find_converter(const std::string& source_model, const std::string& target_model,
+                                InstructionSet set = best_instruction_set());
 
 }  // namespace remap

@@ -41,13 +41,6 @@ std::string identifier(const std::string& model) {
 
 }  // namespace
 
-std::string kind_name(const MappingKind& mapping) {
-  struct Name {
-    std::string operator()(const Parametric&) const { return "parametric"; }
-  };
-  return std::visit(Name{}, mapping);
-}
-
 std::string converter_id(const std::string& source_model, const std::string& target_model) {
   return identifier(source_model) + "_to_" + identifier(target_model);
 }

@@ -2,13 +2,13 @@
 // Written by remapc, stored as JSON (fit_json.hpp), evaluated by the interpreter, compiled by the emitter.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
-#include <variant>
+#include <vector>
 
 #include "model/convention.hpp"
+#include "model/mapping.hpp"
 
 namespace remap {
 
@@ -33,28 +33,6 @@ struct Domain {
   Range specular;  // of the source, linear, any channel
   bool operator==(const Domain&) const = default;
 };
-
-// Kind `parametric` (Sztrajman et al. 2019, section 7): alpha2 = sum of roughness[i] alpha^(i+1), and
-// specular2 = k(alpha) specular1 with
-//   k(alpha) = start + ramp phi(ramp_rate, alpha) + bump phi(bump_rate, alpha^2),
-//   phi(rate, x) = (1 - exp(-rate x)) / rate, which is x where the rate is 0.
-//
-// This is the paper's c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) with c1 = -ramp / ramp_rate, c2 =
-// ramp_rate, c3 = -bump / bump_rate, c4 = bump_rate, c0 = start - c1 - c3, written so that slow exponentials
-// (c2 -> 0, where the published coefficients reach -512.13 + 512.75 exp(-0.00057 alpha)) stay a sum of
-// numbers of order one.
-struct Parametric {
-  std::array<double, 4> roughness{};
-  double start = 0.0;  // k at alpha = 0
-  double ramp = 0.0;
-  double ramp_rate = 0.0;  // >= 0
-  double bump = 0.0;
-  double bump_rate = 0.0;  // >= 0
-  bool operator==(const Parametric&) const = default;
-};
-
-// The mapping itself. A new kind is a new alternative here; std::visit makes every consumer handle it.
-using MappingKind = std::variant<Parametric>;
 
 // Absolute errors of one output over the held-out rows.
 struct ErrorFigures {
@@ -84,22 +62,37 @@ struct TableRecord {
   bool operator==(const TableRecord&) const = default;
 };
 
+// One line of the comparison that `--model auto` decided from (compiler/fit/comparison.hpp).
+struct Candidate {
+  std::string name;                   // kind, or named form of it
+  std::size_t number_count = 0;       // numbers that it consists of: its simplicity
+  ErrorFigures alpha, specular;       // of cross-validation, all folds
+  double alpha_standard_error = 0.0;  // of alpha.rms over the folds
+  double specular_standard_error = 0.0;
+  double edge_alpha_rms = 0.0;  // on the outermost rows, fitted without them, with the domain rule
+  double edge_specular_rms = 0.0;
+  double raw_edge_alpha_rms = 0.0;  // the same without the domain rule
+  double raw_edge_specular_rms = 0.0;
+  double chroma_shift = 0.0;  // largest change of chromaticity beyond the domain, without the domain rule
+  std::string verdict;        // `chosen`, or why it was not
+  bool operator==(const Candidate&) const = default;
+};
+
 struct Fit {
   std::string id;  // `<source>_to_<target>`, a C++ identifier
   ModelSide source;
   ModelSide target;
   Domain domain;
   MappingKind mapping;
-  ErrorFigures roughness_error;  // of the target's alpha
-  ErrorFigures specular_error;   // of the target's specular
+  std::map<std::string, std::string> method;  // how it was regressed: hyper-parameters, search, starts
+  std::vector<Candidate> candidates;          // what `auto` chose from; empty otherwise
+  ErrorFigures roughness_error;               // of the target's alpha
+  ErrorFigures specular_error;                // of the target's specular
   Split split;
   TableRecord table;
   std::string tool_version;
   bool operator==(const Fit&) const = default;
 };
-
-// The word for the kind in JSON and on model cards.
-std::string kind_name(const MappingKind& mapping);
 
 // `mitsuba/ward` and `mitsuba/as` to `mitsuba_ward_to_mitsuba_as`: every character that an identifier cannot
 // hold becomes an underscore.

@@ -13,6 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::int64_t kLargestPower = 4;  // of specular, in a parametric form
+
 double finite(double value) {
   if (!std::isfinite(value))
     throw Error(ErrorKind::kNumeric, "fit: a number is not finite; a fit file holds finite numbers only");
@@ -31,16 +33,67 @@ Json to_json(const ErrorFigures& figures) {
   return {{"rms", finite(figures.rms)}, {"p99", finite(figures.p99)}, {"max", finite(figures.max)}};
 }
 
+Json to_json(const std::vector<double>& numbers) {
+  Json list = Json::array();
+  for (const double number : numbers) list.push_back(finite(number));
+  return list;
+}
+
 Json to_json(const Parametric& form) {
-  Json roughness = Json::array();
-  for (const double coefficient : form.roughness) roughness.push_back(finite(coefficient));
-  return {{"roughness", roughness},
-          {"slope",
-           {{"start", finite(form.start)},
-            {"ramp", finite(form.ramp)},
-            {"ramp_rate", finite(form.ramp_rate)},
-            {"bump", finite(form.bump)},
-            {"bump_rate", finite(form.bump_rate)}}}};
+  Json roughness = Json::array(), specular = Json::array();
+  for (const auto& row : form.roughness) roughness.push_back(to_json(row));
+  for (const auto& [power, curve] : form.specular)
+    specular.push_back({{"power", power},
+                        {"start", finite(curve.start)},
+                        {"ramp", finite(curve.ramp)},
+                        {"ramp_rate", finite(curve.ramp_rate)},
+                        {"bump", finite(curve.bump)},
+                        {"bump_rate", finite(curve.bump_rate)},
+                        {"pole", finite(curve.pole)}});
+  return {{"roughness", roughness}, {"specular", specular}};
+}
+
+Json to_json(const std::vector<Scaling>& scalings) {
+  Json list = Json::array();
+  for (const auto& [offset, scale, pole] : scalings)
+    list.push_back({{"offset", finite(offset)}, {"scale", finite(scale)}, {"pole", finite(pole)}});
+  return list;
+}
+
+Json to_json(const KernelExpansion& expansion) {
+  return {{"inputs", to_json(expansion.inputs)},   {"output", to_json(std::vector{expansion.output})[0]},
+          {"gamma", finite(expansion.gamma)},      {"bias", finite(expansion.bias)},
+          {"vectors", to_json(expansion.vectors)}, {"weights", to_json(expansion.weights)}};
+}
+
+Json to_json(const Network& network) {
+  Json layers = Json::array();
+  for (const Layer& layer : network.layers)
+    layers.push_back({{"weights", to_json(layer.weights)}, {"biases", to_json(layer.biases)}});
+  return {{"activation", std::string(activation_name(network.activation))},
+          {"inputs", to_json(network.inputs)},
+          {"outputs", to_json(network.outputs)},
+          {"layers", layers}};
+}
+
+template <typename Regressors>  // Svr or Mlp
+Json to_json(const Regressors& kind) {
+  return {{"alpha", to_json(kind.alpha)}, {"specular", to_json(kind.specular)}};
+}
+
+Json to_json(const Candidate& candidate) {
+  return {{"name", candidate.name},
+          {"number_count", candidate.number_count},
+          {"alpha", to_json(candidate.alpha)},
+          {"alpha_standard_error", finite(candidate.alpha_standard_error)},
+          {"specular", to_json(candidate.specular)},
+          {"specular_standard_error", finite(candidate.specular_standard_error)},
+          {"edge_alpha_rms", finite(candidate.edge_alpha_rms)},
+          {"edge_specular_rms", finite(candidate.edge_specular_rms)},
+          {"raw_edge_alpha_rms", finite(candidate.raw_edge_alpha_rms)},
+          {"raw_edge_specular_rms", finite(candidate.raw_edge_specular_rms)},
+          {"chroma_shift", finite(candidate.chroma_shift)},
+          {"verdict", candidate.verdict}};
 }
 
 // A JSON value with the place it came from, so that every complaint says where.
@@ -57,6 +110,17 @@ class Field {
   Field at(std::size_t index, std::size_t count) const {
     require(value_.is_array() && value_.size() == count, "a list of " + std::to_string(count));
     return Field(value_[index], place_ + "[" + std::to_string(index) + "]");
+  }
+  // Every entry of a list of at least `fewest`.
+  template <typename Read>
+  auto list(std::size_t fewest, Read read) const {
+    require(value_.is_array() && value_.size() >= fewest, "a list of at least " + std::to_string(fewest));
+    std::vector<decltype(read(*this))> entries;
+    for (std::size_t i = 0; i < value_.size(); ++i) entries.push_back(read(at(i, value_.size())));
+    return entries;
+  }
+  std::vector<double> numbers(std::size_t fewest) const {
+    return list(fewest, [](const Field& entry) { return entry.number(); });
   }
   std::string text() const {
     require(value_.is_string(), "a text");
@@ -119,26 +183,115 @@ ErrorFigures read_figures(const Field& field) {
   return {field["rms"].number(), field["p99"].number(), field["max"].number()};
 }
 
+double read_rate(const Field& field) {
+  field.require(field.number() >= 0.0, "a rate from 0");
+  return field.number();
+}
+
+SpecularTerm read_term(const Field& field) {
+  const std::int64_t power = field["power"].count();
+  field["power"].require(power <= kLargestPower, "a power from 0 to " + std::to_string(kLargestPower));
+  return {static_cast<int>(power),
+          {field["start"].number(), field["ramp"].number(), read_rate(field["ramp_rate"]),
+           field["bump"].number(), read_rate(field["bump_rate"]), field["pole"].number()}};
+}
+
 Parametric read_parametric(const Field& field) {
   Parametric form;
-  const Field roughness = field["roughness"];
-  for (std::size_t i = 0; i < form.roughness.size(); ++i)
-    form.roughness[i] = roughness.at(i, form.roughness.size()).number();
-  const Field slope = field["slope"];
-  form.start = slope["start"].number();
-  form.ramp = slope["ramp"].number();
-  form.ramp_rate = slope["ramp_rate"].number();
-  form.bump = slope["bump"].number();
-  form.bump_rate = slope["bump_rate"].number();
-  slope["ramp_rate"].require(form.ramp_rate >= 0.0, "a rate from 0");
-  slope["bump_rate"].require(form.bump_rate >= 0.0, "a rate from 0");
+  form.roughness = field["roughness"].list(1, [](const Field& row) { return row.numbers(1); });
+  form.specular = field["specular"].list(1, read_term);
+  const auto falls = [](const SpecularTerm& a, const SpecularTerm& b) { return a.power > b.power; };
+  const bool ordered =
+      std::adjacent_find(form.specular.begin(), form.specular.end(), falls) == form.specular.end();
+  field["specular"].require(ordered, "terms whose powers do not fall");
   return form;
+}
+
+Scaling read_scaling(const Field& field) {
+  field["scale"].require(field["scale"].number() != 0.0, "a scale that is not 0");
+  field["pole"].require(field["pole"].number() >= 0.0, "a pole from 0");
+  return {field["offset"].number(), field["scale"].number(), field["pole"].number()};
+}
+
+Scaling read_output(const Field& field) {
+  const Scaling scaling = read_scaling(field);
+  field["pole"].require(scaling.pole == 0.0, "0 for an output");
+  return scaling;
+}
+
+// Inputs of a regressor over one texel: alpha, or alpha and specular.
+std::vector<Scaling> read_inputs(const Field& field) {
+  const auto inputs = field.list(1, read_scaling);
+  field.require(inputs.size() <= 2, "one input (alpha) or two (alpha, specular)");
+  return inputs;
+}
+
+KernelExpansion read_expansion(const Field& field) {
+  KernelExpansion expansion;
+  expansion.inputs = read_inputs(field["inputs"]);
+  expansion.output = read_output(field["output"]);
+  expansion.gamma = field["gamma"].number();
+  field["gamma"].require(expansion.gamma > 0.0, "a gamma above 0");
+  expansion.bias = field["bias"].number();
+  expansion.weights = field["weights"].numbers(0);
+  expansion.vectors = field["vectors"].numbers(0);
+  field["vectors"].require(expansion.vectors.size() == expansion.weights.size() * expansion.inputs.size(),
+                           "a number for each weight and input");
+  return expansion;
+}
+
+Layer read_layer(const Field& field, std::size_t input_count) {
+  Layer layer{input_count, field["weights"].numbers(1), field["biases"].numbers(1)};
+  field["weights"].require(layer.weights.size() == layer.biases.size() * input_count,
+                           "a number for each bias and each of " + std::to_string(input_count) + " inputs");
+  return layer;
+}
+
+Network read_network(const Field& field) {
+  Network network;
+  const auto activation = activation_from_name(field["activation"].text());
+  field["activation"].require(activation.has_value(), "relu, tanh or silu");
+  network.activation = *activation;
+  network.inputs = read_inputs(field["inputs"]);
+  network.outputs = field["outputs"].list(1, read_output);
+  field["outputs"].require(network.outputs.size() == 1, "one output");
+  std::size_t width = network.inputs.size();
+  network.layers = field["layers"].list(1, [&](const Field& entry) {
+    const Layer layer = read_layer(entry, width);
+    width = layer.output_count();
+    return layer;
+  });
+  field["layers"].require(width == 1, "a last layer of one output");
+  return network;
 }
 
 MappingKind read_mapping(const Field& field) {
   const std::string kind = field["kind"].text();
-  field["kind"].require(kind == "parametric", "parametric (this version knows no other kind)");
-  return read_parametric(field);
+  if (kind == "parametric") return read_parametric(field);
+  if (kind == "svr") return Svr{read_expansion(field["alpha"]), read_expansion(field["specular"])};
+  if (kind == "mlp") {
+    const Mlp mlp{read_network(field["alpha"]), read_network(field["specular"])};
+    field["specular"]["activation"].require(mlp.alpha.activation == mlp.specular.activation,
+                                            "the activation of the other network");
+    return mlp;
+  }
+  field["kind"].require(false, "parametric, svr or mlp");
+  return {};
+}
+
+Candidate read_candidate(const Field& field) {
+  return {field["name"].text(),
+          static_cast<std::size_t>(field["number_count"].count()),
+          read_figures(field["alpha"]),
+          read_figures(field["specular"]),
+          field["alpha_standard_error"].number(),
+          field["specular_standard_error"].number(),
+          field["edge_alpha_rms"].number(),
+          field["edge_specular_rms"].number(),
+          field["raw_edge_alpha_rms"].number(),
+          field["raw_edge_specular_rms"].number(),
+          field["chroma_shift"].number(),
+          field["verdict"].text()};
 }
 
 Split read_split(const Field& field) {
@@ -157,6 +310,8 @@ Split read_split(const Field& field) {
 std::string fit_to_json(const Fit& fit) {
   Json mapping = {{"kind", kind_name(fit.mapping)}};
   mapping.update(std::visit([](const auto& form) { return to_json(form); }, fit.mapping));
+  Json candidates = Json::array();
+  for (const Candidate& candidate : fit.candidates) candidates.push_back(to_json(candidate));
   const Json json = {
       {"format", "remap-fit"},
       {"version", kFitFormatVersion},
@@ -165,6 +320,8 @@ std::string fit_to_json(const Fit& fit) {
       {"target", to_json(fit.target)},
       {"domain", {{"alpha", to_json(fit.domain.alpha)}, {"specular", to_json(fit.domain.specular)}}},
       {"mapping", mapping},
+      {"method", fit.method},
+      {"candidates", candidates},
       {"error_on_held_out_rows",
        {{"alpha", to_json(fit.roughness_error)}, {"specular", to_json(fit.specular_error)}}},
       {"split",
@@ -200,9 +357,10 @@ Fit fit_from_json(std::string_view text, const std::string& place) {
   fit.target = read_side(root["target"]);
   fit.domain = {read_range(root["domain"]["alpha"]), read_range(root["domain"]["specular"])};
   root["domain"]["alpha"].require(fit.domain.alpha.min > 0.0, "an alpha above 0");
-  root["domain"]["specular"].require(fit.domain.specular.min == 0.0,
-                                     "a range from 0: every mapping takes 0 to 0");
+  root["domain"]["specular"].require(fit.domain.specular.min == 0.0, "a range from 0");
   fit.mapping = read_mapping(root["mapping"]);
+  fit.method = root["method"].dictionary<std::string>([](const Field& entry) { return entry.text(); });
+  fit.candidates = root["candidates"].list(0, read_candidate);
   fit.roughness_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
   fit.specular_error = read_figures(root["error_on_held_out_rows"]["specular"]);
   fit.split = read_split(root["split"]);

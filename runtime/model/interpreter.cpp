@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "model/evaluate.hpp"
+
 namespace remap {
 namespace {
-
-// phi of the Parametric kind.
-double rise(double rate, double x) { return rate == 0.0 ? x : -std::expm1(-rate * x) / rate; }
 
 Range rounded_to_float(const Range& range) {
   return {static_cast<double>(static_cast<float>(range.min)),
@@ -17,32 +16,12 @@ Range rounded_to_float(const Range& range) {
 
 }  // namespace
 
-double specular_slope(const Parametric& form, double alpha) {
-  return form.start + form.ramp * rise(form.ramp_rate, alpha) +
-         form.bump * rise(form.bump_rate, alpha * alpha);
-}
-
 MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double specular) {
-  struct Evaluate {
-    double alpha, specular;
-    MappedTexel operator()(const Parametric& form) const {
-      const auto& r = form.roughness;
-      const double alpha_out = (((r[3] * alpha + r[2]) * alpha + r[1]) * alpha + r[0]) * alpha;
-      return {alpha_out, specular_slope(form, alpha) * specular};
-    }
-  };
-  return std::visit(Evaluate{alpha, specular}, mapping);
-}
-
-double roughness_derivative(const MappingKind& mapping, double alpha) {
-  struct Derivative {
-    double alpha;
-    double operator()(const Parametric& form) const {
-      const auto& r = form.roughness;
-      return ((4.0 * r[3] * alpha + 3.0 * r[2]) * alpha + 2.0 * r[1]) * alpha + r[0];
-    }
-  };
-  return std::visit(Derivative{alpha}, mapping);
+  return std::visit(
+      [&](const auto& kind) {
+        return MappedTexel{target_alpha(kind, alpha, specular), target_specular(kind, alpha, specular)};
+      },
+      mapping);
 }
 
 Range own_roughness_range(const Fit& fit) {
@@ -55,26 +34,30 @@ Range specular_range(const Fit& fit) { return rounded_to_float(fit.domain.specul
 
 double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
                       std::span<double> specular_out, bool* in_domain) {
-  const Range own = own_roughness_range(fit);
-  const Range covered = specular_range(fit);
+  const Range own = own_roughness_range(fit), covered = specular_range(fit);
   bool inside = own.contains(roughness);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const bool defined = !std::isnan(roughness);
-  const double alpha =
-      to_alpha(fit.source.roughness, defined ? std::clamp(roughness, own.min, own.max) : own.min);
-
-  double largest = 0.0;  // NaN channels take no part in the scale
+  double largest = 0.0;  // channels that are not finite take no part in the scale
   for (const double value : specular) {
     inside = inside && covered.contains(value);
-    if (std::isfinite(value)) largest = std::max(largest, std::fabs(value));
-  }
-  const double scale = largest > covered.max ? largest / covered.max : 1.0;
-  for (std::size_t c = 0; c < specular.size(); ++c) {
-    const double mapped = scale * evaluate_mapping(fit.mapping, alpha, specular[c] / scale).specular;
-    specular_out[c] = defined ? mapped : nan;
+    if (std::isfinite(value)) largest = std::max(largest, value);
   }
   if (in_domain != nullptr) *in_domain = inside;
-  return defined ? from_alpha(fit.target.roughness, evaluate_mapping(fit.mapping, alpha, 0.0).alpha) : nan;
+  if (std::isnan(roughness)) {
+    std::fill(specular_out.begin(), specular_out.end(), std::numeric_limits<double>::quiet_NaN());
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const double alpha = to_alpha(fit.source.roughness, std::clamp(roughness, own.min, own.max));
+  const double scale = std::max(1.0, largest / covered.max);
+  const auto evaluate = [&](const auto& kind) {
+    for (std::size_t c = 0; c < specular.size(); ++c) {
+      const bool passes = std::isnan(specular[c]) || specular[c] == std::numeric_limits<double>::infinity();
+      specular_out[c] =
+          passes ? specular[c]
+                 : scale * std::max(target_specular(kind, alpha, std::max(specular[c], 0.0) / scale), 0.0);
+    }
+    return from_alpha(fit.target.roughness, target_alpha(kind, alpha, largest / scale));
+  };
+  return std::visit(evaluate, fit.mapping);
 }
 
 }  // namespace remap

@@ -15,18 +15,14 @@ struct MappedTexel {
 };
 MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double specular);
 
-// k(alpha) of the parametric kind: the factor between the specular parameters.
-double specular_slope(const Parametric& form, double alpha);
-
-// The derivative of the target's alpha by the source's alpha at `alpha`.
-double roughness_derivative(const MappingKind& mapping, double alpha);
-
 // One texel with the domain rule, in the models' own parameters.
 // `roughness`: source's own width parameter. `specular`: one linear value a channel; `specular_out`: as many.
 // Returns the target's own width parameter. Rule (see fit.hpp, Domain): the width is clamped to the covered
-// range; where a channel is beyond the covered specular range all channels are evaluated at the scale that
-// brings the largest to the edge, and scaled back, so that chroma is kept. NaN in the width makes every
-// output NaN; NaN in a channel makes that channel NaN. `in_domain`, if given, tells whether any of that was
+// range; specular below 0 is held at 0; where a channel is beyond the covered specular range all channels are
+// evaluated at the scale that brings the largest to the edge, and scaled back, so that chroma is kept. Target
+// specular below 0 is held at 0: where a target's Fresnel outshines a dark source, the best is black. Target
+// alpha is that of the largest channel. NaN in the width makes every output NaN; a channel that is NaN or
+// infinite stays so, and the others do not see it. `in_domain`, if given, tells whether any of that was
 // needed.
 double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
                       std::span<double> specular_out, bool* in_domain = nullptr);

@@ -1,20 +1,21 @@
-// One build of the pass; PASS_NAME and the flags come from CMake. The header's functions are inline: a
-// namespace of its own keeps the linker from merging the builds.
-#include "bench/pass.hpp"
-
+// One build of the pass of one header; BENCH_NAME, BENCH_HEADER and the flags come from CMake. The header's
+// functions are inline: a namespace of its own keeps the linker from merging the builds.
 #include <cstdint>
 #include <cstring>
 
-#define remap PASS_NAMESPACE
-#include "mitsuba_ward_to_mitsuba_as.hpp"
+#include "bench/builds.hpp"
+
+#define BENCH_TEXT(name) #name
+#define BENCH_FILE(name) BENCH_TEXT(name.hpp)
+#define remap BENCH_NAMESPACE
+#include BENCH_FILE(BENCH_HEADER)
 #undef remap
 
 namespace remap_bench {
 
-std::size_t PASS_NAME(std::size_t count, const float* width, const std::array<const float*, 3>& specular,
-                      float* width_out, const std::array<float*, 3>& specular_out) {
-  return PASS_NAMESPACE::mitsuba_ward_to_mitsuba_as::evaluate_batch<3>(count, width, specular, width_out,
-                                                                       specular_out);
+std::size_t BENCH_NAME(std::size_t count, const float* width, const std::array<const float*, 3>& specular,
+                       float* width_out, const std::array<float*, 3>& specular_out) {
+  return BENCH_NAMESPACE::BENCH_HEADER::evaluate_batch<3>(count, width, specular, width_out, specular_out);
 }
 
 }  // namespace remap_bench

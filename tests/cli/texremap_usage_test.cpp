@@ -128,7 +128,9 @@ TEST_CASE("texremap: a roughness map that is not grey needs a channel") {
                   out = read_image(session.path("out/colour.exr"));
   CHECK(out.at(3, 4, 0) == in.at(3, 4, 0));
   CHECK(out.at(3, 4, 2) == in.at(3, 4, 2));
-  CHECK(out.at(3, 4, 1) == as_stored(converted_texel(in.at(3, 4, 1), {})[0], OIIO::TypeHalf));
+  CHECK(out.at(3, 4, 1) ==
+        as_stored(converted_texel(in.at(3, 4, 1), {in.at(3, 4, 0), in.at(3, 4, 1), in.at(3, 4, 2)})[0],
+                  OIIO::TypeHalf));
 }
 
 TEST_CASE("texremap: an output folder that cannot be is refused") {
@@ -230,7 +232,7 @@ TEST_CASE("texremap: --fit evaluates that fit, and its models must agree") {
   REQUIRE(session.texremap(words).exit_code == 0);
   const TestImage in = read_image(session.path("r.exr")), out = read_image(session.path("out/r.exr"));
   CHECK(out.spec.get_string_attribute("remap:converter") == fit.id);
-  const auto converter = make_interpreted_converter(fit);
+  const auto converter = make_lowered_converter(fit);
   for (int x = 0; x < 64; ++x) {
     const float roughness = in.at(x, 1, 0), specular = 0.0f;
     float expected = 0.0f, ignored = 0.0f;
@@ -242,4 +244,43 @@ TEST_CASE("texremap: --fit evaluates that fit, and its models must agree") {
   std::vector<std::string> disagreeing = words;
   disagreeing.insert(disagreeing.end(), {"--force", "--from", "mitsuba/ward"});
   check_failure(session.texremap(disagreeing), 2, "is a fit of example/a; expected mitsuba/ward of --from");
+}
+
+TEST_CASE("texremap: --fit that cannot be lowered is interpreted, with a warning") {
+  const Session session;
+  session.write_pair("exr", 16);
+  Fit fit = example_fit();
+  const KernelExpansion spikes{{{0.0, 1.0, 0.0}}, {0.0, 1.0, 0.0}, 1e6, 0.5, {0.2, 0.7}, {0.1, -0.1}};
+  fit.mapping = Svr{spikes, spikes};
+  write_file(session.path("fit.json"), fit_to_json(fit));
+  const ProcessResult result =
+      session.texremap({"convert", "--fit", session.path("fit.json"), "--roughness", session.path("r.exr"),
+                        "--specular", session.path("s.exr"), "-o", session.path("out")});
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.errors,
+             Contains("warning: ") && Contains("interpreter, which is slow; lower: target alpha"));
+  CHECK(session.result_count() == 2);
+}
+
+TEST_CASE("texremap: every instruction set writes the same files") {
+  const Session session;
+  session.write_pair("exr");
+  std::vector<std::string> written;
+  for (const InstructionSet set : instruction_sets()) {
+    const std::string name(instruction_set_name(set));
+    const ProcessResult result =
+        session.convert("r.exr", "s.exr", {"--instructions", name, "--force", "--json"});
+    REQUIRE(result.exit_code == 0);
+    CHECK(nlohmann::json::parse(result.output)["instructions"] == name);
+    written.push_back(read_file(session.path("out/r.exr")) + read_file(session.path("out/s.exr")));
+    CHECK(written.back() == written.front());
+  }
+}
+
+TEST_CASE("texremap: an instruction set that there is not is answered with the nearest") {
+  const Session session;
+  session.write_pair("exr", 16);
+  check_failure(session.convert("r.exr", "s.exr", {"--instructions", "axv2"}), 2,
+                "--instructions: is axv2; did you mean avx2?");
+  CHECK(session.file_count() == 0);
 }

@@ -17,12 +17,40 @@ Fit sample_fit() {
   fit.source = {"a/b", RoughnessConvention::kAlpha, "specular"};
   fit.target = {"c/d", RoughnessConvention::kExponent, "f0"};
   fit.domain = {{1.0 / 3.0 * 0.1, 0.99}, {0.0, 0.7}};
-  fit.mapping = Parametric{{1.0 / 3.0, -0.1, 1e-17, 0.25}, 1.1, -0.5, 0.0, 1.0 / 7.0, 3.0};
+  fit.mapping =
+      Parametric{{{1.0 / 3.0, -0.1, 1e-17, 0.25}, {0.5}},
+                 {{0, {0.1, 0.0, 0.0, 0.0, 0.0, 1e-3}}, {1, {1.1, -0.5, 0.0, 1.0 / 7.0, 3.0, 0.0}}}};
+  fit.method = {{"form", "paper"}, {"starts", "4"}};
+  Candidate candidate;
+  candidate.name = "svr";
+  candidate.number_count = 33;
+  candidate.alpha = {1e-3, 2e-3, 1.0 / 7.0};
+  candidate.chroma_shift = 0.01;
+  candidate.verdict = "no better, and more numbers";
+  fit.candidates = {candidate};
   fit.roughness_error = {1e-4, 2e-4, 3e-4};
   fit.specular_error = {4e-4, 5e-4, 6e-4};
   fit.split = {42, 0.2, 80, 20, {{"clamped", 3}}};
   fit.table = {"t.csv", "00ff", {{"objective", "natural"}}};
   fit.tool_version = "0.1.0";
+  return fit;
+}
+
+Fit svr_fit() {
+  Fit fit = sample_fit();
+  const Scaling alpha{0.1, 1.0 / 3.0, 0.05}, specular{0.0, 2.0, 0.0}, output{0.5, 0.25, 0.0};
+  fit.mapping = Svr{{{alpha}, output, 2.5, -0.125, {0.1, 0.7}, {1.0 / 9.0, -3.0}},
+                    {{alpha, specular}, output, 1e-3, 0.0, {0.1, 0.2, 0.3, 0.4}, {5.0, 1e-300}}};
+  return fit;
+}
+
+Fit mlp_fit() {
+  Fit fit = sample_fit();
+  const Scaling alpha{0.1, 1.0 / 3.0, 0.05}, specular{0.0, 2.0, 0.0}, output{0.5, 0.25, 0.0};
+  const Network of_alpha{
+      Activation::kSilu, {alpha}, {output}, {{1, {0.5, -1.0 / 3.0}, {0.1, 0.2}}, {2, {1.0, 2.0}, {0.3}}}};
+  const Network of_both{Activation::kSilu, {alpha, specular}, {output}, {{2, {0.25, 1e-17}, {0.0}}}};
+  fit.mapping = Mlp{of_alpha, of_both};
   return fit;
 }
 
@@ -34,11 +62,24 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 }  // namespace
 
-TEST_CASE("fit file: what is written is read back bit for bit") {
-  const Fit fit = sample_fit();
-  const std::string json = fit_to_json(fit);
-  CHECK(fit_from_json(json, "x.json") == fit);
-  CHECK(fit_to_json(fit_from_json(json, "x.json")) == json);
+TEST_CASE("fit file: what is written is read back bit for bit, of every kind") {
+  for (const Fit& fit : {sample_fit(), svr_fit(), mlp_fit()}) {
+    const std::string json = fit_to_json(fit);
+    CHECK(fit_from_json(json, "x.json") == fit);
+    CHECK(fit_to_json(fit_from_json(json, "x.json")) == json);
+  }
+}
+
+TEST_CASE("fit file: complaints about support vectors and networks name the field") {
+  const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
+  const std::string svr = fit_to_json(svr_fit()), mlp = fit_to_json(mlp_fit());
+  CHECK_THROWS_WITH(read(replaced(svr, "\"gamma\": 2.5", "\"gamma\": -2.5")),
+                    Catch::Contains("x.json.mapping.alpha.gamma"));
+  CHECK_THROWS_WITH(read(replaced(svr, "\"pole\": 0.05", "\"pole\": -0.05")),
+                    Catch::Contains("x.json.mapping.alpha.inputs"));
+  CHECK_THROWS_WITH(read(replaced(mlp, "\"silu\"", "\"sine\"")), Catch::Contains("x.json.mapping"));
+  CHECK_THROWS_WITH(read(replaced(mlp, "\"weights\"", "\"wights\"")),
+                    Catch::Contains("has no field \"weights\""));
 }
 
 TEST_CASE("fit file: complaints name the file and the field") {
@@ -47,8 +88,8 @@ TEST_CASE("fit file: complaints name the file and the field") {
   CHECK_THROWS_WITH(read("{"), Catch::StartsWith("x.json: is no JSON"));
   CHECK_THROWS_WITH(read("[]"), Catch::StartsWith("x.json: is []"));
   CHECK_THROWS_WITH(read(replaced(json, "remap-fit", "other")), Catch::Contains("is no fit file"));
-  CHECK_THROWS_WITH(read(replaced(json, "\"version\": 1", "\"version\": 2")),
-                    Catch::Contains("format version 2; this program reads version 1"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"version\": 2", "\"version\": 1")),
+                    Catch::Contains("format version 1; this program reads version 2"));
   CHECK_THROWS_WITH(read(replaced(json, "\"seed\"", "\"sed\"")), "x.json.split: has no field \"seed\"");
   CHECK_THROWS_WITH(read(replaced(json, "\"a_b_to_c_d\"", "\"a b\"")),
                     Catch::StartsWith("x.json.id: is \"a b\""));
@@ -70,7 +111,7 @@ TEST_CASE("fit file: complaints name the file and the field") {
 
 TEST_CASE("fit file: numbers that are not finite are never written") {
   Fit fit = sample_fit();
-  std::get<Parametric>(fit.mapping).ramp = NAN;
+  std::get<Parametric>(fit.mapping).specular[1].factor.ramp = NAN;
   CHECK_THROWS_WITH(fit_to_json(fit), Catch::Contains("not finite"));
 }
 

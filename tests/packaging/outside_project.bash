@@ -44,7 +44,7 @@ expect_exit 0 cmake --build "$project/build"
 expect_close "$(second_row shipped)" "$shipped"
 expect_close "$(second_row own_fit)" "$shipped"
 
-sed -i 's/"start": [0-9.]*/"start": 0.75/' "$project/$id.json"
+sed -i '0,/"start"/s|"start": [-+0-9.e]*|"start": 0.01|' "$project/$id.json"
 [[ $(own_fit) != "$shipped" ]] || fail "the fit was to be changed"
 expect_exit 0 cmake --build "$project/build"
 expect_close "$(second_row shipped)" "$shipped"

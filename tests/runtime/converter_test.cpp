@@ -9,6 +9,7 @@
 
 #include "error.hpp"
 #include "model/interpreter.hpp"
+#include "runtime/texel_rows.hpp"
 #include "support/example_fit.hpp"
 
 using namespace remap;
@@ -45,6 +46,20 @@ TEST_CASE("converter: an output row may be its input row") {
     converter->convert(2, roughness.data(), in, roughness.data(), same);
     CHECK(roughness == roughness_out);
     CHECK(specular == specular_out);
+  }
+}
+
+TEST_CASE("converter: every instruction set computes the same bits") {
+  const auto& baseline = compiled_converters(InstructionSet::kBaseline);
+  for (const InstructionSet set : instruction_sets()) {
+    const auto& converters = compiled_converters(set);
+    REQUIRE(converters.size() == baseline.size());
+    for (std::size_t i = 0; i < converters.size(); ++i) {
+      INFO(converters[i]->info().id << " on " << instruction_set_name(set));
+      CHECK(converters[i]->info().instructions == set);
+      CHECK(converters[i]->self_test());
+      CHECK(same_bits(*converters[i], *baseline[i], odd_and_random_texels(baseline[i]->info(), 10000)));
+    }
   }
 }
 

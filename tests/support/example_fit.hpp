@@ -11,7 +11,7 @@ inline Fit example_fit() {
   fit.source = {"example/a", RoughnessConvention::kAlpha, "specular"};
   fit.target = {"example/b", RoughnessConvention::kRoughness, "f0"};
   fit.domain = {{0.05, 1.0}, {0.0, 0.5}};
-  fit.mapping = Parametric{{1.04, -0.388, -0.332, 0.25}, 0.9, -0.3, 0.5, 0.1, 3.0};
+  fit.mapping = Parametric{{{1.04, -0.388, -0.332, 0.25}}, {{1, {0.9, -0.3, 0.5, 0.1, 3.0, 0.0}}}};
   fit.table = {"example.csv", std::string(64, '0'), {}};
   fit.tool_version = "0.1.0";
   return fit;

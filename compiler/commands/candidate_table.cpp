@@ -1,0 +1,97 @@
+#include "commands/candidate_table.hpp"
+
+#include <algorithm>
+
+#include "fit/split.hpp"
+
+namespace remapc {
+namespace {
+
+const std::string kNone = "-";
+
+std::string digits(double value) { return value == 0.0 ? kNone : error_text(value); }
+
+// Two figures that were made together or not at all.
+std::string pair_text(double first, double second) {
+  return first == 0.0 && second == 0.0 ? kNone : digits(first) + ", " + digits(second);
+}
+
+std::string with_error(double value, double standard_error) {
+  return standard_error == 0.0 ? digits(value) : digits(value) + " +- " + digits(standard_error);
+}
+
+// Below it a shift is rounding.
+double shown_shift(double shift) { return shift < 1e-9 ? 0.0 : shift; }
+
+using Line = std::vector<std::string>;
+
+Line line_of(const remap::Candidate& candidate) {
+  return {candidate.name,
+          candidate.number_count == 0 ? kNone : std::to_string(candidate.number_count),
+          with_error(candidate.alpha.rms, candidate.alpha_standard_error),
+          digits(candidate.alpha.max),
+          with_error(candidate.specular.rms, candidate.specular_standard_error),
+          digits(candidate.specular.max),
+          pair_text(candidate.edge_alpha_rms, candidate.raw_edge_alpha_rms),
+          pair_text(candidate.edge_specular_rms, candidate.raw_edge_specular_rms),
+          digits(shown_shift(candidate.chroma_shift)),
+          candidate.verdict};
+}
+
+// Whether any line but the first, which holds the headings, has a figure in `column`.
+bool has_figures(const std::vector<Line>& lines, std::size_t column) {
+  return std::any_of(lines.begin() + 1, lines.end(),
+                     [column](const Line& line) { return line[column] != kNone; });
+}
+
+}  // namespace
+
+std::string candidate_text(const std::vector<remap::Candidate>& candidates, const std::string& specular) {
+  std::vector<Line> lines = {{"", "numbers", "alpha rms", "max", specular + " rms", "max",
+                              "alpha at edge, raw", specular + " at edge, raw", "chroma shift", ""}};
+  for (const remap::Candidate& candidate : candidates) lines.push_back(line_of(candidate));
+  std::vector<std::size_t> widths(lines[0].size(), 0);
+  for (const Line& line : lines)
+    for (std::size_t column = 0; column < line.size(); ++column)
+      widths[column] = std::max(widths[column], line[column].size());
+  std::string text;
+  for (const Line& line : lines) {
+    std::string row = " ";
+    for (std::size_t column = 0; column < line.size(); ++column)
+      if (has_figures(lines, column))
+        row += ' ' + line[column] + std::string(widths[column] - line[column].size() + 1, ' ');
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + '\n';
+  }
+  return text;
+}
+
+std::string errors_text(const remap::Fit& fit, const std::string& rows) {
+  if (fit.split.held_out_rows == 0) return "errors unknown";
+  const auto text = [](const std::string& name, const remap::ErrorFigures& figures) {
+    return name + " rms " + error_text(figures.rms) + " max " + error_text(figures.max);
+  };
+  return "on " + std::to_string(fit.split.held_out_rows) + " rows " + rows + ": " +
+         text("alpha", fit.roughness_error) + ", " + text(fit.target.specular, fit.specular_error);
+}
+
+nlohmann::ordered_json figures_json(const remap::ErrorFigures& figures) {
+  return {{"rms", figures.rms}, {"p99", figures.p99}, {"max", figures.max}};
+}
+
+nlohmann::ordered_json candidate_json(const remap::Candidate& candidate) {
+  return {{"name", candidate.name},
+          {"numbers", candidate.number_count},
+          {"alpha_error", figures_json(candidate.alpha)},
+          {"alpha_standard_error", candidate.alpha_standard_error},
+          {"specular_error", figures_json(candidate.specular)},
+          {"specular_standard_error", candidate.specular_standard_error},
+          {"edge_alpha_rms", candidate.edge_alpha_rms},
+          {"edge_specular_rms", candidate.edge_specular_rms},
+          {"raw_edge_alpha_rms", candidate.raw_edge_alpha_rms},
+          {"raw_edge_specular_rms", candidate.raw_edge_specular_rms},
+          {"chroma_shift", candidate.chroma_shift},
+          {"verdict", candidate.verdict}};
+}
+
+}  // namespace remapc

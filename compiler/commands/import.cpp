@@ -1,0 +1,106 @@
+// `remapc import`: a regression that was trained elsewhere to a fit.
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/candidate_table.hpp"
+#include "commands/commands.hpp"
+#include "error.hpp"
+#include "files.hpp"
+#include "fit/fit_table.hpp"
+#include "fit/svr_import.hpp"
+#include "model/fit_json.hpp"
+#include "table/table.hpp"
+
+namespace remapc {
+namespace {
+
+struct ImportCommand {
+  std::string description;
+  std::string table, columns;  // empty table: errors stay unknown
+  std::filesystem::path folder = "fits";
+  bool json = false;
+};
+
+// Puts the errors on the usable rows of the table in `fit`: none of them trained it here.
+void judge(remap::Fit& fit, const ImportCommand& command) {
+  const std::string bytes = remap::read_file(command.table);
+  const Table table =
+      parse_table(bytes, command.table, command.columns.empty() ? ColumnMap{} : column_map(command.columns));
+  std::vector<TableRow> rows;
+  for (const TableRow& row : table.rows) {
+    const bool inside = fit.domain.alpha.contains(row.alpha1) && fit.domain.specular.contains(row.specular1);
+    if (row.status == RowStatus::kOk && inside) rows.push_back(row);
+  }
+  if (rows.empty())
+    throw remap::Error(remap::ErrorKind::kInput,
+                       table.name + ": has no usable row in the domain of " + fit.id);
+  const RowErrors errors = row_errors(fit, rows);
+  fit.roughness_error = errors.alpha;
+  fit.specular_error = errors.specular;
+  fit.split.held_out_fraction = 1.0;
+  fit.split.held_out_rows = static_cast<std::int64_t>(rows.size());
+  fit.table.name = std::filesystem::path(table.name).filename().string();
+  fit.table.sha256 = sha256(bytes);
+  for (const auto& [key, value] : table.comments) fit.table.comments[key] = value;
+  fit.method["imported"] =
+      "libsvm model files; errors are those on the usable rows of the table, which may have trained them";
+}
+
+void run(const ImportCommand& command) {
+  remap::Fit fit = import_svr(command.description);
+  const bool is_judged = !command.table.empty();
+  if (is_judged) judge(fit, command);
+  const std::filesystem::path path = command.folder / (fit.id + ".json");
+  remap::write_file(path, remap::fit_to_json(fit));
+  const auto& svr = std::get<remap::Svr>(fit.mapping);
+  if (command.json) {
+    const auto figures = [is_judged](const remap::ErrorFigures& known) {
+      return is_judged ? figures_json(known) : nullptr;
+    };
+    const nlohmann::ordered_json json = {{"fit", path.string()},
+                                         {"id", fit.id},
+                                         {"alpha_vectors", svr.alpha.count()},
+                                         {"specular_vectors", svr.specular.count()},
+                                         {"rows", fit.split.held_out_rows},
+                                         {"alpha_error", figures(fit.roughness_error)},
+                                         {"specular_error", figures(fit.specular_error)}};
+    std::cout << json.dump(2) << "\n";
+    return;
+  }
+  std::cerr << path.string() << ": svr, " << svr.alpha.count() << " vectors for alpha, "
+            << svr.specular.count() << " for " << fit.target.specular << "; "
+            << errors_text(fit, "of the table") << (is_judged ? "" : " (--table measures them)") << "\n";
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("import", "Make a fit of libsvm model files (RBF regressions trained elsewhere)");
+  auto options = std::make_shared<ImportCommand>();
+  command
+      ->add_option("description", options->description,
+                   "JSON: source, target, domain, and for alpha and specular the model file and scalings")
+      ->required();
+  command->add_option("--table", options->table, "Table (CSV) to measure errors on; without it they are 0");
+  command->add_option("--columns", options->columns,
+                      "Column map of the table: sztrajman-2019 (the published table), or own=file,...");
+  command->add_option("-o,--output", options->folder, "Folder for the fit")->capture_default_str();
+  command->add_flag("--json", options->json, "Summary as JSON on standard output");
+  command->footer(
+      "Description, for each of \"alpha\" and \"specular\":\n"
+      "  {\"model_file\": \"alpha.model\", \"inputs\": [{\"name\": \"alpha\", \"offset\": 0.02, \"scale\": "
+      "1.02}],\n"
+      "   \"output\": {\"offset\": 0, \"scale\": 1}}\n"
+      "beside \"source\", \"target\" and \"domain\" as in a fit file. normalised = (value - offset) * "
+      "scale;\n"
+      "scikit-learn's MinMaxScaler: scale = scale_, offset = -min_ / scale_; StandardScaler: scale = 1 / "
+      "scale_,\n"
+      "offset = mean_. Alpha is the microfacet width, whatever the models' own parameters are.\n\n"
+      "Example:\n  remapc import my_svr.json --table ward_to_as.csv -o fits");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace remapc

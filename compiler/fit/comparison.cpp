@@ -1,0 +1,318 @@
+#include "fit/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "error.hpp"
+#include "fit/edge.hpp"
+#include "fit/folds.hpp"
+#include "fit/split.hpp"
+#include "lower/lower.hpp"
+#include "model/interpreter.hpp"
+#include "number_text.hpp"
+#include "parallel.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Candidate;
+using remap::Error;
+using remap::ErrorKind;
+
+constexpr std::size_t kMostRows = 2000;
+constexpr double kEdgeFactor = 2.0;
+constexpr double kEdgeMargin = 2e-3;
+// Shares of the work that the progress counts: the fits with their searches, then the folds.
+constexpr double kShareOfFits = 0.5;
+
+// One contender's errors on the rows that a fold holds back.
+struct FoldErrors {
+  std::vector<double> alpha, specular;
+  std::string failure;
+};
+
+std::string reason(const Error& error) {
+  // An interruption is nobody's fault and ends the comparison.
+  if (error.kind() == ErrorKind::kInterrupted) throw error;
+  return error.what();
+}
+
+class Referee {
+ public:
+  Referee(const std::vector<TableRow>& rows, const remap::Domain& domain, const ComparisonOptions& options,
+          const FitProgress& progress)
+      : rows_(rows), domain_(domain), options_(options), progress_(progress) {}
+
+  Comparison compare() {
+    enter_all();
+    judge_by_folds();
+    for (Contender& contender : comparison_.contenders) judge_beyond(contender);
+    judge_by_edge();
+    judge_by_lowering();
+    decide();
+    return std::move(comparison_);
+  }
+
+ private:
+  void enter_all() {
+    RegressionOptions regression = options_.regression;
+    if (regression.form.empty()) {
+      regression.form = "paper";
+      enter("paper", Regressor::kParametric, regression);
+      regression.form.clear();
+    }
+    enter("parametric", Regressor::kParametric, regression);
+    std::vector<Contender>& contenders = comparison_.contenders;
+    if (contenders.size() == 2 && contenders[0].fitted && contenders[1].fitted &&
+        contenders[1].regression.method.at("form") == "paper")
+      contenders.erase(contenders.begin());  // the same; the one that remains records how it was chosen
+    enter("svr", Regressor::kSvr, regression);
+    enter("mlp", Regressor::kMlp, regression);
+  }
+
+  void enter(const std::string& name, Regressor regressor, const RegressionOptions& regression) {
+    Contender contender;
+    contender.candidate.name = name;
+    try {
+      contender.regression = regress(regressor, rows_, domain_, regression, [&](double share) {
+        report(kShareOfFits * (static_cast<double>(entered_) + share) / kContenders);
+      });
+      contender.fitted = contender.sound = true;
+      contender.candidate.number_count = remap::number_count(contender.regression.mapping);
+      if (regressor == Regressor::kParametric)
+        contender.candidate.name = "parametric " + contender.regression.method.at("form");
+    } catch (const Error& error) {
+      contender.candidate.verdict = "not fitted: " + reason(error);
+    }
+    ++entered_;
+    comparison_.contenders.push_back(std::move(contender));
+  }
+
+  // All folds of all contenders, each a task of its own.
+  void judge_by_folds() {
+    const std::vector<TableRow> drawn = draw_rows(rows_, kMostRows, options_.regression.seed);
+    std::vector<Fold> folds;
+    for (std::size_t repeat = 0; repeat < options_.repeats; ++repeat) {
+      // Seeds far apart, so that seed and seed + 1 share no folds.
+      const auto fold_of_row =
+          draw_folds(drawn, options_.folds, options_.regression.seed + 1000003 * (repeat + 1));
+      for (std::size_t f = 0; f < options_.folds; ++f) folds.push_back(select_fold(drawn, fold_of_row, f));
+    }
+    std::vector<Contender>& contenders = comparison_.contenders;
+    std::vector<std::vector<FoldErrors>> errors(contenders.size(), std::vector<FoldErrors>(folds.size()));
+    const std::size_t count = contenders.size() * folds.size();
+    remap::run_parallel(count, options_.regression.jobs, [&](std::size_t task) {
+      // The dearest contenders, which are the last, first.
+      const std::size_t c = contenders.size() - 1 - task / folds.size(), f = task % folds.size();
+      errors[c][f] = errors_in_fold(contenders[c], folds[f]);
+      const std::lock_guard lock(mutex_);
+      ++judged_;
+      report(kShareOfFits + (1.0 - kShareOfFits) * static_cast<double>(judged_) / static_cast<double>(count));
+    });
+    for (std::size_t c = 0; c < contenders.size(); ++c) put_together(contenders[c], errors[c]);
+  }
+
+  FoldErrors errors_in_fold(const Contender& contender, const Fold& fold) const {
+    FoldErrors errors;
+    if (!contender.fitted || fold.judging.empty()) return errors;
+    try {
+      const remap::MappingKind mapping =
+          regress_again(contender.regression, fold.training, single_threaded());
+      for (const TableRow& row : fold.judging) {
+        const remap::MappedTexel texel = remap::evaluate_mapping(mapping, row.alpha1, row.specular1);
+        errors.alpha.push_back(texel.alpha - row.alpha2);
+        errors.specular.push_back(texel.specular - row.specular2);
+      }
+    } catch (const Error& error) {
+      errors.failure = "not fitted in a fold: " + reason(error);
+    }
+    return errors;
+  }
+
+  static void put_together(Contender& contender, const std::vector<FoldErrors>& folds) {
+    std::vector<std::vector<double>> alpha, specular;
+    std::vector<double> all_alpha, all_specular;
+    for (const FoldErrors& fold : folds) {
+      if (!fold.failure.empty() && contender.sound) {
+        contender.sound = false;
+        contender.candidate.verdict = fold.failure;
+      }
+      alpha.push_back(fold.alpha);
+      specular.push_back(fold.specular);
+      all_alpha.insert(all_alpha.end(), fold.alpha.begin(), fold.alpha.end());
+      all_specular.insert(all_specular.end(), fold.specular.begin(), fold.specular.end());
+    }
+    contender.candidate.alpha = error_figures(std::move(all_alpha));
+    contender.candidate.specular = error_figures(std::move(all_specular));
+    contender.candidate.alpha_standard_error = cross_validated(alpha).standard_error;
+    contender.candidate.specular_standard_error = cross_validated(specular).standard_error;
+  }
+
+  void judge_beyond(Contender& contender) {
+    if (!contender.fitted) return;
+    const BeyondDomain beyond = look_beyond(contender.regression.mapping, domain_);
+    contender.candidate.chroma_shift = beyond.chroma_shift;
+    if (!contender.sound || beyond.fault.empty()) return;
+    contender.sound = false;
+    contender.candidate.verdict = "breaks beyond the domain: " + beyond.fault;
+  }
+
+  void judge_by_edge() {
+    const EdgeRows edge = edge_rows(draw_rows(rows_, kMostRows, options_.regression.seed));
+    if (edge.outer.empty()) return;
+    std::vector<Contender>& contenders = comparison_.contenders;
+    remap::run_parallel(contenders.size(), options_.regression.jobs, [&](std::size_t task) {
+      Contender& contender = contenders[contenders.size() - 1 - task];
+      if (!contender.fitted) return;
+      try {
+        const remap::MappingKind mapping = regress_again(contender.regression, edge.inner, single_threaded());
+        const EdgeErrors errors = edge_errors(mapping, covered_domain(edge.inner), edge.outer);
+        contender.candidate.edge_alpha_rms = errors.alpha_rms;
+        contender.candidate.edge_specular_rms = errors.specular_rms;
+        contender.candidate.raw_edge_alpha_rms = errors.raw_alpha_rms;
+        contender.candidate.raw_edge_specular_rms = errors.raw_specular_rms;
+      } catch (const Error& error) {
+        const std::string text = reason(error);
+        if (contender.sound) contender.candidate.verdict = "not fitted without the outermost rows: " + text;
+        contender.sound = false;
+      }
+    });
+    refuse_bad_edges();
+  }
+
+  void refuse_bad_edges() {
+    double best_alpha = 1e300, best_specular = 1e300;
+    for (const Contender& contender : comparison_.contenders) {
+      if (!contender.sound) continue;
+      best_alpha = std::min(best_alpha, contender.candidate.edge_alpha_rms);
+      best_specular = std::min(best_specular, contender.candidate.edge_specular_rms);
+    }
+    const auto bound = [](double best) { return std::max(kEdgeFactor * best, best + kEdgeMargin); };
+    for (Contender& contender : comparison_.contenders) {
+      if (!contender.sound || (contender.candidate.edge_alpha_rms <= bound(best_alpha) &&
+                               contender.candidate.edge_specular_rms <= bound(best_specular)))
+        continue;
+      contender.sound = false;
+      contender.candidate.verdict = "worse at the edge";
+    }
+  }
+
+  // What `remapc emit` would refuse is of no use while another can be emitted.
+  void judge_by_lowering() {
+    std::vector<Contender>& contenders = comparison_.contenders;
+    std::vector<std::string> refusals(contenders.size());
+    remap::run_parallel(contenders.size(), options_.regression.jobs, [&](std::size_t i) {
+      if (!contenders[i].sound) return;
+      try {
+        remap::lower(contenders[i].regression.mapping, domain_);
+      } catch (const Error& error) {
+        refusals[i] = reason(error);
+      }
+    });
+    bool any = false;
+    for (std::size_t i = 0; i < contenders.size(); ++i) any |= contenders[i].sound && refusals[i].empty();
+    for (std::size_t i = 0; any && i < contenders.size(); ++i) {
+      if (!contenders[i].sound || refusals[i].empty()) continue;
+      contenders[i].sound = false;
+      contenders[i].candidate.verdict = "cannot be emitted: " + refusals[i];
+    }
+  }
+
+  void decide() {
+    std::vector<Candidate*> candidates;
+    std::vector<bool> eligible;
+    std::string reasons;
+    for (Contender& contender : comparison_.contenders) {
+      candidates.push_back(&contender.candidate);
+      eligible.push_back(contender.sound);
+      reasons += "; " + contender.candidate.name + ": " + contender.candidate.verdict;
+    }
+    comparison_.chosen = choose_candidate(candidates, eligible);
+    if (comparison_.chosen == candidates.size())
+      throw Error(ErrorKind::kNumeric, "fit: no kind of regression is fit for the table" + reasons);
+    comparison_.contenders[comparison_.chosen].regression.method["chosen by"] =
+        std::to_string(options_.repeats) + " x " + std::to_string(options_.folds) +
+        "-fold cross-validation on " + std::to_string(std::min(rows_.size(), kMostRows)) +
+        " training rows, seed " + std::to_string(options_.regression.seed);
+  }
+
+  RegressionOptions single_threaded() const {
+    RegressionOptions options = options_.regression;
+    options.jobs = 1;
+    return options;
+  }
+
+  void report(double share) const {
+    if (progress_) progress_(share);
+  }
+
+  static constexpr double kContenders = 4.0;
+
+  const std::vector<TableRow>& rows_;
+  const remap::Domain& domain_;
+  const ComparisonOptions& options_;
+  const FitProgress& progress_;
+  Comparison comparison_;
+  std::size_t entered_ = 0;
+  std::mutex mutex_;
+  std::size_t judged_ = 0;
+};
+
+// Least of an error over the candidates that take part, and how much more counts as the same.
+double error_bound(const std::vector<Candidate*>& candidates, const std::vector<bool>& eligible,
+                   const std::function<std::pair<double, double>(const Candidate&)>& error) {
+  double best = 1e300, bound = 1e300;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!eligible[i]) continue;
+    const auto [rms, standard_error] = error(*candidates[i]);
+    if (!(rms < best)) continue;
+    best = rms;
+    bound = rms + std::max(standard_error, kNegligibleError);
+  }
+  return bound;
+}
+
+}  // namespace
+
+std::size_t choose_candidate(std::vector<Candidate*> candidates, const std::vector<bool>& eligible) {
+  const double alpha_bound = error_bound(candidates, eligible, [](const Candidate& candidate) {
+    return std::pair(candidate.alpha.rms, candidate.alpha_standard_error);
+  });
+  const double specular_bound = error_bound(candidates, eligible, [](const Candidate& candidate) {
+    return std::pair(candidate.specular.rms, candidate.specular_standard_error);
+  });
+  std::size_t chosen = candidates.size();
+  double least_excess = 1e300;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!eligible[i]) continue;
+    // 1 for all that are as good as the best: among them the number of constants decides.
+    const double excess =
+        std::max({1.0, candidates[i]->alpha.rms / alpha_bound, candidates[i]->specular.rms / specular_bound});
+    if (excess < least_excess ||
+        (excess == least_excess && candidates[i]->number_count < candidates[chosen]->number_count)) {
+      chosen = i;
+      least_excess = excess;
+    }
+  }
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!eligible[i]) continue;
+    Candidate& candidate = *candidates[i];
+    if (i == chosen)
+      candidate.verdict = "chosen";
+    else if (candidate.alpha.rms > alpha_bound)
+      candidate.verdict = "alpha error beyond one standard error of the best";
+    else if (candidate.specular.rms > specular_bound)
+      candidate.verdict = "specular error beyond one standard error of the best";
+    else
+      candidate.verdict = "no better, and more numbers";
+  }
+  return chosen;
+}
+
+Comparison compare_regressions(const std::vector<TableRow>& rows, const remap::Domain& domain,
+                               const ComparisonOptions& options, const FitProgress& progress) {
+  return Referee(rows, domain, options, progress).compare();
+}
+
+}  // namespace remapc

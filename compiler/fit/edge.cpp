@@ -1,0 +1,114 @@
+#include "fit/edge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "fit/split.hpp"
+#include "model/interpreter.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+constexpr std::size_t kOutermostShare = 30;
+constexpr std::size_t kFewestAlphas = 6;
+constexpr std::size_t kFewestSpeculars = 4;
+constexpr int kAlphas = 33;
+constexpr std::array<double, 3> kChannels = {0.1, 0.5, 1.0};
+
+std::size_t outermost_count(std::size_t count) { return std::max<std::size_t>(1, count / kOutermostShare); }
+
+// The value of a sorted set at a position.
+double at(const std::set<double>& values, std::size_t position) {
+  return *std::next(values.begin(), static_cast<std::ptrdiff_t>(position));
+}
+
+using Colour = std::array<double, 3>;
+
+// The colour that `colour` times `scale` is mapped to; `fault` is filled where it is none.
+Colour map_colour(const remap::MappingKind& mapping, double alpha, Colour colour, std::string* fault) {
+  for (double& channel : colour) {
+    const double specular = channel;
+    const remap::MappedTexel texel = remap::evaluate_mapping(mapping, alpha, specular);
+    channel = texel.specular;
+    const bool sound = texel.alpha > 0.0 && texel.specular >= 0.0 && std::isfinite(texel.alpha) &&
+                       std::isfinite(texel.specular);
+    if (!sound && fault->empty())
+      *fault = "alpha2 " + number_text(texel.alpha) + " and specular2 " + number_text(texel.specular) +
+               " at alpha1 " + number_text(alpha) + ", specular1 " + number_text(specular);
+  }
+  return colour;
+}
+
+double chroma_difference(const Colour& a, const Colour& b) {
+  const double a_sum = a[0] + a[1] + a[2], b_sum = b[0] + b[1] + b[2];
+  if (!(a_sum > 0.0) || !(b_sum > 0.0)) return 1.0;
+  double largest = 0.0;
+  for (std::size_t c = 0; c < a.size(); ++c)
+    largest = std::max(largest, std::fabs(a[c] / a_sum - b[c] / b_sum));
+  return largest;
+}
+
+}  // namespace
+
+EdgeRows edge_rows(const std::vector<TableRow>& rows) {
+  std::set<double> alphas, speculars;
+  for (const TableRow& row : rows) {
+    alphas.insert(row.alpha1);
+    speculars.insert(row.specular1);
+  }
+  const std::size_t cut = outermost_count(alphas.size());
+  if (alphas.size() < kFewestAlphas + 2 * cut) return {rows, {}};
+  const double low = at(alphas, cut), high = at(alphas, alphas.size() - 1 - cut);
+  const double bright = speculars.size() < kFewestSpeculars
+                            ? *speculars.rbegin()
+                            : at(speculars, speculars.size() - 1 - outermost_count(speculars.size()));
+  EdgeRows edge;
+  for (const TableRow& row : rows) {
+    const bool inside = row.alpha1 >= low && row.alpha1 <= high && row.specular1 <= bright;
+    (inside ? edge.inner : edge.outer).push_back(row);
+  }
+  return edge;
+}
+
+EdgeErrors edge_errors(const remap::MappingKind& mapping, const remap::Domain& domain,
+                       const std::vector<TableRow>& rows) {
+  std::vector<double> alpha, specular, raw_alpha, raw_specular;
+  for (const TableRow& row : rows) {
+    const remap::MappedTexel raw = remap::evaluate_mapping(mapping, row.alpha1, row.specular1);
+    raw_alpha.push_back(raw.alpha - row.alpha2);
+    raw_specular.push_back(raw.specular - row.specular2);
+    const double scale = std::max(1.0, row.specular1 / domain.specular.max);
+    const double held = std::clamp(row.alpha1, domain.alpha.min, domain.alpha.max);
+    const remap::MappedTexel ruled = remap::evaluate_mapping(mapping, held, row.specular1 / scale);
+    alpha.push_back(ruled.alpha - row.alpha2);
+    specular.push_back(scale * ruled.specular - row.specular2);
+  }
+  const auto rms = [](std::vector<double>& errors) { return error_figures(std::move(errors)).rms; };
+  return {rms(alpha), rms(specular), rms(raw_alpha), rms(raw_specular)};
+}
+
+BeyondDomain look_beyond(const remap::MappingKind& mapping, const remap::Domain& domain) {
+  BeyondDomain beyond;
+  const double edge = domain.specular.max;
+  for (int i = 0; i < kAlphas; ++i) {
+    const double share = static_cast<double>(i) / (kAlphas - 1);
+    const double alpha = domain.alpha.min + share * (domain.alpha.max - domain.alpha.min);
+    for (const double second : kChannels) {
+      for (const double third : kChannels) {
+        const Colour inside = {edge, second * edge, third * edge};
+        const Colour outside = {kBeyond * inside[0], kBeyond * inside[1], kBeyond * inside[2]};
+        beyond.chroma_shift = std::max(beyond.chroma_shift,
+                                       chroma_difference(map_colour(mapping, alpha, inside, &beyond.fault),
+                                                         map_colour(mapping, alpha, outside, &beyond.fault)));
+      }
+    }
+  }
+  return beyond;
+}
+
+}  // namespace remapc

@@ -1,0 +1,46 @@
+#include "fit/regression.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace remapc {
+namespace {
+
+constexpr double kSmallestSpread = 2e-4;  // of alpha; below it nobody sees a difference
+constexpr double kTimesScatter = 2.0;
+
+}  // namespace
+
+bool alpha_needs_specular(const std::vector<TableRow>& rows) {
+  std::map<double, std::vector<const TableRow*>> by_alpha;
+  for (const TableRow& row : rows) by_alpha[row.alpha1].push_back(&row);
+  // Within each alpha1 the straight line over specular: what it explains against what it leaves.
+  double explained = 0.0, left = 0.0, degrees = 0.0, count = 0.0;
+  for (const auto& [alpha, group] : by_alpha) {
+    if (group.size() < 3) continue;
+    const auto size = static_cast<double>(group.size());
+    double s = 0.0, a = 0.0;
+    for (const TableRow* row : group) {
+      s += row->specular1 / size;
+      a += row->alpha2 / size;
+    }
+    double ss = 0.0, sa = 0.0, aa = 0.0;
+    for (const TableRow* row : group) {
+      ss += (row->specular1 - s) * (row->specular1 - s);
+      sa += (row->specular1 - s) * (row->alpha2 - a);
+      aa += (row->alpha2 - a) * (row->alpha2 - a);
+    }
+    if (ss <= 0.0) continue;
+    explained += sa * sa / ss;
+    left += std::max(0.0, aa - sa * sa / ss);
+    degrees += size - 2.0;
+    count += size;
+  }
+  if (count == 0.0 || degrees <= 0.0) return false;
+  const double spread = std::sqrt(explained / count), scatter = std::sqrt(left / degrees);
+  return spread > kSmallestSpread &&
+         spread > kTimesScatter * scatter / std::sqrt(count / static_cast<double>(by_alpha.size()));
+}
+
+}  // namespace remapc

@@ -1,0 +1,27 @@
+// The generated headers, compiled once for each instruction set.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "convert/instruction_set.hpp"
+
+namespace remap {
+
+template <std::size_t Channels>
+using CompiledKernel = std::size_t (*)(std::size_t count, const float* roughness,
+                                       const std::array<const float*, Channels>& specular,
+                                       float* roughness_out,
+                                       const std::array<float*, Channels>& specular_out) noexcept;
+
+// evaluate_batch of one header.
+struct CompiledKernels {
+  CompiledKernel<1> grey = nullptr;
+  CompiledKernel<3> rgb = nullptr;
+};
+
+// For `set`, which the processor must have: one entry a converter, in the order of kConverters.
+std::span<const CompiledKernels> compiled_kernels(InstructionSet set);
+
+}  // namespace remap

@@ -1,0 +1,225 @@
+#include "lower/lower.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "error.hpp"
+#include "lower/approximate.hpp"
+#include "lower/prove.hpp"
+#include "number_text.hpp"
+
+namespace remap {
+namespace {
+
+// Boxes that one proof may look at, and all proofs of one search together: a search that fails must not cost
+// more than a second or two.
+constexpr std::size_t kFirstBudget = 2000, kBoxBudget = 6000, kSearchBudget = 12000;
+
+// Converters hold alpha as a float, in the model's own parameter: its ends move by some units in the last
+// place of alpha or, for glossiness, of 1 - sqrt(alpha).
+ProofDomain proof_domain(const Domain& domain) {
+  const auto room = [](double alpha) { return 2e-6 * alpha + 1.5e-7 * std::sqrt(alpha); };
+  return {{domain.alpha.min - room(domain.alpha.min), domain.alpha.max + room(domain.alpha.max)},
+          {0.0, domain.specular.max * (1.0 + 2e-6)}};
+}
+
+// Whether the samples rise in a direction: strictly, everywhere.
+bool rises_with_alpha(const SampleGrid& grid) {
+  const std::size_t row = grid.specular.size();
+  for (std::size_t i = row; i < grid.values.size(); ++i)
+    if (!(grid.values[i] > grid.values[i - row])) return false;
+  return true;
+}
+
+bool rises_with_specular(const SampleGrid& grid) {
+  const std::size_t row = grid.specular.size();
+  if (row < 2) return false;
+  for (std::size_t i = 0; i < grid.values.size(); ++i)
+    if (i % row != 0 && !(grid.values[i] > grid.values[i - 1])) return false;
+  return true;
+}
+
+// One output of a mapping, and what is wanted of it.
+struct Wanted {
+  const char* name = "";       // opens messages
+  const char* unit_text = "";  // follows its figures
+  MappedFunction model;
+  ProofDomain domain;      // of the function that is lowered
+  bool is_factor = false;  // of specular, which reaches specular_max
+  double specular_max = 1.0;
+  double tolerance = 0.0;  // of the output, relative to `unit`
+  double unit = 1.0;
+  std::size_t table_limit = 0;
+};
+
+// The polynomial as it stands in a Lowered.
+PiecewisePolynomial completed(const Wanted& wanted, PiecewisePolynomial polynomial) {
+  if (wanted.is_factor) polynomial.degrees.insert(polynomial.degrees.begin(), -1);
+  return polynomial;
+}
+
+// Tries shapes. Bounds are of the output.
+class Attempt {
+ public:
+  explicit Attempt(const Wanted& wanted)
+      : wanted_(wanted),
+        finder_(wanted.model, wanted.domain),
+        samples_(sample(wanted.model, wanted.domain)),
+        rises_with_alpha_(rises_with_alpha(samples_)),
+        rises_with_specular_(rises_with_specular(samples_)) {}
+  // Whether the polynomial is proven to rise wherever the samples of the model do.
+  bool keeps_rising(const LoweredFunction& lowered) const {
+    return lowered.rises_with_alpha == rises_with_alpha_ &&
+           (wanted_.is_factor || lowered.rises_with_specular == rises_with_specular_);
+  }
+  ShapeFinder& finder() { return finder_; }
+  // Boxes that proofs may still look at.
+  void set_budget(std::size_t boxes) { budget_ = boxes; }
+  bool budget_is_spent() const { return budget_ == 0; }
+
+  // The bound is infinite where the shape is not worth a proof, or the budget is spent. `must_rise`: it is of
+  // use only if it rises where the model does.
+  LoweredFunction operator()(const Shape& shape, double tolerance, bool must_rise) {
+    const double top = wanted_.is_factor ? wanted_.specular_max : 1.0;
+    const ProofDomain whole =
+        wanted_.is_factor ? ProofDomain{wanted_.domain.alpha, {0.0, top}} : wanted_.domain;
+    const PiecewisePolynomial polynomial = approximate(wanted_.model, wanted_.domain, shape);
+    LoweredFunction lowered;
+    lowered.polynomial = completed(wanted_, polynomial);
+    lowered.bound = INFINITY;
+    const double rounding = rounding_error(lowered.polynomial, whole);
+    lowered.sampled = top * sampled_error(polynomial, samples_);
+    closest_ = std::min(closest_, lowered.sampled + rounding);
+    if (!(lowered.sampled + rounding <= tolerance)) return lowered;
+    lowered.rises_with_alpha = rises_with_alpha_ && proven_rising_with_alpha(polynomial, wanted_.domain);
+    lowered.rises_with_specular =
+        (wanted_.is_factor || rises_with_specular_) && proven_rising_with_specular(lowered.polynomial, whole);
+    if (must_rise && !keeps_rising(lowered)) return lowered;
+    const double room = (tolerance - rounding) / top;
+    const double target = std::clamp(1.1 * lowered.sampled / top, 0.3 * room, room);
+    Proof proof = prove(polynomial, target, kFirstBudget);
+    if (!(proof.bound <= room)) proof = prove(polynomial, room, kBoxBudget);
+    lowered.bound = top * proof.bound + rounding;
+    return lowered;
+  }
+  // The smallest error that any shape had on the samples.
+  double closest() const { return closest_; }
+
+ private:
+  Proof prove(const PiecewisePolynomial& polynomial, double target, std::size_t boxes) {
+    if (budget_ == 0) return {INFINITY, 0};
+    const Proof proof =
+        proven_error(wanted_.model, polynomial, wanted_.domain, target, std::min(boxes, budget_));
+    budget_ -= std::min(proof.boxes, budget_);
+    return proof;
+  }
+
+  const Wanted& wanted_;
+  ShapeFinder finder_;
+  SampleGrid samples_;
+  bool rises_with_alpha_ = false, rises_with_specular_ = false;
+  std::size_t budget_ = 0;
+  double closest_ = INFINITY;
+};
+
+// Shares of the tolerance that series are cut to. First above 1: what is cut does not reach its sum anywhere.
+// Then below, where a closer polynomial may keep what the nearest loses: that it rises.
+constexpr std::array<double, 6> kCuts = {2.8, 2.0, 1.4, 1.0, 0.25, 0.06};
+
+std::size_t table_size(const Shape& shape) {
+  std::size_t count = 0;
+  for (const int degree : shape.degrees) count += static_cast<std::size_t>(degree + 1);
+  return count * static_cast<std::size_t>(shape.cell_count);
+}
+
+// The cheapest polynomial of the smallest size within the tolerance; of those that rise where the model does
+// if there are any. The closest that was proven, where there is none.
+LoweredFunction search(const Wanted& wanted, double tolerance, Attempt* attempt) {
+  attempt->set_budget(kSearchBudget);
+  const double top = wanted.is_factor ? wanted.specular_max : 1.0;
+  LoweredFunction best;
+  best.bound = INFINITY;
+  for (std::size_t size = 0; size < attempt->finder().size_count() && !(best.bound <= tolerance); ++size)
+    for (const double cut : kCuts) {
+      const double sought = cut * tolerance / top;
+      for (const Shape& shape : attempt->finder().shapes(sought, size)) {
+        if (table_size(shape) > wanted.table_limit || !(shape.estimate <= 4.0 * sought)) continue;
+        const LoweredFunction lowered = (*attempt)(shape, tolerance, best.bound <= tolerance);
+        if (lowered.bound <= tolerance && attempt->keeps_rising(lowered)) return lowered;
+        if (lowered.bound < best.bound) best = lowered;
+      }
+    }
+  return best;
+}
+
+std::string digits(double value) { return number_text(rounded_up(value, 2)); }
+
+// The smallest tolerance that is met, of some that grow: first what shapes came within or were proven within.
+[[noreturn]] void refuse(const Wanted& wanted, const LoweredFunction& best, Attempt* attempt) {
+  const std::string limit = std::to_string(wanted.table_limit);
+  const std::string found = std::string("lower: ") + wanted.name + " cannot be had within " +
+                            digits(wanted.tolerance) + wanted.unit_text + " with a table of " + limit +
+                            " numbers; ";
+  constexpr int kTries = 40;
+  double reached = std::min(best.bound, 2.0 * attempt->closest()) / wanted.unit;
+  double tolerance = 1.5 * wanted.tolerance;
+  for (int i = 0; i < kTries && std::isfinite(tolerance * wanted.unit); ++i) {
+    if (std::isfinite(reached)) tolerance = std::max(tolerance, reached);
+    tolerance = rounded_up(tolerance, 2);
+    const LoweredFunction lowered = search(wanted, tolerance * wanted.unit, attempt);
+    if (lowered.bound <= tolerance * wanted.unit)
+      throw Error(ErrorKind::kNumeric,
+                  found + "the bound that can be proven is " + digits(tolerance) + wanted.unit_text);
+    reached = lowered.bound / wanted.unit;
+    tolerance *= attempt->budget_is_spent() ? 3.0 : 2.0;
+  }
+  throw Error(ErrorKind::kNumeric, found + "no bound can be proven");
+}
+
+LoweredFunction lower_output(const Wanted& wanted) {
+  Attempt attempt(wanted);
+  const double tolerance = wanted.tolerance * wanted.unit;
+  if (!std::isfinite(tolerance))
+    throw Error(ErrorKind::kNumeric, std::string("lower: ") + wanted.name + " cannot be had within " +
+                                         digits(wanted.tolerance) + wanted.unit_text +
+                                         ", which is not finite; no bound can be proven");
+  LoweredFunction best = search(wanted, tolerance, &attempt);
+  if (!(best.bound <= tolerance)) refuse(wanted, best, &attempt);
+  return best;
+}
+
+template <typename Kind>
+Lowered lower_kind(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
+                   const LoweringOptions& options) {
+  Wanted alpha;
+  alpha.name = "target alpha";
+  alpha.model = mapped_function(alpha_depends_on_specular(mapping),
+                                [kind](const auto& a, const auto& s) { return target_alpha(kind, a, s); });
+  alpha.domain = domain;
+  alpha.tolerance = options.alpha_tolerance;
+  alpha.table_limit = options.table_limit;
+
+  Wanted specular;
+  specular.name = "target specular";
+  specular.unit_text = " of its largest value";
+  specular.is_factor = is_proportional(mapping);  // lowered as its value at specular 1
+  specular.model = mapped_function(
+      !specular.is_factor, [kind](const auto& a, const auto& s) { return target_specular(kind, a, s); });
+  specular.domain = specular.is_factor ? ProofDomain{domain.alpha, {1.0, 1.0}} : domain;
+  specular.specular_max = domain.specular.max;
+  const double largest = sample(specular.model, specular.domain).largest;
+  if (largest != 0.0) specular.unit = largest * (specular.is_factor ? domain.specular.max : 1.0);
+  specular.tolerance = options.specular_tolerance;
+  specular.table_limit = options.table_limit;
+  return {lower_output(alpha), lower_output(specular)};
+}
+
+}  // namespace
+
+Lowered lower(const MappingKind& mapping, const Domain& domain, const LoweringOptions& options) {
+  return std::visit(
+      [&](const auto& kind) { return lower_kind(kind, mapping, proof_domain(domain), options); }, mapping);
+}
+
+}  // namespace remap

@@ -1,0 +1,19 @@
+// Lowering: any mapping to polynomials on few pieces, with an error that is proven over the whole domain.
+#pragma once
+
+#include "lower/lowered.hpp"
+
+namespace remap {
+
+struct LoweringOptions {
+  double alpha_tolerance = 1e-5;     // absolute, target alpha
+  double specular_tolerance = 1e-4;  // relative to the largest target specular over the domain
+  std::size_t table_limit = 2048;    // coefficients of one output
+};
+
+// Lowers both outputs of a mapping. Where the mapping rises with alpha or with specular (judged on a dense
+// grid), so do the polynomials (proven), if a shape within the tolerance does. Throws kNumeric where a
+// tolerance cannot be met within the table limit, with one that can: lowering with that succeeds.
+Lowered lower(const MappingKind& mapping, const Domain& domain, const LoweringOptions& options = {});
+
+}  // namespace remap

@@ -1,0 +1,143 @@
+// Every kind of mapping as a formula over any scalar: doubles for the interpreter, Taylor models for proofs
+// (lower/taylor.hpp). One text, so that what is proven is what is interpreted.
+//
+// A scalar needs +, -, * with itself and with double, and the functions that are declared for double below.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "model/mapping.hpp"
+
+namespace remap {
+
+// phi of AlphaCurve: (1 - exp(-rate x)) / rate, x where the rate is 0.
+inline double rise(double rate, double x) { return rate == 0.0 ? x : -std::expm1(-rate * x) / rate; }
+inline double reciprocal(double x) { return 1.0 / x; }
+inline double hyperbolic_tangent(double x) { return std::tanh(x); }
+inline double rectified(double x) { return x > 0.0 ? x : 0.0; }
+
+// Sum of weights[i] exp(-gamma |x - vector i|^2) for normalised inputs x.
+inline double gaussian_sum(const KernelExpansion& expansion, const std::vector<double>& inputs) {
+  double sum = 0.0;
+  const double* vector = expansion.vectors.data();
+  for (const double weight : expansion.weights) {
+    double square = 0.0;
+    for (const double input : inputs) {
+      const double difference = input - *vector++;
+      square += difference * difference;
+    }
+    sum += weight * std::exp(-expansion.gamma * square);
+  }
+  return sum;
+}
+
+template <typename Scalar>
+Scalar normalised(const Scaling& scaling, const Scalar& value) {
+  if (scaling.pole == 0.0) return (value - scaling.offset) * scaling.scale;
+  return (reciprocal(value + scaling.pole) * -scaling.pole + (1.0 - scaling.offset)) * scaling.scale;
+}
+
+template <typename Scalar>
+Scalar scaled_back(const Scaling& scaling, const Scalar& value) {
+  return value * (1.0 / scaling.scale) + scaling.offset;
+}
+
+template <typename Scalar>
+Scalar curve_value(const AlphaCurve& curve, const Scalar& alpha) {
+  Scalar value = rise(curve.ramp_rate, alpha) * curve.ramp + curve.start;
+  if (curve.bump != 0.0) value = value + rise(curve.bump_rate, alpha * alpha) * curve.bump;
+  if (curve.pole != 0.0) value = value + reciprocal(alpha) * curve.pole;
+  return value;
+}
+
+template <typename Scalar>
+Scalar activated(Activation activation, const Scalar& x) {
+  switch (activation) {
+    case Activation::kRelu:
+      return rectified(x);
+    case Activation::kTanh:
+      return hyperbolic_tangent(x);
+    case Activation::kSilu:  // x / (1 + exp(-x))
+      return x * (hyperbolic_tangent(x * 0.5) * 0.5 + 0.5);
+  }
+  return x;
+}
+
+template <typename Scalar>
+std::vector<Scalar> network_outputs(const Network& network, std::vector<Scalar> values) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = normalised(network.inputs[i], values[i]);
+  for (std::size_t l = 0; l < network.layers.size(); ++l) {
+    const Layer& layer = network.layers[l];
+    const bool last = l + 1 == network.layers.size();
+    std::vector<Scalar> outputs;
+    outputs.reserve(layer.output_count());
+    const double* weight = layer.weights.data();
+    for (const double bias : layer.biases) {
+      Scalar sum = values[0] * *weight++ + bias;
+      for (std::size_t i = 1; i < layer.input_count; ++i) sum = sum + values[i] * *weight++;
+      outputs.push_back(last ? sum : activated(network.activation, sum));
+    }
+    values = std::move(outputs);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = scaled_back(network.outputs[i], values[i]);
+  return values;
+}
+
+// The inputs that a regressor of `count` inputs takes: alpha alone, or both.
+template <typename Scalar>
+std::vector<Scalar> inputs_of(std::size_t count, const Scalar& alpha, const Scalar& specular) {
+  if (count == 1) return {alpha};
+  return {alpha, specular};
+}
+
+template <typename Scalar>
+Scalar expansion_value(const KernelExpansion& expansion, const Scalar& alpha, const Scalar& specular) {
+  std::vector<Scalar> inputs = inputs_of(expansion.inputs.size(), alpha, specular);
+  for (std::size_t i = 0; i < inputs.size(); ++i) inputs[i] = normalised(expansion.inputs[i], inputs[i]);
+  return scaled_back(expansion.output, gaussian_sum(expansion, inputs) + expansion.bias);
+}
+
+// Target alpha of each kind.
+template <typename Scalar>
+Scalar target_alpha(const Parametric& form, const Scalar& alpha, const Scalar& specular) {
+  Scalar sum = alpha * 0.0;
+  for (std::size_t j = form.roughness.size(); j-- > 0;) {
+    const std::vector<double>& row = form.roughness[j];
+    Scalar polynomial = alpha * 0.0;
+    for (std::size_t i = row.size(); i-- > 0;) polynomial = (polynomial + row[i]) * alpha;
+    sum = j + 1 == form.roughness.size() ? polynomial : sum * specular + polynomial;
+  }
+  return sum;
+}
+template <typename Scalar>
+Scalar target_alpha(const Svr& svr, const Scalar& alpha, const Scalar& specular) {
+  return expansion_value(svr.alpha, alpha, specular);
+}
+template <typename Scalar>
+Scalar target_alpha(const Mlp& mlp, const Scalar& alpha, const Scalar& specular) {
+  return network_outputs(mlp.alpha, inputs_of(mlp.alpha.inputs.size(), alpha, specular))[0];
+}
+
+// Target specular of each kind.
+template <typename Scalar>
+Scalar target_specular(const Parametric& form, const Scalar& alpha, const Scalar& specular) {
+  Scalar sum = alpha * 0.0;
+  Scalar power = alpha * 0.0 + 1.0;
+  int reached = 0;
+  for (const SpecularTerm& term : form.specular) {
+    for (; reached < term.power; ++reached) power = power * specular;
+    sum = sum + curve_value(term.factor, alpha) * power;
+  }
+  return sum;
+}
+template <typename Scalar>
+Scalar target_specular(const Svr& svr, const Scalar& alpha, const Scalar& specular) {
+  return expansion_value(svr.specular, alpha, specular);
+}
+template <typename Scalar>
+Scalar target_specular(const Mlp& mlp, const Scalar& alpha, const Scalar& specular) {
+  return network_outputs(mlp.specular, inputs_of(mlp.specular.inputs.size(), alpha, specular))[0];
+}
+
+}  // namespace remap

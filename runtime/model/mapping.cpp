@@ -1,0 +1,96 @@
+#include "model/mapping.hpp"
+
+#include <algorithm>
+
+namespace remap {
+namespace {
+
+struct ActivationName {
+  Activation activation;
+  std::string_view name;
+};
+constexpr std::array<ActivationName, 3> kActivations = {
+    {{Activation::kRelu, "relu"}, {Activation::kTanh, "tanh"}, {Activation::kSilu, "silu"}}};
+
+std::size_t count_of(const Network& network) {
+  std::size_t count = 2 * (network.inputs.size() + network.outputs.size());
+  for (const Layer& layer : network.layers) count += layer.weights.size() + layer.biases.size();
+  return count;
+}
+
+std::size_t count_of(const KernelExpansion& expansion) {
+  return expansion.vectors.size() + expansion.weights.size() + 2 * expansion.inputs.size() + 4;
+}
+
+// The constants that a curve needs: a term that is absent costs nothing.
+std::size_t count_of(const AlphaCurve& curve) {
+  std::size_t count = 1;
+  if (curve.ramp != 0.0) count += 2;
+  if (curve.bump != 0.0) count += 2;
+  if (curve.pole != 0.0) count += 1;
+  return count;
+}
+
+struct Name {
+  std::string operator()(const Parametric&) const { return "parametric"; }
+  std::string operator()(const Svr&) const { return "svr"; }
+  std::string operator()(const Mlp&) const { return "mlp"; }
+};
+
+struct AlphaDependsOnSpecular {
+  bool operator()(const Parametric& form) const { return form.roughness.size() > 1; }
+  bool operator()(const Svr& svr) const { return svr.alpha.inputs.size() > 1; }
+  bool operator()(const Mlp& mlp) const { return mlp.alpha.inputs.size() > 1; }
+};
+
+struct IsProportional {
+  bool operator()(const Parametric& form) const {
+    return std::all_of(form.specular.begin(), form.specular.end(),
+                       [](const SpecularTerm& term) { return term.power == 1; });
+  }
+  bool operator()(const Svr&) const { return false; }
+  bool operator()(const Mlp&) const { return false; }
+};
+
+struct NumberCount {
+  std::size_t operator()(const Parametric& form) const {
+    std::size_t count = 0;
+    for (const auto& row : form.roughness) count += row.size();
+    for (const SpecularTerm& term : form.specular) count += count_of(term.factor);
+    return count;
+  }
+  std::size_t operator()(const Svr& svr) const { return count_of(svr.alpha) + count_of(svr.specular); }
+  std::size_t operator()(const Mlp& mlp) const { return count_of(mlp.alpha) + count_of(mlp.specular); }
+};
+
+}  // namespace
+
+std::string_view activation_name(Activation activation) {
+  for (const ActivationName& entry : kActivations)
+    if (entry.activation == activation) return entry.name;
+  return "";
+}
+
+std::optional<Activation> activation_from_name(std::string_view name) {
+  for (const ActivationName& entry : kActivations)
+    if (entry.name == name) return entry.activation;
+  return std::nullopt;
+}
+
+std::vector<std::string> activation_names() {
+  std::vector<std::string> names;
+  for (const ActivationName& entry : kActivations) names.emplace_back(entry.name);
+  return names;
+}
+
+std::string kind_name(const MappingKind& mapping) { return std::visit(Name{}, mapping); }
+
+bool alpha_depends_on_specular(const MappingKind& mapping) {
+  return std::visit(AlphaDependsOnSpecular{}, mapping);
+}
+
+bool is_proportional(const MappingKind& mapping) { return std::visit(IsProportional{}, mapping); }
+
+std::size_t number_count(const MappingKind& mapping) { return std::visit(NumberCount{}, mapping); }
+
+}  // namespace remap

@@ -1,0 +1,128 @@
+// The kinds of mapping that a fit can hold, as plain data: target alpha and target specular as functions of
+// source alpha and source specular, all in canonical coordinates (convention.hpp).
+//
+// Specular is mapped channel by channel. Where the target's alpha depends on specular, it is that of the
+// largest channel: the highlight that is seen.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace remap {
+
+// A curve over alpha (Sztrajman et al. 2019, section 7):
+//   start + ramp phi(ramp_rate, alpha) + bump phi(bump_rate, alpha^2) + pole / alpha,
+//   phi(rate, x) = (1 - exp(-rate x)) / rate, which is x where the rate is 0.
+//
+// This is the paper's c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) with c1 = -ramp / ramp_rate, c2 =
+// ramp_rate, c3 = -bump / bump_rate, c4 = bump_rate, c0 = start - c1 - c3, written so that slow exponentials
+// (c2 -> 0, where the published coefficients reach -512.13 + 512.75 exp(-0.00057 alpha)) stay a sum of
+// numbers of order one. `pole` is the c5 of the authors' scripts; it stays finite because a domain starts
+// above alpha 0 and the domain rule holds alpha there.
+struct AlphaCurve {
+  double start = 0.0;
+  double ramp = 0.0;
+  double ramp_rate = 0.0;  // >= 0
+  double bump = 0.0;
+  double bump_rate = 0.0;  // >= 0
+  double pole = 0.0;
+  bool operator==(const AlphaCurve&) const = default;
+};
+
+// One term of a sum over powers of specular1: factor(alpha1) specular1^power.
+struct SpecularTerm {
+  int power = 1;  // 0: offset (the rim of a target with Fresnel); 1: the paper's slope; 2: curvature
+  AlphaCurve factor;
+  bool operator==(const SpecularTerm&) const = default;
+};
+
+// Kind `parametric`: alpha2 = sum over j, i of roughness[j][i] specular1^j alpha1^(i+1), specular2 = the sum
+// of the terms. The form of the paper has one row of four in `roughness` and one term of power 1.
+struct Parametric {
+  std::vector<std::vector<double>> roughness;
+  std::vector<SpecularTerm> specular;  // powers never fall; terms of one power add up
+  bool operator==(const Parametric&) const = default;
+};
+
+// normalised = (t - offset) * scale, with t = value, or t = value / (value + pole), which gives a regressor
+// room near 0, where curves over alpha bend most.
+struct Scaling {
+  double offset = 0.0;
+  double scale = 1.0;  // not 0
+  double pole = 0.0;   // >= 0; 0: t = value. Outputs have none
+  bool operator==(const Scaling&) const = default;
+};
+
+// A sum of Gaussians (radial basis functions), as support vector regression gives it (Chang and Lin 2011,
+// equation 10): normalised output = bias + sum of weights[i] exp(-gamma |x - vector i|^2), x the normalised
+// inputs.
+struct KernelExpansion {
+  std::vector<Scaling> inputs;  // 1: alpha; 2: alpha, specular
+  Scaling output;
+  double gamma = 1.0;  // > 0
+  double bias = 0.0;
+  std::vector<double> vectors;  // normalised, one row of inputs.size() after the other
+  std::vector<double> weights;  // one a vector
+  std::size_t count() const noexcept { return weights.size(); }
+  bool operator==(const KernelExpansion&) const = default;
+};
+
+// Kind `svr`: one expansion an output.
+struct Svr {
+  KernelExpansion alpha;
+  KernelExpansion specular;
+  bool operator==(const Svr&) const = default;
+};
+
+enum class Activation { kRelu, kTanh, kSilu };
+std::string_view activation_name(Activation activation);
+std::optional<Activation> activation_from_name(std::string_view name);
+std::vector<std::string> activation_names();
+
+// One layer: outputs = weights inputs + biases.
+struct Layer {
+  std::size_t input_count = 0;
+  std::vector<double> weights;  // one row of input_count an output, row after row
+  std::vector<double> biases;   // one an output
+  std::size_t output_count() const noexcept { return biases.size(); }
+  bool operator==(const Layer&) const = default;
+};
+
+// A fully connected network: inputs normalised, `activation` after every layer but the last, outputs scaled
+// back. Any number of inputs and outputs.
+struct Network {
+  Activation activation = Activation::kTanh;
+  std::vector<Scaling> inputs;
+  std::vector<Scaling> outputs;
+  std::vector<Layer> layers;  // at least 1
+  bool operator==(const Network&) const = default;
+};
+
+// Kind `mlp`: one network an output, of alpha alone or of alpha and specular.
+struct Mlp {
+  Network alpha;
+  Network specular;
+  bool operator==(const Mlp&) const = default;
+};
+
+// The mapping itself. A new kind is a new alternative here; std::visit makes every consumer handle it.
+using MappingKind = std::variant<Parametric, Svr, Mlp>;
+
+// The word for the kind in JSON, on the command line and on model cards.
+std::string kind_name(const MappingKind& mapping);
+
+// Whether target alpha depends on specular.
+bool alpha_depends_on_specular(const MappingKind& mapping);
+
+// Whether target specular is a factor of alpha times specular: then every channel can be scaled by itself.
+bool is_proportional(const MappingKind& mapping);
+
+// How many numbers the mapping consists of; the measure of simplicity when kinds are compared.
+std::size_t number_count(const MappingKind& mapping);
+
+}  // namespace remap

@@ -1,0 +1,42 @@
+// The benchmarks by subject: each registers its runs, and after them makes its tables of their medians.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/report.hpp"
+
+namespace remap_bench {
+
+// Planar width (0.01 to 0.99) and RGB (0.002 to 0.2, inside the domain of every table), and room for the
+// same.
+struct Maps {
+  explicit Maps(std::size_t texels);
+  std::size_t texels;
+  std::array<std::vector<float>, 4> in, out;
+};
+
+// 4096^2 texels: far beyond every cache. And 64^2, which stay in one.
+Maps& large_maps();
+Maps& small_maps();
+
+void add_passes();
+Section pass_section(const Medians& medians, const std::string& code, const std::string& title);
+Section other_pass_section(const Medians& medians);
+
+void add_rivals();
+Section rival_section(const Medians& medians);
+
+void add_networks();
+Section network_section(const Medians& medians);
+
+void add_compilations();
+Section header_section(const Medians& medians);
+
+void add_fits();
+Section fit_section(const Medians& medians);
+
+}  // namespace remap_bench

@@ -1,0 +1,45 @@
+// What is built once for each set of flags that a user might take: passes of headers, kernels of networks,
+// and those rivals that are source code too. CMake lists the builds in builds.inc.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace remap_bench {
+
+// evaluate_batch<3> of a header: planar width and RGB. Returns texels out of domain.
+using Pass = std::size_t (*)(std::size_t count, const float* width,
+                             const std::array<const float*, 3>& specular, float* width_out,
+                             const std::array<float*, 3>& specular_out);
+
+// A network of 6 x 300 x 4 over planar rows of `texels` floats, a multiple of 1024: inputs one after the
+// other, then outputs the same.
+using NetworkPass = void (*)(std::size_t texels, const float* in, float* out);
+
+// Its multiplications alone as Eigen's products of matrices, `batch` texels at a time.
+struct NetworkProducts {
+  std::size_t batch;
+  bool texels_innermost;                         // whether a column of the matrices is a row of texels
+  const float *hidden_weights, *output_weights;  // 1800 and 1200 of any order
+};
+using ProductsPass = void (*)(const NetworkProducts& products, std::size_t texels, const float* in,
+                              float* out);
+
+template <typename Function>
+struct Build {
+  std::string code;   // which header or rival
+  std::string flags;  // o2, o3, avx2, avx512
+  Function function;
+};
+
+// Those that this processor can run.
+std::vector<Build<Pass>> pass_builds();
+std::vector<Build<NetworkPass>> network_builds();
+std::vector<Build<ProductsPass>> products_builds();
+
+// The flags in words.
+std::string flags_text(const std::string& flags);
+
+}  // namespace remap_bench

@@ -1,0 +1,56 @@
+// What a generated header costs those who include it: bytes, and seconds of the compiler.
+#include <cstdlib>
+#include <filesystem>
+
+#include "bench/bench.hpp"
+#include "files.hpp"
+
+namespace remap_bench {
+namespace {
+
+const std::filesystem::path kFolder = REMAP_BENCH_FOLDER;
+
+std::string user_code(const std::string& code) {
+  return "#include <cstddef>\n#include \"" + code + ".hpp\"\nnamespace header = remap::" + code +
+         ";\n"
+         "std::size_t convert(std::size_t count, const float* width, const std::array<const float*, 3>& in,\n"
+         "                    float* width_out, const std::array<float*, 3>& out) {\n"
+         "  return header::evaluate_batch<3>(count, width, in, width_out, out);\n}\n"
+         "header::Output convert_one(header::Input in) { return header::evaluate(in); }\n";
+}
+
+void add_compilation(const std::string& name, const std::string& text) {
+  const std::filesystem::path source = kFolder / (name + "_user.cpp"), object = kFolder / (name + "_user.o");
+  remap::write_file(source, text);
+  const std::string command = "\"" REMAP_BENCH_COMPILER "\" -std=c++17 -O2 -c \"" + source.string() +
+                              "\" -o \"" + object.string() + "\"";
+  add_benchmark("compile/" + name, 1, 7, [command] {
+    if (std::system(command.c_str()) != 0) std::abort();
+  });
+}
+
+}  // namespace
+
+void add_compilations() {
+  add_compilation("empty", "");
+  for (const std::string code : {"svr", "parametric", "mlp", "svr_exact", "mlp_exact"})
+    add_compilation(code, user_code(code));
+}
+
+Section header_section(const Medians& medians) {
+  Section section{"Headers: size; time to compile a file that uses one (-O2), more than an empty file", {}};
+  const auto empty = medians.seconds("compile/empty");
+  for (const std::string code : {"svr", "parametric", "mlp", "svr_exact", "mlp_exact"}) {
+    const auto seconds = medians.seconds("compile/" + code);
+    if (!seconds || !empty) continue;
+    const bool exact = code.find("_exact") != std::string::npos;
+    const double size = static_cast<double>(std::filesystem::file_size(kFolder / (code + ".hpp"))) / 1024.0;
+    const std::string what = (exact ? "exact " : "lowered ") + code.substr(0, code.find('_'));
+    const auto goal = [&](double value) { return exact ? std::nullopt : std::optional(value); };
+    section.rows.push_back({what + ", size", size, "KB", {}, "", goal(40.0), false});
+    section.rows.push_back({what + ", compilation", *seconds - *empty, "s", {}, "", goal(0.5), false});
+  }
+  return section;
+}
+
+}  // namespace remap_bench

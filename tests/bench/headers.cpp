@@ -1,0 +1,170 @@
+// Makes what the benchmarks measure, in the build tree: the fits of one table, their headers, and networks of
+// the size of Sztrajman et al. 2019, section 8. The table is the published one where it is at hand, otherwise
+// one that the built-in renderer sweeps.
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <random>
+#include <string>
+
+#include "bench/sweep_table.hpp"
+#include "emit/emit.hpp"
+#include "emit/mapping_code.hpp"
+#include "files.hpp"
+#include "fit/fit_table.hpp"
+#include "model/fit_json.hpp"
+#include "support/shared_data.hpp"
+
+namespace {
+
+using remapc::Table;
+
+Table bench_table() {
+  // Where it is missing, this says so.
+  const auto published = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
+  if (!published.empty()) return remapc::read_table(published, remapc::column_map("sztrajman-2019"));
+  Table table = remap_bench::sweep_table("paper", "mitsuba/ward", "mitsuba/as");
+  table.name = "built-in sweep";
+  return table;
+}
+
+// `<name>.json`, and its headers `<name>.hpp` (lowered) and `<name>_exact.hpp`.
+remap::Fit write_fit(const std::filesystem::path& folder, const Table& table, const std::string& name,
+                     remapc::Regressor regressor) {
+  remapc::FitOptions options;
+  options.id = name;
+  options.regressor = regressor;
+  options.regression.form = "paper";
+  remap::Fit fit = remapc::fit_table(table, remapc::table_text(table), options).fit;
+  remap::write_file(folder / (name + ".json"), fit_to_json(fit));
+  remap::write_file(folder / (name + ".hpp"), remapc::emit_header(fit));
+  fit.id = name + "_exact";
+  remapc::EmitOptions exact;
+  exact.exact = true;
+  remap::write_file(folder / (fit.id + ".hpp"), remapc::emit_header(fit, exact));
+  return fit;
+}
+
+std::string number(double value) { return remapc::double_literal(value); }
+
+std::string normalised_text(const remap::Scaling& scaling, const std::string& name) {
+  const std::string t =
+      scaling.pole == 0.0 ? name : name + " / (" + name + " + Number(" + number(scaling.pole) + "))";
+  return "(" + t + " - Number(" + number(scaling.offset) + ")) * Number(" + number(scaling.scale) + ")";
+}
+
+// One expansion as exporters of support vectors write it: a loop with std::exp.
+std::string plain_loop(const std::string& name, const remap::KernelExpansion& expansion) {
+  const std::size_t width = expansion.inputs.size();
+  std::string vectors, weights, inputs;
+  for (std::size_t i = 0; i < expansion.count(); ++i) {
+    vectors += "{";
+    for (std::size_t k = 0; k < width; ++k)
+      vectors += (k == 0 ? "Number(" : ", Number(") + number(expansion.vectors[i * width + k]) + ")";
+    vectors += "},\n";
+    weights += "Number(" + number(expansion.weights[i]) + "),\n";
+  }
+  for (std::size_t k = 0; k < width; ++k)
+    inputs += (k == 0 ? "" : ", ") + normalised_text(expansion.inputs[k], k == 0 ? "alpha" : "specular");
+  const std::string counts = std::to_string(expansion.count());
+  return "inline constexpr Number k_" + name + "_vectors[" + counts + "][" + std::to_string(width) +
+         "] = {\n" + vectors + "};\ninline constexpr Number k_" + name + "_weights[" + counts + "] = {\n" +
+         weights + "};\ninline Number " + name +
+         "(Number alpha, [[maybe_unused]] Number specular) {\n"
+         "  const Number inputs[] = {" +
+         inputs + "};\n  Number sum = Number(" + number(expansion.bias) + ");\n  for (int i = 0; i < " +
+         counts +
+         "; ++i) {\n"
+         "    Number square = 0;\n"
+         "    for (int k = 0; k < " +
+         std::to_string(width) + "; ++k) {\n      const Number difference = inputs[k] - k_" + name +
+         "_vectors[i][k];\n      square += difference * difference;\n    }\n    sum += k_" + name +
+         "_weights[i] * std::exp(Number(" + number(-expansion.gamma) +
+         ") * square);\n"
+         "  }\n  return sum * Number(" +
+         number(1.0 / expansion.output.scale) + ") + Number(" + number(expansion.output.offset) + ");\n}\n";
+}
+
+// The rival `svr_<number>.hpp`, called as a header is.
+void write_plain_loop(const std::filesystem::path& folder, const remap::Svr& svr, const std::string& type) {
+  const std::string name = "svr_" + type;
+  remap::write_file(folder / (name + ".hpp"),
+                    "#include <array>\n#include <cmath>\n#include <cstddef>\n\nnamespace remap::" + name +
+                        " {\nusing Number = " + type + ";\n" + plain_loop("alpha", svr.alpha) +
+                        plain_loop("specular", svr.specular) +
+                        "template <std::size_t Channels>\n"
+                        "inline std::size_t evaluate_batch(std::size_t count, const float* width,\n"
+                        "    const std::array<const float*, Channels>& in, float* width_out,\n"
+                        "    const std::array<float*, Channels>& out) {\n"
+                        "  for (std::size_t i = 0; i < count; ++i) {\n"
+                        "    const Number a = Number(width[i]);\n"
+                        "    width_out[i] = static_cast<float>(alpha(a, Number(in[0][i])));\n"
+                        "    for (std::size_t c = 0; c < Channels; ++c)\n"
+                        "      out[c][i] = static_cast<float>(specular(a, Number(in[c][i])));\n"
+                        "  }\n  return 0;\n}\n}  // namespace remap::" +
+                        name + "\n");
+}
+
+// Inputs and outputs in [0, 1], weights as a network starts with (Glorot and Bengio 2010): speed does not
+// depend on them.
+remap::Network random_network(remap::Activation activation) {
+  std::mt19937 random(1);
+  remap::Network network;
+  network.activation = activation;
+  network.inputs.assign(6, {0.5, 2.0, 0.0});
+  network.outputs.assign(4, {0.5, 2.0, 0.0});
+  std::size_t inputs = 6;
+  for (const std::size_t units : {300, 4}) {
+    remap::Layer layer;
+    layer.input_count = inputs;
+    const double range = std::sqrt(6.0 / static_cast<double>(inputs + units));
+    std::uniform_real_distribution<double> weight(-range, range);
+    for (std::size_t i = 0; i < inputs * units; ++i) layer.weights.push_back(weight(random));
+    for (std::size_t i = 0; i < units; ++i) layer.biases.push_back(weight(random));
+    network.layers.push_back(layer);
+    inputs = units;
+  }
+  return network;
+}
+
+// `network_<activation>.hpp`: the kernel of a network, with what the layout of a header has around it.
+void write_network(const std::filesystem::path& folder, remap::Activation activation) {
+  const remap::Network network = random_network(activation);
+  const std::string name = "network_" + std::string(remap::activation_name(activation));
+  remap::write_file(folder / (name + ".hpp"),
+                    "#include <cstddef>\n#include <cstdint>\n#include <cstring>\n\nnamespace remap::" + name +
+                        " {\n"
+                        "inline std::uint32_t bits(float value) noexcept {\n"
+                        "  std::uint32_t result = 0;\n"
+                        "  std::memcpy(&result, &value, sizeof result);\n"
+                        "  return result;\n}\n"
+                        "inline float float_from_bits(std::uint32_t value) noexcept {\n"
+                        "  float result = 0.0f;\n"
+                        "  std::memcpy(&result, &value, sizeof result);\n"
+                        "  return result;\n}\n"
+                        "inline constexpr std::size_t kBlock = " +
+                        std::to_string(remapc::network_block(network)) + ";\n" +
+                        remapc::network_helpers(activation) + remapc::network_function("rows", network) +
+                        "}  // namespace remap::" + name + "\n");
+}
+
+}  // namespace
+
+int main(int, char** argv) {
+  try {
+    const std::filesystem::path folder = argv[1];
+    const Table table = bench_table();
+    remap::write_file(folder / "table.csv", remapc::table_text(table));
+    const remap::Fit svr = write_fit(folder, table, "svr", remapc::Regressor::kSvr);
+    for (const char* type : {"double", "float"})
+      write_plain_loop(folder, std::get<remap::Svr>(svr.mapping), type);
+    write_fit(folder, table, "parametric", remapc::Regressor::kParametric);
+    write_fit(folder, table, "mlp", remapc::Regressor::kMlp);
+    write_network(folder, remap::Activation::kRelu);
+    write_network(folder, remap::Activation::kTanh);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}

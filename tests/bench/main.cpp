@@ -1,0 +1,46 @@
+// What the tools and the code they generate cost, as ratios to rivals in the same run. Never passes or fails;
+// scripts/bench runs it. `--json` prints the tables as JSON; other arguments are Google Benchmark's, such as
+// --benchmark_filter=svr.
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "bench/bench.hpp"
+
+int main(int argc, char** argv) {
+  using namespace remap_bench;
+  bool json = false;
+  std::vector<std::string> arguments = {argv[0], "--benchmark_enable_random_interleaving=true"};
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--json") == 0)
+      json = true;
+    else
+      arguments.push_back(argv[i]);
+  }
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  int count = static_cast<int>(pointers.size());
+  benchmark::Initialize(&count, pointers.data());
+  if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
+
+  add_passes();
+  add_rivals();
+  add_networks();
+  add_compilations();
+  add_fits();
+  Medians medians;
+  benchmark::RunSpecifiedBenchmarks(&medians);
+  const std::vector<Section> sections = {
+      pass_section(medians, "svr", "Lowered SVR pass"),
+      pass_section(medians, "parametric", "Lowered parametric pass (the paper's form)"),
+      rival_section(medians),
+      network_section(medians),
+      other_pass_section(medians),
+      header_section(medians),
+      fit_section(medians)};
+  if (json)
+    print_json(sections);
+  else
+    print_text(sections);
+  return 0;
+}

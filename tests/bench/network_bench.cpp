@@ -1,0 +1,85 @@
+// The kernel of a network of 6 x 300 x 4 (Sztrajman et al. 2019, section 8) against Eigen's products of the
+// same matrices, which leave out biases and activations.
+#include <random>
+
+#include "bench/bench.hpp"
+#include "bench/builds.hpp"
+
+namespace remap_bench {
+namespace {
+
+constexpr std::size_t kTexels = 4096;
+
+std::vector<float> random_floats(std::size_t count) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> share(0.01f, 0.99f);
+  std::vector<float> values(count);
+  for (float& value : values) value = share(random);
+  return values;
+}
+
+struct Rows {
+  std::vector<float> in = random_floats(6 * kTexels), out = std::vector<float>(4 * kTexels, 1.0f);
+  std::vector<float> hidden_weights = random_floats(6 * 300), output_weights = random_floats(300 * 4);
+};
+
+Rows& rows() {
+  static Rows rows;
+  return rows;
+}
+
+constexpr std::size_t kBatches[] = {64, 128, 256, 512};
+
+std::string products_name(const std::string& flags, std::size_t batch, bool texels_innermost) {
+  return "eigen_" + flags + "/" + std::to_string(batch) + (texels_innermost ? "/columns" : "/rows");
+}
+
+// The batch and layout that suit Eigen best.
+std::string best_products(const Medians& medians, const std::string& flags) {
+  std::string best = products_name(flags, kBatches[0], true);
+  for (const std::size_t batch : kBatches)
+    for (const bool innermost : {true, false}) {
+      const std::string name = products_name(flags, batch, innermost);
+      const auto seconds = medians.seconds(name);
+      if (seconds && *seconds < medians.seconds(best).value_or(1e300)) best = name;
+    }
+  return best;
+}
+
+}  // namespace
+
+void add_networks() {
+  for (const Build<NetworkPass>& build : network_builds()) {
+    const NetworkPass pass = build.function;
+    add_benchmark(build.code + "_" + build.flags, kTexels, 15,
+                  [pass] { pass(kTexels, rows().in.data(), rows().out.data()); });
+  }
+  for (const Build<ProductsPass>& build : products_builds())
+    for (const std::size_t batch : kBatches)
+      for (const bool innermost : {true, false}) {
+        const ProductsPass pass = build.function;
+        add_benchmark(products_name(build.flags, batch, innermost), kTexels, 5, [pass, batch, innermost] {
+          Rows& r = rows();
+          pass({batch, innermost, r.hidden_weights.data(), r.output_weights.data()}, kTexels, r.in.data(),
+               r.out.data());
+        });
+      }
+}
+
+Section network_section(const Medians& medians) {
+  Section section{"Exact MLP 6 x 300 x 4 against Eigen's products (GEMM) at the same flags, one core", {}};
+  for (const Build<NetworkPass>& build : network_builds()) {
+    const std::string name = build.code + "_" + build.flags, rival = best_products(medians, build.flags);
+    Row row;
+    row.what = build.code.substr(build.code.find('_') + 1) + " at " + flags_text(build.flags);
+    row.value = mega_items(medians, name);
+    row.unit = "Mtexel/s";
+    row.ratio = speed_ratio(medians, name, rival);
+    row.rival = "Eigen, batches of " + rival.substr(rival.find('/') + 1);
+    if (build.flags != "o3") row.goal = 0.8;
+    section.rows.push_back(row);
+  }
+  return section;
+}
+
+}  // namespace remap_bench

@@ -1,0 +1,113 @@
+// Passes of headers against a memcpy of the same four channels.
+#include <cstring>
+#include <random>
+
+#include "bench/bench.hpp"
+#include "bench/builds.hpp"
+
+namespace remap_bench {
+namespace {
+
+void copy(Maps& maps) {
+  for (std::size_t c = 0; c < 4; ++c)
+    std::memcpy(maps.out[c].data(), maps.in[c].data(), maps.texels * sizeof(float));
+}
+
+void convert(Maps& maps, Pass pass) {
+  auto& in = maps.in;
+  auto& out = maps.out;
+  benchmark::DoNotOptimize(pass(maps.texels, in[0].data(), {in[1].data(), in[2].data(), in[3].data()},
+                                out[0].data(), {out[1].data(), out[2].data(), out[3].data()}));
+}
+
+// Whether a pass is fast enough for large maps.
+bool is_lowered(const std::string& code) { return code == "svr" || code == "parametric" || code == "mlp"; }
+
+std::optional<double> goal(const std::string& code, const std::string& flags) {
+  const bool parametric = code == "parametric";
+  if (code == "mlp" || flags == "o2") return std::nullopt;
+  if (flags == "o3") return parametric ? 0.5 : 0.3;
+  if (flags == "avx2") return parametric ? 0.95 : 0.6;
+  return parametric ? 1.0 : 0.8;
+}
+
+Row pass_row(const Medians& medians, const std::string& what, const std::string& name,
+             const std::string& maps) {
+  Row row;
+  row.what = what;
+  row.value = mega_items(medians, name + "/" + maps);
+  row.unit = "Mtexel/s";
+  row.ratio = speed_ratio(medians, name + "/" + maps, "memcpy/" + maps);
+  row.rival = "memcpy";
+  return row;
+}
+
+}  // namespace
+
+Maps::Maps(std::size_t count) : texels(count) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> share(0.01f, 0.99f);
+  for (auto& row : in) {
+    row.resize(texels);
+    for (float& value : row) value = &row == &in[0] ? share(random) : 0.2f * share(random);
+  }
+  for (auto& row : out) row.assign(texels, 1.0f);
+}
+
+Maps& large_maps() {
+  static Maps maps(4096 * 4096);
+  return maps;
+}
+
+Maps& small_maps() {
+  static Maps maps(64 * 64);
+  return maps;
+}
+
+void add_passes() {
+  add_benchmark("memcpy/large", large_maps().texels, 15, [] { copy(large_maps()); });
+  add_benchmark("memcpy/small", small_maps().texels, 15, [] { copy(small_maps()); });
+  for (const Build<Pass>& build : pass_builds()) {
+    const std::string name = build.code + "_" + build.flags;
+    const Pass pass = build.function;
+    add_benchmark(name + "/small", small_maps().texels, 7, [pass] { convert(small_maps(), pass); });
+    if (is_lowered(build.code))
+      add_benchmark(name + "/large", large_maps().texels, 15, [pass] { convert(large_maps(), pass); });
+  }
+}
+
+Section pass_section(const Medians& medians, const std::string& code, const std::string& title) {
+  Section section{title + ", roughness + RGB, one core", {}};
+  section.rows.push_back(pass_row(medians, "memcpy of the four channels, 4096 x 4096", "memcpy", "large"));
+  section.rows.back().ratio.reset();
+  for (const Build<Pass>& build : pass_builds()) {
+    if (build.code != code) continue;
+    const std::string name = code + "_" + build.flags;
+    section.rows.push_back(
+        pass_row(medians, "header at " + flags_text(build.flags) + ", 4096 x 4096", name, "large"));
+    section.rows.back().goal = goal(code, build.flags);
+  }
+  for (const Build<Pass>& build : pass_builds())
+    if (build.code == code && build.flags != "o2")
+      section.rows.push_back(pass_row(medians, "header at " + flags_text(build.flags) + ", 64 x 64, in cache",
+                                      code + "_" + build.flags, "small"));
+  return section;
+}
+
+Section other_pass_section(const Medians& medians) {
+  Section section{"Other headers of the same table, roughness + RGB, one core", {}};
+  for (const Build<Pass>& build : pass_builds()) {
+    const std::string name = build.code + "_" + build.flags, flags = flags_text(build.flags);
+    if (build.code == "mlp")
+      section.rows.push_back(
+          pass_row(medians, "lowered MLP 2 x 8 at " + flags + ", 4096 x 4096", name, "large"));
+    if (build.code == "mlp_exact" || build.code == "svr_exact")
+      section.rows.push_back(pass_row(
+          medians,
+          (build.code == "mlp_exact" ? "exact MLP 2 x 8 at " : "exact SVR at ") + flags + ", 64 x 64", name,
+          "small"));
+  }
+  return section;
+}
+
+}  // namespace remap_bench

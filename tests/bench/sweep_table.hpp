@@ -1,0 +1,28 @@
+// A table of the built-in renderer, as users sweep it: 30 x 30 samples, pictures of 512^2.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "sweep/sweep.hpp"
+
+namespace remap_bench {
+
+inline remapc::Table sweep_table(const std::string& objective, const std::string& source,
+                                 const std::string& target) {
+  const auto renderer = remapc::make_builtin_renderer();
+  const remapc::SweepOptions options{source,
+                                     target,
+                                     remapc::objective_preset(objective),
+                                     objective,
+                                     512,
+                                     1,
+                                     "bench",
+                                     remapc::grid_samples({0.01, 1.0}, 30, {0.0, 1.0}, 30)};
+  const auto journal = std::filesystem::temp_directory_path() / "remap-bench.journal";
+  remapc::Table table = remapc::run_sweep(*renderer, options, {}, journal, false);
+  std::filesystem::remove(journal);
+  return table;
+}
+
+}  // namespace remap_bench

@@ -1,0 +1,229 @@
+// Fitting and comparing as a person meets them: small tables, small networks.
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+
+#include "cli/remapc_session.hpp"
+#include "model/fit_json.hpp"
+
+using namespace remap;
+namespace fs = std::filesystem;
+
+TEST_CASE("remapc fit: a missing table is named with the reason") {
+  const Session session;
+  check_failure(session.remapc({"fit", session.path("no.csv")}), 1, "no.csv: cannot be read: No such file");
+}
+
+TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it in the fit") {
+  const Session session;
+  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  const ProcessResult fitted =
+      session.remapc({"fit", session.path("t.csv"), "--layers", "4", "--starts", "1", "--activation", "silu",
+                      "-o", session.path("fits"), "--plot", session.path("plot.svg")});
+  INFO(fitted.errors);
+  REQUIRE(fitted.exit_code == 0);
+  for (const std::string word : {"parametric ", "svr ", "mlp ", "chosen", "chroma shift"})
+    CHECK(fitted.errors.find(word) != std::string::npos);
+  CHECK(fitted.output.empty());
+  CHECK(fitted.errors.find('\r') == std::string::npos);  // progress is for terminals
+  const Fit fit = load_fit(session.path("fits/mitsuba_ward_to_mitsuba_as.json"));
+  CHECK(fit.candidates.size() >= 3);
+  const ProcessResult shown =
+      session.remapc({"show", "mitsuba_ward_to_mitsuba_as", "--fits", session.path("fits")});
+  CHECK(shown.output.find("Compared with") != std::string::npos);
+  // The table itself, line for line.
+  const std::string table = fitted.errors.substr(0, fitted.errors.rfind('\n', fitted.errors.size() - 2));
+  CHECK(shown.output.find(table) != std::string::npos);
+  CHECK(shown.output.find("chosen by: 2 x 5-fold cross-validation") != std::string::npos);
+
+  const std::string plot = read_file(session.path("plot.svg"));
+  CHECK(plot.starts_with("<?xml"));
+  for (const std::string word : {"svr, rms", "mlp, rms", "Error of each fit in f0", "alpha of mitsuba/ward"})
+    CHECK(plot.find(word) != std::string::npos);
+}
+
+TEST_CASE("remapc fit: each kind of regression can be asked for, and a form") {
+  const Session session;
+  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  const auto fit = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"fit", session.path("t.csv"), "-o", session.path("fits")});
+    return session.remapc(more);
+  };
+  const auto kind = [&] {
+    return kind_name(load_fit(session.path("fits/mitsuba_ward_to_mitsuba_as.json")).mapping);
+  };
+  CHECK(fit({"--model", "svr"}).exit_code == 0);
+  CHECK(kind() == "svr");
+  CHECK(session.remapc({"show", "mitsuba_ward_to_mitsuba_as", "--fits", session.path("fits")})
+            .output.find("Gaussians of alpha") != std::string::npos);
+  CHECK(fit({"--model", "mlp", "--layers", "4", "--starts", "1"}).exit_code == 0);
+  CHECK(kind() == "mlp");
+  CHECK(fit({"--model", "parametric", "--form", "quartic/affine"}).errors.find("parametric quartic/affine") !=
+        std::string::npos);
+  CHECK(kind() == "parametric");
+
+  check_failure(fit({"--model", "spline"}), 2, "--model");
+  check_failure(fit({"--form", "quartic/afine"}), 2, "did you mean quartic/affine?");
+  check_failure(fit({"--model", "svr", "--form", "paper"}), 2, "--form: is for --model parametric or auto");
+  check_failure(fit({"--model", "parametric", "--layers", "4"}), 2, "--layers: is for --model mlp or auto");
+  check_failure(fit({"--activation", "step"}), 2, "--activation");
+}
+
+TEST_CASE("remapc fit: a plot that cannot be written is named before the work") {
+  const Session session;
+  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  auto fit = session.fit("t.csv", "out");
+  fit.insert(fit.end(), {"--plot", session.path("plot.png")});
+  check_failure(session.remapc(fit), 2, "ends with .svg");
+  fit.back() = session.path("t.csv/plot.svg");
+  check_failure(session.remapc(fit), 1, "folder");
+  // Without gnuplot on the path.
+  fit.back() = session.path("plot.svg");
+  std::vector<std::string> bare = {"/usr/bin/env", "PATH=" + session.path(""), REMAPC_PROGRAM};
+  bare.insert(bare.end(), fit.begin(), fit.end());
+  check_failure(run(bare), 1, "Debian has it in the package gnuplot-nox");
+  CHECK_FALSE(fs::exists(session.path("out/mitsuba_ward_to_mitsuba_as.json")));
+}
+
+TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plotted") {
+  const Session session;
+  session.write("exact.csv", made_table(12, 4));  // of the paper's form
+  auto fit = session.fit("exact.csv");
+  fit.insert(fit.end(), {"--plot", session.path("exact.svg")});
+  CHECK(session.remapc(fit).exit_code == 0);
+  CHECK(read_file(session.path("exact.svg")).find("parametric paper, rms ") != std::string::npos);
+  std::string black = "# source: a/b\n# target: c/d\n" + kHeader;
+  for (int i = 10; i < 40; ++i)
+    for (const std::string specular : {"0.2", "0.5"})
+      black += "0." + std::to_string(i) + "," + specular + ",0." + std::to_string(i) + ",0,0,ok\n";
+  session.write("black.csv", black);
+  const ProcessResult result = session.remapc({"fit", session.path("black.csv"), "--model", "svr", "-o",
+                                               session.path("fits"), "--plot", session.path("black.svg")});
+  INFO(result.errors);
+  CHECK(result.exit_code == 0);
+  CHECK(fs::exists(session.path("black.svg")));
+}
+
+TEST_CASE("remapc fit: gnuplot's failure is shown") {
+  const Session session;
+  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  session.write("bin/gnuplot",
+                "#!/bin/sh\n[ \"$1\" = --version ] || { echo 'line 3: no such thing' >&2; exit 1; }\n");
+  fs::permissions(session.path("bin/gnuplot"), fs::perms::owner_all);
+  std::vector<std::string> arguments = {"/usr/bin/env", "PATH=" + session.path("bin"), REMAPC_PROGRAM};
+  auto fit = session.fit("t.csv");
+  fit.insert(fit.end(), {"--plot", session.path("plot.svg")});
+  arguments.insert(arguments.end(), fit.begin(), fit.end());
+  check_failure(run(arguments), 1, "gnuplot failed (1): line 3: no such thing");
+  CHECK_FALSE(fs::exists(session.path("plot.svg")));
+}
+
+TEST_CASE("remapc compare: fits and the formulas of today stand side by side") {
+  const Session session;
+  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
+  const ProcessResult result =
+      session.remapc({"compare", session.path("t.csv"), "--fits", session.path("fits")});
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.output.find("mitsuba_ward_to_mitsuba_as (parametric") != std::string::npos);
+  CHECK(result.output.find("fitted from this table, training rows included") != std::string::npos);
+  CHECK(result.output.find("alpha and specular as they are") != std::string::npos);
+  CHECK(result.output.find("FBX2glTF, Yocto, Blender OBJ, assimp, obj2gltf (mitsuba/ward has alpha, no "
+                           "exponent)") != std::string::npos);
+  CHECK(result.output.find("at edge") == std::string::npos);  // a column without figures
+
+  const ProcessResult json = session.remapc(
+      {"compare", session.path("t.csv"), session.path("fits/mitsuba_ward_to_mitsuba_as.json"), "--json"});
+  CHECK(json.output.find("\"fitted_from_this_table\": true") != std::string::npos);
+  CHECK(json.output.find("\"name\": \"pbrt-v3\"") != std::string::npos);
+  CHECK(json.output.find("does not apply: mitsuba/ward has alpha, no roughness") != std::string::npos);
+}
+
+TEST_CASE("remapc compare: a fit of other models, an unknown one, and a table without rows are named") {
+  const Session session;
+  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
+  const std::string fit = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
+  session.write("other.csv", "# source: a/b\n# target: c/d\n" + kHeader + "0.1,0.2,0.3,0.4,0,ok\n");
+  check_failure(session.remapc({"compare", session.path("other.csv"), fit}), 1,
+                "expected a fit of a/b to c/d");
+  check_failure(session.remapc({"compare", session.path("t.csv"), "nix", "--fits", session.path("fits")}), 2,
+                "neither a file nor a fit");
+  session.write("none.csv", "# source: a/b\n# target: c/d\n" + kHeader + "0.1,0.2,0.3,0.4,0,flat\n");
+  check_failure(session.remapc({"compare", session.path("none.csv")}), 1, "has no usable row");
+}
+
+TEST_CASE("remapc fit: an output folder that cannot be is named") {
+  const Session session;
+  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  check_failure(session.remapc({"fit", session.path("t.csv"), "-o", session.path("t.csv")}), 1, "folder");
+}
+
+TEST_CASE("remapc compare: fits of one id are told apart by their files") {
+  const Session session;
+  session.write("t.csv", made_table(8, 3));
+  REQUIRE(session.remapc(session.fit("t.csv", "a")).exit_code == 0);
+  REQUIRE(session.remapc(session.fit("t.csv", "b")).exit_code == 0);
+  const std::string a = session.path("a/mitsuba_ward_to_mitsuba_as.json");
+  const std::string b = session.path("b/mitsuba_ward_to_mitsuba_as.json");
+  const ProcessResult both = session.remapc({"compare", session.path("t.csv"), a, b});
+  CHECK(both.output.find(a + " (parametric") != std::string::npos);
+  CHECK(both.output.find(b + " (parametric") != std::string::npos);
+  CHECK(session.remapc({"compare", session.path("t.csv"), a}).output.find(a) == std::string::npos);
+}
+
+TEST_CASE("remapc fit: numbers that no regression can use are wrong usage") {
+  const Session session;
+  session.write("t.csv", made_table(8, 3));
+  const auto fit = [&](const std::string& option, const std::string& value) {
+    return session.remapc({"fit", session.path("t.csv"), "-o", session.path("fits"), option, value});
+  };
+  check_failure(fit("--layers", "0"), 2, "--layers: Value 0 not in range 1 to 4096");
+  check_failure(fit("--layers", "8,-2"), 2, "--layers: Value -2 not in range");
+  check_failure(fit("--starts", "-1"), 2, "--starts: Value -1 not in range 1 to 1000");
+  check_failure(fit("--seed", "-1"), 2, "--seed: Value -1 not in range");
+  check_failure(fit("--jobs", "-1"), 2, "--jobs: is -1, which is no value for it");
+  check_failure(fit("--held-out", "2"), 2, "held-out share: 2; expected 0 to 0.9");
+  check_failure(fit("--id", "a-b"), 2, "expected a C++ identifier");
+  CHECK_FALSE(fs::exists(session.path("fits/mitsuba_ward_to_mitsuba_as.json")));
+}
+
+TEST_CASE("remapc fit: the same seed gives the same bytes for every kind and any number of jobs") {
+  const Session session;
+  session.write("t.csv", made_table(10, 4));
+  for (const std::string model : {"parametric", "svr", "mlp", "auto"}) {
+    INFO(model);
+    for (const std::string jobs : {"1", "2"}) {
+      std::vector<std::string> fit = {"fit", session.path("t.csv"),     "--model", model, "--jobs", jobs,
+                                      "-o",  session.path(model + jobs)};
+      if (model == "mlp" || model == "auto") fit.insert(fit.end(), {"--layers", "4", "--starts", "2"});
+      REQUIRE(session.remapc(fit).exit_code == 0);
+    }
+    const std::string name = "/mitsuba_ward_to_mitsuba_as.json";
+    CHECK(read_file(session.path(model + "1" + name)) == read_file(session.path(model + "2" + name)));
+  }
+}
+
+TEST_CASE("remapc fit: one specular, one width and a constant target are fitted or refused with the reason") {
+  const Session session;
+  session.write("specular.csv", made_table(20, 1));
+  session.write("width.csv", made_table(1, 20));
+  std::string flat = "# source: a/b\n# target: c/d\n" + kHeader;
+  for (int i = 1; i <= 30; ++i) flat += "0." + std::to_string(9 + i) + ",0.5,0.3,0.4,0,ok\n";
+  session.write("flat.csv", flat);
+  const auto fit = [&](const std::string& table, const std::string& model) {
+    std::vector<std::string> arguments = {"fit", session.path(table), "--model", model,
+                                          "-o",  session.path("fits")};
+    if (model == "mlp" || model == "auto") arguments.insert(arguments.end(), {"--layers", "4"});
+    return session.remapc(arguments);
+  };
+  CHECK(fit("specular.csv", "parametric").exit_code == 0);
+  CHECK(fit("specular.csv", "auto").exit_code == 0);
+  check_failure(fit("specular.csv", "svr"), 1, "specular1 is 0.9 in every row");
+  check_failure(fit("specular.csv", "mlp"), 1, "specular1 is 0.9 in every row");
+  for (const std::string model : {"parametric", "svr", "mlp", "auto"}) {
+    check_failure(fit("width.csv", model), 1, "1 different alpha1; expected at least 12 and 6");
+    check_failure(fit("flat.csv", model), 1, "alpha2 stays at 0.3 between alpha1 0.1");
+  }
+}

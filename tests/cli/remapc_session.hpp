@@ -1,0 +1,84 @@
+// What the tests of remapc's command line share.
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "files.hpp"
+#include "number_text.hpp"
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace remap {
+
+// remapc in a folder of its own.
+class Session {
+ public:
+  ProcessResult remapc(std::vector<std::string> arguments, const ProcessLimits& limits = {}) const {
+    arguments.insert(arguments.begin(), REMAPC_PROGRAM);
+    return run(arguments, limits);
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  void write(const std::string& name, const std::string& content) const {
+    write_file(folder_.path() / name, content);
+  }
+  std::size_t file_count() const {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::recursive_directory_iterator(folder_.path()), {}));
+  }
+
+  // A fit of a table, by the quickest regression.
+  std::vector<std::string> fit(const std::string& table, const std::string& folder = "fits") const {
+    return {"fit", path(table), "--model", "parametric", "-o", path(folder)};
+  }
+
+  // A small sweep, ward to as.
+  std::vector<std::string> sweep(const std::string& table) const {
+    return {"sweep",
+            "--source",
+            "mitsuba/ward",
+            "--target",
+            "mitsuba/as",
+            "--resolution",
+            "64",
+            "--roughness-samples",
+            "12",
+            "--specular-samples",
+            "3",
+            "-o",
+            path(table)};
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+inline const std::string kHeader = "alpha1,specular1,alpha2,specular2,error,status\n";
+
+// A table of a smooth conversion between mitsuba/ward and mitsuba/as: `widths` x `speculars` rows.
+inline std::string made_table(int widths, int speculars) {
+  std::string text = "# source: mitsuba/ward\n# target: mitsuba/as\n# target_specular: f0\n" + kHeader;
+  for (int i = 0; i < widths; ++i)
+    for (int j = 1; j <= speculars; ++j) {
+      const double alpha = 0.05 + 0.95 * i / (widths > 1 ? widths - 1 : 1), specular = 0.9 * j / speculars;
+      for (const double value : {alpha, specular, alpha * (1.0 - 0.3 * alpha),
+                                 specular * (0.6 + 0.4 * std::exp(-3.0 * alpha)), 0.0})
+        text += number_text(value) + ",";
+      text += "ok\n";
+    }
+  return text;
+}
+
+inline void check_failure(const ProcessResult& result, int exit_code, const std::string& message) {
+  INFO(result.errors);
+  CHECK(result.exit_code == exit_code);
+  CHECK(result.last_error().find(message) != std::string::npos);
+  CHECK(result.last_error().starts_with("remapc: "));
+  CHECK(result.output.find("Segmentation") == std::string::npos);
+}
+
+}  // namespace remap

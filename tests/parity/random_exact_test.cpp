@@ -1,0 +1,305 @@
+// Headers of random models, as fitted and lowered, against the interpreter. Many headers share a file, built
+// as a library that the test loads.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <dlfcn.h>
+#include <future>
+#include <iostream>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+#include "emit/emit.hpp"
+#include "emit/mapping_code.hpp"
+#include "error.hpp"
+#include "files.hpp"
+#include "model/interpreter.hpp"
+#include "support/build_speed.hpp"
+#include "support/example_fit.hpp"
+#include "support/random_models.hpp"
+#include "support/temporary_folder.hpp"
+
+using namespace remap;
+
+namespace {
+
+constexpr int kModels = kSlowBuild ? 20 : 200;
+constexpr int kModelsInFile = 25;
+constexpr std::size_t kTexels = 600;
+constexpr double kRounding =
+    5e-7;  // eight units roundoff of a float, relative: conversions, scale, its inverse
+
+// What a library of headers exports, an entry a header.
+struct Entry {
+  bool (*self_test)();
+  std::size_t (*evaluate)(std::size_t, const float*, const std::array<const float*, 3>&, float*,
+                          const std::array<float*, 3>&);
+};
+
+constexpr const char* kExports = R"(
+struct Entry {
+  bool (*self_test)();
+  std::size_t (*evaluate)(std::size_t, const float*, const std::array<const float*, 3>&, float*,
+                          const std::array<float*, 3>&);
+};
+)";
+
+struct Header {
+  Fit fit;
+  std::string text;
+  double alpha_error = 0.0, specular_error = 0.0;  // what it promises
+  std::optional<Lowered> lowered;
+};
+
+Fit random_fit(const std::string& kind, std::uint64_t seed) {
+  Fit fit = example_fit();
+  fit.id = "random_" + kind + "_" + std::to_string(seed);
+  fit.target.roughness = RoughnessConvention::kAlpha;
+  const RandomModel model = random_model(kind, 2000 + seed);
+  fit.mapping = model.mapping;
+  fit.domain = model.domain;
+  return fit;
+}
+
+std::vector<Header> exact_headers(const std::string& kind) {
+  std::vector<Header> headers;
+  for (std::uint64_t seed = 0; seed < kModels; ++seed) {
+    const Fit fit = random_fit(kind, seed);
+    const remapc::MappingCode code =
+        std::visit([&](const auto& mapping) { return remapc::exact_code(mapping, fit.domain); }, fit.mapping);
+    headers.push_back({fit, remapc::emit_header(fit, {.exact = true, .lowering = {}}), code.alpha_error,
+                       code.specular_error, std::nullopt});
+  }
+  return headers;
+}
+
+// Those that are not refused.
+std::vector<Header> lowered_headers(const std::string& kind) {
+  std::vector<Header> headers;
+  const LoweringOptions options{1e-3, 1e-3, 2048};
+  for (std::uint64_t seed = 0; seed < kModels; ++seed) {
+    const Fit fit = random_fit(kind, seed);
+    try {
+      const Lowered lowered = lower(fit.mapping, fit.domain, options);
+      headers.push_back({fit, remapc::emit_header(fit, {.exact = false, .lowering = options}),
+                         lowered.alpha.bound, lowered.specular.bound, lowered});
+    } catch (const Error& error) {
+      REQUIRE(error.kind() == ErrorKind::kNumeric);
+    }
+  }
+  return headers;
+}
+
+// Headers from `first` on in one file, built as a library; its entries.
+const Entry* build(const TemporaryFolder& folder, const std::vector<Header>& headers, std::size_t first) {
+  std::string includes, entries;
+  const std::size_t last = std::min(first + kModelsInFile, headers.size());
+  for (std::size_t i = first; i < last; ++i) {
+    const std::string& id = headers[i].fit.id;
+    write_file(folder.path() / (id + ".hpp"), headers[i].text);
+    includes += "#include \"" + id + ".hpp\"\n";
+    entries += "    {remap::" + id + "::self_test, remap::" + id + "::evaluate_batch<3>},\n";
+  }
+  const std::string name = (folder.path() / ("headers_" + std::to_string(first))).string();
+  write_file(name + ".cpp", includes + kExports +
+                                "extern \"C\" const Entry entries[];\nconst Entry entries[] = {\n" + entries +
+                                "};\n");
+  const std::string command =
+      "g++ -std=c++17 -O1 -ffp-contract=off -fPIC -shared -Wall -Wextra -Wshadow -Wconversion -Wpedantic "
+      "-Werror " +
+      name + ".cpp -o " + name + ".so";
+  if (std::system(command.c_str()) != 0) return nullptr;
+  void* library = ::dlopen((name + ".so").c_str(), RTLD_NOW | RTLD_LOCAL);
+  return library == nullptr ? nullptr : static_cast<const Entry*>(::dlsym(library, "entries"));
+}
+
+// One entry a header; two compilers run at a time.
+std::vector<Entry> build_all(const TemporaryFolder& folder, const std::vector<Header>& headers) {
+  std::vector<Entry> all(headers.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    bool built = true;
+    for (std::size_t first = next.fetch_add(kModelsInFile); first < headers.size();
+         first = next.fetch_add(kModelsInFile)) {
+      const Entry* entries = build(folder, headers, first);
+      built = built && entries != nullptr;
+      for (std::size_t i = first; entries != nullptr && i < std::min(first + kModelsInFile, all.size()); ++i)
+        all[i] = entries[i - first];
+    }
+    return built;
+  };
+  auto other = std::async(std::launch::async, work);
+  const bool built = work();
+  REQUIRE((other.get() && built));
+  return all;
+}
+
+// Planar: width and three channels. Within the domain, beyond it up to 1e30, and below 0.
+std::vector<float> random_texels(const Fit& fit, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const Range own = own_roughness_range(fit), specular = specular_range(fit);
+  std::vector<float> planar(4 * kTexels);
+  for (std::size_t i = 0; i < kTexels; ++i) {
+    const double reach = i % 4 == 0 ? 0.3 : 0.0;
+    planar[i] = static_cast<float>(own.min + (own.max - own.min) * (share(random) * (1 + 2 * reach) - reach));
+    if (i < 2) planar[i] = static_cast<float>(i == 0 ? own.min : own.max);
+    const double beyond = i % 8 == 0 ? std::pow(10.0, 30.0 * share(random)) / specular.max : 2.0;
+    for (std::size_t c = 1; c < 4; ++c) {
+      const double to = i % 4 == 0 ? std::max(beyond, 1.0) : 1.0;
+      planar[c * kTexels + i] = static_cast<float>(std::min(specular.max * to * share(random), 1e30));
+      if (i % 16 == 0 && c == 2) planar[c * kTexels + i] = -planar[c * kTexels + i];
+      if (i % 16 == 3 && c == 3) planar[c * kTexels + i] = static_cast<float>(specular.max);
+    }
+  }
+  return planar;
+}
+
+std::vector<float> converted(const Entry& entry, const std::vector<float>& in) {
+  std::vector<float> out(in.size());
+  entry.evaluate(kTexels, &in[0], {&in[kTexels], &in[2 * kTexels], &in[3 * kTexels]}, &out[0],
+                 {&out[kTexels], &out[2 * kTexels], &out[3 * kTexels]});
+  return out;
+}
+
+struct Converted {
+  double width = 0.0;
+  std::array<double, 3> specular{};
+};
+Converted interpreted(const Fit& fit, double width, const std::array<double, 3>& specular) {
+  Converted result;
+  result.width = evaluate_texel(fit, width, specular, result.specular);
+  return result;
+}
+
+// The same texel with its specular a little less and a little more: how far the rounding of the scale
+// reaches.
+double spread(double a, double b, double c) { return std::max(std::fabs(a - b), std::fabs(c - b)); }
+
+void check_against_interpreter(const Header& header, const std::vector<float>& in,
+                               const std::vector<float>& out) {
+  const double edge = specular_range(header.fit).max;
+  int wrong = 0;
+  for (std::size_t i = 0; i < kTexels; ++i) {
+    std::array<double, 3> given{};
+    for (std::size_t c = 0; c < 3; ++c) given[c] = static_cast<double>(in[(c + 1) * kTexels + i]);
+    const double largest = *std::max_element(given.begin(), given.end()),
+                 scale = std::max(1.0, largest / edge);
+    // Beyond the edge channels are divided by the scale, in floats.
+    const double moved = largest > edge ? kRounding : 0.0;
+    const double width = static_cast<double>(in[i]);
+    const Converted exact = interpreted(header.fit, width, given);
+    for (std::size_t c = 0; c <= 3; ++c) {
+      const double expected = c == 0 ? exact.width : exact.specular[c - 1];
+      const double found = static_cast<double>(out[c * kTexels + i]);
+      double within = (c == 0 ? header.alpha_error : scale * header.specular_error) +
+                      kRounding * std::fabs(expected) + 1e-37;
+      if (moved > 0.0) {  // what one channel's value moves by where it alone moves
+        const double at = c == 0 ? edge : std::max(given[c - 1], 0.0) / scale;
+        const double alpha =
+            std::clamp(width, own_roughness_range(header.fit).min, own_roughness_range(header.fit).max);
+        const auto value_at = [&](double specular) {
+          const MappedTexel mapped = evaluate_mapping(header.fit.mapping, alpha, specular);
+          return c == 0 ? mapped.alpha : scale * mapped.specular;
+        };
+        within += spread(value_at(at * (1.0 - moved)), value_at(at), value_at(at * (1.0 + moved)));
+      }
+      // Beyond the largest float there is nothing to compare.
+      const bool beyond = std::fabs(expected) + within > 3.4e38;
+      if (beyond || std::fabs(found - expected) <= within) continue;
+      if (++wrong <= 2)
+        UNSCOPED_INFO("output " << c << " of " << in[i] << " " << given[0] << " " << given[1] << " "
+                                << given[2] << ": header " << found << ", interpreter " << expected
+                                << ", promised within " << within);
+    }
+  }
+  CHECK(wrong == 0);
+}
+
+// Inside the domain nothing is done but the polynomials: the same bits.
+void check_bits(const Header& header, const std::vector<float>& in, const std::vector<float>& out) {
+  const Range own = own_roughness_range(header.fit), specular = specular_range(header.fit);
+  int wrong = 0;
+  for (std::size_t i = 0; i < kTexels; ++i) {
+    const float channels[] = {in[kTexels + i], in[2 * kTexels + i], in[3 * kTexels + i]};
+    const float largest = *std::max_element(channels, channels + 3);
+    if (!own.contains(static_cast<double>(in[i])) || !specular.contains(static_cast<double>(largest)))
+      continue;
+    wrong += out[i] == value(header.lowered->alpha.polynomial, in[i], largest) ? 0 : 1;
+    for (std::size_t c = 0; c < 3; ++c)
+      if (channels[c] >= 0.0f)
+        wrong += out[(c + 1) * kTexels + i] ==
+                         std::max(value(header.lowered->specular.polynomial, in[i], channels[c]), 0.0f)
+                     ? 0
+                     : 1;
+  }
+  CHECK(wrong == 0);
+}
+
+// The share of headers whose promises say something: a thousandth of what the mapping reaches, or less.
+double share_of_close(const std::vector<Header>& headers) {
+  int close = 0;
+  for (const Header& header : headers) {
+    double alpha = 0.0, specular = 0.0;
+    for (int i = 0; i <= 40; ++i)
+      for (int j = 0; j <= 4; ++j) {
+        const Domain& domain = header.fit.domain;
+        const MappedTexel mapped = evaluate_mapping(
+            header.fit.mapping, domain.alpha.min + (domain.alpha.max - domain.alpha.min) * i / 40.0,
+            domain.specular.max * j / 4.0);
+        alpha = std::max(alpha, std::fabs(mapped.alpha));
+        specular = std::max(specular, std::fabs(mapped.specular));
+      }
+    close += header.alpha_error <= 1e-3 * alpha && header.specular_error <= 1e-3 * specular ? 1 : 0;
+  }
+  return static_cast<double>(close) / static_cast<double>(headers.size());
+}
+
+void check_headers(const std::string& what, const std::vector<Header>& headers) {
+  const TemporaryFolder folder;
+  std::vector<Entry> entries;
+  const double seconds = seconds_of([&] { entries = build_all(folder, headers); });
+  for (std::size_t i = 0; i < headers.size(); ++i) {
+    INFO(what << " " << headers[i].fit.id);
+    CHECK(entries[i].self_test());
+    const std::vector<float> in = random_texels(headers[i].fit, i), out = converted(entries[i], in);
+    check_against_interpreter(headers[i], in, out);
+    if (headers[i].lowered) check_bits(headers[i], in, out);
+  }
+  std::cout << what << ": " << headers.size() << " headers built in " << seconds << " s; "
+            << share_of_close(headers) << " of them promise a thousandth\n";
+}
+
+void check_exact(const std::string& kind) {
+  const std::vector<Header> headers = exact_headers(kind);
+  check_headers("exact " + kind, headers);
+  CHECK(share_of_close(headers) >= 0.6);
+}
+
+void check_lowered(const std::string& kind) {
+  const std::vector<Header> headers = lowered_headers(kind);
+  CHECK(headers.size() >= kModels / 2);
+  check_headers("lowered " + kind, headers);
+}
+
+}  // namespace
+
+TEST_CASE("exact headers: random parametric fits agree with the interpreter as promised", "[slow]") {
+  check_exact("parametric");
+}
+TEST_CASE("exact headers: random sums of Gaussians agree with the interpreter as promised", "[slow]") {
+  check_exact("svr");
+}
+TEST_CASE("exact headers: random networks agree with the interpreter as promised", "[slow]") {
+  check_exact("mlp");
+}
+TEST_CASE("lowered headers: random parametric fits give the bits of the lowered form", "[slow]") {
+  check_lowered("parametric");
+}
+TEST_CASE("lowered headers: random sums of Gaussians give the bits of the lowered form", "[slow]") {
+  check_lowered("svr");
+}
+TEST_CASE("lowered headers: random networks give the bits of the lowered form", "[slow]") {
+  check_lowered("mlp");
+}
