@@ -157,6 +157,8 @@ void run(const SweepCommand& command) {
   report(command, table, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
+constexpr int kMostSamples = 4096;  // of each axis
+
 void add_options(CLI::App& app, SweepCommand& command) {
   app.add_option("--source", command.source, "Model to convert from")->required();
   app.add_option("--target", command.target, "Model to convert to")->required();
@@ -172,8 +174,11 @@ void add_options(CLI::App& app, SweepCommand& command) {
       ->capture_default_str();
   app.add_option("--pixel-samples", command.pixel_samples, "N x N samples in each pixel; 1: its centre")
       ->capture_default_str();
-  app.add_option("--roughness-samples", command.roughness_samples, "Source widths")->capture_default_str();
+  app.add_option("--roughness-samples", command.roughness_samples, "Source widths")
+      ->check(CLI::Range(1, kMostSamples))
+      ->capture_default_str();
   app.add_option("--specular-samples", command.specular_samples, "Source speculars at each width")
+      ->check(CLI::Range(1, kMostSamples))
       ->capture_default_str();
   app.add_option("--roughness-range", command.roughness_range, "MIN,MAX of the source's alpha")
       ->delimiter(',')
