@@ -82,10 +82,7 @@ Entry entry_of(const NamedFit& named, const std::vector<TableRow>& rows, const s
   entry.file = named.file;
   entry.own_table = fit.table.sha256 == digest;
   entry.candidate.number_count = remap::number_count(fit.mapping);
-  std::vector<TableRow> inside;
-  for (const TableRow& row : rows)
-    if (fit.domain.alpha.contains(row.alpha1) && fit.domain.specular.contains(row.specular1))
-      inside.push_back(row);
+  const std::vector<TableRow> inside = rows_inside(rows, fit.domain);
   entry.outside_rows = rows.size() - inside.size();
   const RowErrors errors = row_errors(fit, inside);
   entry.candidate.alpha = errors.alpha;
@@ -153,9 +150,7 @@ std::string why_not_text(const std::vector<Entry>& entries) {
 void run(const CompareOptions& options) {
   std::string bytes;
   const Table table = options.table.read(&bytes);
-  std::vector<TableRow> rows;
-  for (const TableRow& row : table.rows)
-    if (row.status == RowStatus::kOk) rows.push_back(row);
+  const std::vector<TableRow> rows = usable_rows(table);
   if (rows.empty()) throw Error(ErrorKind::kInput, table.name + ": has no usable row");
   std::vector<Entry> entries;
   const std::vector<NamedFit> fits = chosen_fits(options, table);

@@ -26,16 +26,8 @@ void run(const EvalOptions& options) {
   const remap::Fit fit = find_fit(options.fit, options.fit_folder);
   std::string bytes;
   const Table table = options.table.read(&bytes);
-  std::vector<TableRow> rows;
-  std::size_t outside = 0;
-  for (const TableRow& row : table.rows) {
-    if (row.status != RowStatus::kOk) continue;
-    const bool inside = fit.domain.alpha.contains(row.alpha1) && fit.domain.specular.contains(row.specular1);
-    if (inside)
-      rows.push_back(row);
-    else
-      ++outside;
-  }
+  const std::vector<TableRow> usable = usable_rows(table), rows = rows_inside(usable, fit.domain);
+  const std::size_t outside = usable.size() - rows.size();
   if (rows.empty())
     throw remap::Error(remap::ErrorKind::kInput,
                        table.name + ": has no usable row in the domain of " + fit.id);

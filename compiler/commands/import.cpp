@@ -28,11 +28,7 @@ void judge(remap::Fit& fit, const ImportCommand& command) {
   const std::string bytes = remap::read_file(command.table);
   const Table table =
       parse_table(bytes, command.table, command.columns.empty() ? ColumnMap{} : column_map(command.columns));
-  std::vector<TableRow> rows;
-  for (const TableRow& row : table.rows) {
-    const bool inside = fit.domain.alpha.contains(row.alpha1) && fit.domain.specular.contains(row.specular1);
-    if (row.status == RowStatus::kOk && inside) rows.push_back(row);
-  }
+  const std::vector<TableRow> rows = rows_inside(usable_rows(table), fit.domain);
   if (rows.empty())
     throw remap::Error(remap::ErrorKind::kInput,
                        table.name + ": has no usable row in the domain of " + fit.id);

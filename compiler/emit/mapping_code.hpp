@@ -15,10 +15,10 @@ namespace remapc {
 enum class CodeForm {
   // `float target_alpha(float alpha)` and `float specular_slope(float alpha)`: a factor for every channel.
   kProportional,
-  // `float target_alpha(float alpha, float specular)`, `struct Terms` of float[kBlock] rows, `void
-  // specular_terms(Count, const float* alphas, Terms&)` for any type of count, `float target_specular(const
-  // Terms&,
-  // std::size_t i, float specular)`.
+  // `float target_alpha(float alpha, float specular)`; `struct Terms` of float[kBlock] rows, `alpha` among
+  // them,
+  // from which `void specular_terms(Count, Terms&)` makes the others, for any type of count; `float
+  // target_specular(const Terms&, std::size_t i, float specular)`.
   kTerms,
   // `void target_alpha_rows(std::size_t count, const float* alpha, const float* specular, float* out)` and
   // target_specular_rows of the same shape, count up to kBlock: for sums that are long.
@@ -45,7 +45,7 @@ struct MappingCode {
   double alpha_error = 1e-6, specular_error = 1e-6;
 };
 
-// Lowered to polynomials. `kind`: whether the specular function is a factor (remap::is_proportional).
+// Lowered to polynomials.
 MappingCode lowered_code(const remap::Lowered& lowered);
 
 // The mapping as it was fitted.

@@ -18,13 +18,6 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-std::vector<TableRow> usable_rows(const Table& table) {
-  std::vector<TableRow> rows;
-  for (const TableRow& row : table.rows)
-    if (row.status == RowStatus::kOk) rows.push_back(row);
-  return rows;
-}
-
 void require_models(const Table& table) {
   if (table.source.model.empty() || table.target.model.empty())
     throw Error(ErrorKind::kInput,

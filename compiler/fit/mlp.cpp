@@ -15,17 +15,6 @@ using remap::Error;
 using remap::ErrorKind;
 using remap::number_text;
 
-constexpr std::size_t kFewestRows = 10;
-
-void require_varied(const std::vector<TableRow>& rows, double TableRow::*column, const std::string& name) {
-  const auto [low, high] =
-      std::minmax_element(rows.begin(), rows.end(),
-                          [column](const TableRow& a, const TableRow& b) { return a.*column < b.*column; });
-  if (!((*low).*column < (*high).*column))
-    throw Error(ErrorKind::kInput, "mlp: " + name + " is " + number_text((*low).*column) +
-                                       " in every row; expected at least two values");
-}
-
 Samples samples_of(const std::vector<TableRow>& rows, bool with_specular, double TableRow::*output) {
   Samples samples;
   samples.input_count = with_specular ? 2 : 1;
@@ -57,11 +46,7 @@ std::string hidden_text(const std::vector<std::size_t>& hidden) {
 
 Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
                    const FitProgress& progress) {
-  if (rows.size() < kFewestRows)
-    throw Error(ErrorKind::kInput, "mlp: " + std::to_string(rows.size()) + " rows; expected at least " +
-                                       std::to_string(kFewestRows));
-  require_varied(rows, &TableRow::alpha1, "alpha1");
-  require_varied(rows, &TableRow::specular1, "specular1");
+  require_variety(rows, "mlp");
 
   TrainingOptions training;
   training.hidden = options.hidden;

@@ -58,10 +58,7 @@ std::vector<double> spread(const std::set<double>& values, std::size_t count) {
 class Plot {
  public:
   Plot(const Table& table, const std::vector<Fit>& fits) : fits_(fits), fit_(fits.front()) {
-    std::vector<TableRow> usable;
-    for (const TableRow& row : table.rows)
-      if (row.status == RowStatus::kOk) usable.push_back(row);
-    rows_ = draw_rows(usable, kMostRows, 1);
+    rows_ = draw_rows(usable_rows(table), kMostRows, 1);
     for (const TableRow& row : rows_) {
       alphas_.insert(row.alpha1);
       speculars_.insert(row.specular1);

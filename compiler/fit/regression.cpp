@@ -4,13 +4,32 @@
 #include <cmath>
 #include <map>
 
+#include "error.hpp"
+#include "number_text.hpp"
+
 namespace remapc {
 namespace {
 
 constexpr double kSmallestSpread = 2e-4;  // of alpha; below it nobody sees a difference
 constexpr double kTimesScatter = 2.0;
+constexpr std::size_t kFewestRows = 10;
 
 }  // namespace
+
+void require_variety(const std::vector<TableRow>& rows, const std::string& kind) {
+  if (rows.size() < kFewestRows)
+    throw remap::Error(remap::ErrorKind::kInput, kind + ": " + std::to_string(rows.size()) +
+                                                     " rows; expected at least " +
+                                                     std::to_string(kFewestRows));
+  const auto require = [&](double TableRow::*input, const std::string& name) {
+    const double first = rows.front().*input;
+    if (std::all_of(rows.begin(), rows.end(), [&](const TableRow& row) { return row.*input == first; }))
+      throw remap::Error(remap::ErrorKind::kInput, kind + ": " + name + " is " + remap::number_text(first) +
+                                                       " in every row; expected at least two values of it");
+  };
+  require(&TableRow::alpha1, "alpha1");
+  require(&TableRow::specular1, "specular1");
+}
 
 bool alpha_needs_specular(const std::vector<TableRow>& rows) {
   std::map<double, std::vector<const TableRow*>> by_alpha;

@@ -20,6 +20,10 @@ struct Regression {
 // the regression. May be empty.
 using FitProgress = std::function<void(double share)>;
 
+// Throws kInput, the message opened by `kind`, for fewer than 10 rows, or where alpha1 or specular1 is the
+// same in all.
+void require_variety(const std::vector<TableRow>& rows, const std::string& kind);
+
 // Whether target alpha varies with specular at fixed source alpha by more than its own scatter: the spread of
 // alpha2 over the rows of one alpha1, against what a smooth curve over alpha1 leaves. Decides whether
 // roughness is fitted from roughness alone.

@@ -19,7 +19,6 @@ using remap::Error;
 using remap::ErrorKind;
 using remap::number_text;
 
-constexpr std::size_t kFewestRows = 10;
 constexpr std::size_t kLargestTraining = 2000;  // samples; the time grows faster than their square
 constexpr int kSoftenings = 3;                  // C a tenth each, where the final training does not converge
 constexpr double kSoftening = 0.1;
@@ -37,16 +36,6 @@ remap::Scaling scaling_of(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double range = *high - *low;
   return {*low, range > 0.0 && std::isfinite(1.0 / range) ? 1.0 / range : 1.0};
-}
-
-void require_spread(const std::vector<TableRow>& rows, double TableRow::*input, const std::string& name) {
-  if (rows.size() < kFewestRows)
-    throw Error(ErrorKind::kInput, "svr: " + std::to_string(rows.size()) + " rows; expected at least " +
-                                       std::to_string(kFewestRows));
-  const double first = rows.front().*input;
-  if (std::all_of(rows.begin(), rows.end(), [&](const TableRow& row) { return row.*input == first; }))
-    throw Error(ErrorKind::kInput, "svr: " + name + " is " + number_text(first) +
-                                       " in every row; expected at least two values of it");
 }
 
 // Mean output of the rows of each input, in the order of inputs.
@@ -187,8 +176,7 @@ std::optional<SvrHyperParameters> recorded_parameters(const std::map<std::string
 
 Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
                    const FitProgress& progress) {
-  require_spread(rows, &TableRow::alpha1, "alpha1");
-  require_spread(rows, &TableRow::specular1, "specular1");
+  require_variety(rows, "svr");
   const std::size_t alpha_inputs = alpha_needs_specular(rows) ? 2 : 1;
   const Problem alpha = make_problem("alpha", rows, alpha_inputs, &TableRow::alpha2);
   const Problem specular = make_problem("specular", rows, 2, &TableRow::specular2);

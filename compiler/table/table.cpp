@@ -245,6 +245,20 @@ std::string row_text(const TableRow& row) {
   return text + std::string(status_name(row.status));
 }
 
+std::vector<TableRow> usable_rows(const Table& table) {
+  std::vector<TableRow> rows;
+  for (const TableRow& row : table.rows)
+    if (row.status == RowStatus::kOk) rows.push_back(row);
+  return rows;
+}
+
+std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap::Domain& domain) {
+  std::vector<TableRow> inside;
+  for (const TableRow& row : rows)
+    if (domain.alpha.contains(row.alpha1) && domain.specular.contains(row.specular1)) inside.push_back(row);
+  return inside;
+}
+
 std::string table_text(const Table& table) {
   std::string text;
   for (const auto& [key, value] : table.comments) text += "# " + key + ": " + value + "\n";

@@ -62,6 +62,12 @@ Table parse_table(std::string_view text, const std::string& name, const ColumnMa
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map = {});
 
+// The rows of status ok.
+std::vector<TableRow> usable_rows(const Table& table);
+
+// Those of `rows` whose source parameters lie in `domain`.
+std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap::Domain& domain);
+
 // The CSV text of a table: comments, header row, rows. Reading it gives the same table back, number for
 // number.
 std::string table_text(const Table& table);
