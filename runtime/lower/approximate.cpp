@@ -176,16 +176,10 @@ std::vector<int> cut(const Matrix& magnitude, double budget, double* dropped) {
   return degrees;
 }
 
-std::size_t numbers_a_cell(const std::vector<int>& degrees) {
-  std::size_t count = 0;
-  for (const int degree : degrees) count += static_cast<std::size_t>(degree + 1);
-  return count;
-}
-
 // Operations a texel: a coefficient costs a product and a sum, from a table four loads more; a division, an
 // index; every power of specular is added for three channels.
 double cost_of(const Shape& shape) {
-  const auto count = static_cast<double>(numbers_a_cell(shape.degrees));
+  const auto count = static_cast<double>(coefficient_count(shape.degrees));
   double cost = 2.0 * count + 6.0 * static_cast<double>(shape.degrees.size() - 1);
   if (shape.pole != 0.0) cost += 8.0;
   if (shape.cell_count > 1) cost += 8.0 + 8.0 * count;

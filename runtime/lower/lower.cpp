@@ -128,9 +128,7 @@ class Attempt {
 constexpr std::array<double, 6> kCuts = {2.8, 2.0, 1.4, 1.0, 0.25, 0.06};
 
 std::size_t table_size(const Shape& shape) {
-  std::size_t count = 0;
-  for (const int degree : shape.degrees) count += static_cast<std::size_t>(degree + 1);
-  return count * static_cast<std::size_t>(shape.cell_count);
+  return coefficient_count(shape.degrees) * static_cast<std::size_t>(shape.cell_count);
 }
 
 // The cheapest polynomial of the smallest size within the tolerance; of those that rise where the model does

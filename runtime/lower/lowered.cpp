@@ -5,7 +5,7 @@
 
 namespace remap {
 
-std::size_t PiecewisePolynomial::coefficients_a_cell() const {
+std::size_t coefficient_count(const std::vector<int>& degrees) {
   std::size_t count = 0;
   for (const int degree : degrees) count += static_cast<std::size_t>(degree + 1);
   return count;

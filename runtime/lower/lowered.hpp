@@ -9,6 +9,9 @@
 
 namespace remap {
 
+// How many coefficients polynomials of these degrees have; -1 has none.
+std::size_t coefficient_count(const std::vector<int>& degrees);
+
 // A function of alpha and specular: sum over the powers p of c_p(alpha) (specular - middle)^p, every c_p a
 // polynomial on cells of equal width in t, with t = alpha, or t = alpha / (alpha + pole), which gives the
 // curve near alpha 0 room:
@@ -25,7 +28,7 @@ struct PiecewisePolynomial {
   // For each cell, for each power, the coefficients of u^0, u^1, ...
   std::vector<float> coefficients;
 
-  std::size_t coefficients_a_cell() const;
+  std::size_t coefficients_a_cell() const { return coefficient_count(degrees); }
   bool operator==(const PiecewisePolynomial&) const = default;
 };
 
