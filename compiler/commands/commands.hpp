@@ -17,5 +17,6 @@ void add_import_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 void add_show_command(CLI::App& app);
+void add_study_command(CLI::App& app);
 
 }  // namespace remapc

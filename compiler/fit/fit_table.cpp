@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <openssl/evp.h>
 
@@ -32,6 +33,15 @@ void require_models(const Table& table) {
       throw Error(ErrorKind::kInput, table.name + ": specular parameter \"" + side.specular + "\" of " +
                                          side.model + "; expected an identifier that names no width");
   }
+}
+
+// How alike the pictures are at the best parameters; none where the table does not say.
+std::optional<remap::Likeness> likeness(const std::vector<TableRow>& rows) {
+  std::vector<double> errors;
+  for (const TableRow& row : rows)
+    if (!std::isnan(row.error)) errors.push_back(row.error);
+  if (errors.size() != rows.size()) return std::nullopt;
+  return remap::Likeness{error_figures(std::move(errors)), {}};
 }
 
 }  // namespace
@@ -75,6 +85,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   fit.table.name = std::filesystem::path(table.name).filename().string();
   fit.table.sha256 = sha256(bytes);
   for (const auto& [key, value] : table.comments) fit.table.comments[key] = value;
+  fit.likeness = likeness(rows_inside(usable_rows(table), fit.domain));
   fit.tool_version = remap::kVersion;
 
   const RowSplit split = split_rows(table, options.regression.seed, options.held_out_fraction);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,21 @@ struct Candidate {
   bool operator==(const Candidate&) const = default;
 };
 
+// The structural similarity (Wang et al. 2004) of two spheres side by side, source and target at the best
+// parameters, at one source width.
+struct SphereSimilarity {
+  double alpha = 0.0;
+  double ssim = 0.0;
+  bool operator==(const SphereSimilarity&) const = default;
+};
+
+// How alike the two models can be at all, whatever the fit: over the rows of the table in the domain.
+struct Likeness {
+  ErrorFigures image_error;  // difference of the pictures relative to the source's, as the match weighs them
+  std::vector<SphereSimilarity> ssim;  // by rising alpha; empty where no spheres were compared
+  bool operator==(const Likeness&) const = default;
+};
+
 struct Fit {
   std::string id;  // `<source>_to_<target>`, a C++ identifier
   ModelSide source;
@@ -88,6 +104,8 @@ struct Fit {
   std::vector<Candidate> candidates;          // what `auto` chose from; empty otherwise
   ErrorFigures roughness_error;               // of the target's alpha
   ErrorFigures specular_error;                // of the target's specular
+  std::optional<Likeness> likeness;           // none where no pictures were compared: published formulas
+  std::vector<std::string> remarks;  // for the card, a line each: sources, errata, limits of the pair
   Split split;
   TableRecord table;
   std::string tool_version;

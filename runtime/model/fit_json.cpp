@@ -96,6 +96,14 @@ Json to_json(const Candidate& candidate) {
           {"verdict", candidate.verdict}};
 }
 
+Json to_json(const std::optional<Likeness>& likeness) {
+  if (!likeness) return nullptr;
+  Json spheres = Json::array();
+  for (const auto& [alpha, ssim] : likeness->ssim)
+    spheres.push_back({{"alpha", finite(alpha)}, {"ssim", finite(ssim)}});
+  return {{"image_error", to_json(likeness->image_error)}, {"spheres", spheres}};
+}
+
 // A JSON value with the place it came from, so that every complaint says where.
 class Field {
  public:
@@ -135,6 +143,7 @@ class Field {
     require(std::isfinite(number), "a finite number");
     return number;
   }
+  bool is_null() const { return value_.is_null(); }
   std::int64_t count() const {
     require(value_.is_number_integer() && value_.get<std::int64_t>() >= 0, "a whole number from 0");
     return value_.get<std::int64_t>();
@@ -294,6 +303,13 @@ Candidate read_candidate(const Field& field) {
           field["verdict"].text()};
 }
 
+std::optional<Likeness> read_likeness(const Field& field) {
+  if (field.is_null()) return std::nullopt;
+  return Likeness{read_figures(field["image_error"]), field["spheres"].list(0, [](const Field& entry) {
+                    return SphereSimilarity{entry["alpha"].number(), entry["ssim"].number()};
+                  })};
+}
+
 Split read_split(const Field& field) {
   Split split;
   split.seed = static_cast<std::uint64_t>(field["seed"].count());
@@ -324,6 +340,8 @@ std::string fit_to_json(const Fit& fit) {
       {"candidates", candidates},
       {"error_on_held_out_rows",
        {{"alpha", to_json(fit.roughness_error)}, {"specular", to_json(fit.specular_error)}}},
+      {"likeness", to_json(fit.likeness)},
+      {"remarks", fit.remarks},
       {"split",
        {{"seed", fit.split.seed},
         {"held_out_fraction", finite(fit.split.held_out_fraction)},
@@ -363,6 +381,8 @@ Fit fit_from_json(std::string_view text, const std::string& place) {
   fit.candidates = root["candidates"].list(0, read_candidate);
   fit.roughness_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
   fit.specular_error = read_figures(root["error_on_held_out_rows"]["specular"]);
+  fit.likeness = read_likeness(root["likeness"]);
+  fit.remarks = root["remarks"].list(0, [](const Field& entry) { return entry.text(); });
   fit.split = read_split(root["split"]);
   const Field table = root["table"];
   fit.table.name = table["name"].text();

@@ -11,7 +11,7 @@
 namespace remap {
 
 // Version of the file format that this program reads and writes.
-inline constexpr int kFitFormatVersion = 2;
+inline constexpr int kFitFormatVersion = 3;
 
 // The JSON text of a fit, ending with a newline. Throws kNumeric where a number is not finite.
 std::string fit_to_json(const Fit& fit);

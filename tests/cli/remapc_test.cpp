@@ -202,7 +202,7 @@ TEST_CASE("remapc emit: --check finds a changed, a missing and an orphaned heade
 
 TEST_CASE("remapc emit: a fit that is none is named with the field") {
   const Session session;
-  session.write("fits/a_to_b.json", "{\"format\": \"remap-fit\", \"version\": 2}");
+  session.write("fits/a_to_b.json", "{\"format\": \"remap-fit\", \"version\": 3}");
   check_failure(session.remapc({"emit", session.path("fits/a_to_b.json"), "-o", session.path("out")}), 1,
                 "a_to_b.json: has no field \"id\"");
   CHECK_FALSE(fs::exists(session.path("out")));

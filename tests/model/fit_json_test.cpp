@@ -32,6 +32,8 @@ Fit sample_fit() {
   fit.specular_error = {4e-4, 5e-4, 6e-4};
   fit.split = {42, 0.2, 80, 20, {{"clamped", 3}}};
   fit.table = {"t.csv", "00ff", {{"objective", "natural"}}};
+  fit.likeness = remap::Likeness{{0.05, 0.1, 0.2}, {{0.1, 0.99}, {0.5, 0.97}}};
+  fit.remarks = {"one", "two"};
   fit.tool_version = "0.1.0";
   return fit;
 }
@@ -88,8 +90,8 @@ TEST_CASE("fit file: complaints name the file and the field") {
   CHECK_THROWS_WITH(read("{"), Catch::StartsWith("x.json: is no JSON"));
   CHECK_THROWS_WITH(read("[]"), Catch::StartsWith("x.json: is []"));
   CHECK_THROWS_WITH(read(replaced(json, "remap-fit", "other")), Catch::Contains("is no fit file"));
-  CHECK_THROWS_WITH(read(replaced(json, "\"version\": 2", "\"version\": 1")),
-                    Catch::Contains("format version 1; this program reads version 2"));
+  CHECK_THROWS_WITH(read(replaced(json, "\"version\": 3", "\"version\": 2")),
+                    Catch::Contains("format version 2; this program reads version 3"));
   CHECK_THROWS_WITH(read(replaced(json, "\"seed\"", "\"sed\"")), "x.json.split: has no field \"seed\"");
   CHECK_THROWS_WITH(read(replaced(json, "\"a_b_to_c_d\"", "\"a b\"")),
                     Catch::StartsWith("x.json.id: is \"a b\""));

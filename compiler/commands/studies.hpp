@@ -1,0 +1,8 @@
+// The studies of `remapc study`: each adds itself as a subcommand of it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace remapc {
+
+}  // namespace remapc
