@@ -18,6 +18,7 @@
 #include "fit/plot.hpp"
 #include "model/fit_json.hpp"
 #include "table/check.hpp"
+#include "table/domain.hpp"
 
 namespace remapc {
 namespace {
@@ -35,6 +36,7 @@ struct FitCommand {
   std::string activation = "tanh";
   std::filesystem::path folder = "fits";
   std::filesystem::path plot;
+  bool swap = false;
   bool json = false;
 };
 
@@ -92,7 +94,8 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
 void run(const FitCommand& command, const CLI::App& app) {
   require_consistent(command, app);
   std::string bytes;
-  const Table table = command.table.read(&bytes);
+  Table table = command.table.read(&bytes);
+  if (command.swap) table = swapped(table);
   // Outputs first: auto works for a minute.
   require_fittable(table);
   remap::create_parent(command.folder / "fit.json");
@@ -143,6 +146,8 @@ void add_fit_command(CLI::App& app) {
   auto options = std::make_shared<FitCommand>();
   options->table.add_options(*command);
   add_regression_options(*command, *options);
+  command->add_flag("--swap", options->swap,
+                    "Fit the way back: the table's target becomes the source, and its source the target");
   command->add_option("--id", options->options.id, "Name of the converter; default: <source>_to_<target>");
   command
       ->add_option("--held-out", options->options.held_out_fraction, "Share of the rows that judges the fit")

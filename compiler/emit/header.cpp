@@ -244,16 +244,26 @@ std::string provenance(const Fit& fit, const MappingCode& code) {
     const auto found = fit.table.comments.find(key);
     return found == fit.table.comments.end() ? std::string() : found->second;
   };
-  std::string text = "// Table " + fit.table.name + ", sha256 " + fit.table.sha256 + ";\n";
+  std::string text;
+  for (const std::string& remark : fit.remarks) text += "// " + remark + "\n";
+  if (!fit.table.name.empty())
+    text += "// Table " + fit.table.name + ", sha256 " + fit.table.sha256 + ";\n";
   if (!comment("objective").empty())
     text += "// objective " + comment("objective") + " (lights " + comment("lights") + ", weighting " +
             comment("weighting") + "), " + comment("resolution") + " pixels squared, by " +
             comment("renderer") + ".\n";
-  text += "// Fit: " + kind_name(fit.mapping) + ", seed " + std::to_string(fit.split.seed) + ", " +
-          std::to_string(fit.split.trained_rows) + " rows trained, " +
-          std::to_string(fit.split.held_out_rows) + " held out.\n";
-  text += "// Error on the rows held out: " + error_text("alpha", fit.roughness_error) + ";\n";
-  text += "// " + error_text(fit.target.specular, fit.specular_error) + ".\n";
+  text += "// Fit: " + kind_name(fit.mapping);
+  if (fit.split.trained_rows + fit.split.held_out_rows != 0)
+    text += ", seed " + std::to_string(fit.split.seed) + ", " + std::to_string(fit.split.trained_rows) +
+            " rows trained, " + std::to_string(fit.split.held_out_rows) + " held out";
+  text += ".\n";
+  if (fit.has_errors()) {
+    text += std::string("// Error ") + (fit.split.held_out_rows != 0 ? "on the rows held out: " : "of its steps together: ") +
+            error_text("alpha", fit.roughness_error) + ";\n";
+    text += "// " + error_text(fit.target.specular, fit.specular_error) + ".\n";
+  } else {
+    text += "// Its error is not known.\n";
+  }
   text += comment_lines(code.description);
   text += "// Covers " + range_text("alpha", fit.domain.alpha) + ", " +
           range_text(fit.source.specular, fit.domain.specular) + ".";
@@ -310,6 +320,15 @@ std::string golden_text(const std::vector<Golden>& vectors) {
             up(v.width_within) + ", " + up(v.specular_within) + "}},\n";
   return text;
 }
+
+}  // namespace
+
+MappingCode exact_code(const remap::Chain& chain, const remap::Domain&) {
+  throw remap::Error(remap::ErrorKind::kUsage, "emit: a chain of " + std::to_string(chain.steps.size()) +
+                                                   " steps has no exact form; expected --lower");
+}
+
+namespace {
 
 MappingCode mapping_code(const Fit& fit, const EmitOptions& options) {
   if (!options.exact) return lowered_code(remap::lower(fit.mapping, fit.domain, options.lowering));

@@ -52,6 +52,8 @@ MappingCode lowered_code(const remap::Lowered& lowered);
 MappingCode exact_code(const remap::Parametric& form, const remap::Domain& domain);
 MappingCode exact_code(const remap::Svr& svr, const remap::Domain& domain);
 MappingCode exact_code(const remap::Mlp& mlp, const remap::Domain& domain);
+// Throws kUsage: a chain is one pass as polynomials only.
+MappingCode exact_code(const remap::Chain& chain, const remap::Domain& domain);
 
 // `void NAME(std::size_t count, const float* const* in, float* const* out)`, count up to kBlock: rows of a
 // network's raw inputs to rows of its raw outputs. `network_helpers` come once before the functions of one

@@ -11,6 +11,7 @@
 #include "fit/split.hpp"
 #include "model/interpreter.hpp"
 #include "table/check.hpp"
+#include "table/domain.hpp"
 #include "version.hpp"
 
 namespace remapc {
@@ -81,14 +82,14 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
                 "id: \"" + fit.id + "\"; expected a C++ identifier without leading or doubled underscore");
   fit.source = table.source;
   fit.target = table.target;
-  fit.domain = covered_domain(usable_rows(table));
+  fit.domain = table_domain(table);
   fit.table.name = std::filesystem::path(table.name).filename().string();
   fit.table.sha256 = sha256(bytes);
   for (const auto& [key, value] : table.comments) fit.table.comments[key] = value;
   fit.likeness = likeness(rows_inside(usable_rows(table), fit.domain));
   fit.tool_version = remap::kVersion;
 
-  const RowSplit split = split_rows(table, options.regression.seed, options.held_out_fraction);
+  const RowSplit split = split_rows(table, fit.domain, options.regression.seed, options.held_out_fraction);
   fit.split = split.record;
   const auto fit_of = [&](const Regression& regression) {
     remap::Fit one = fit;

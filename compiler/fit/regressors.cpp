@@ -1,6 +1,7 @@
 #include "fit/regressors.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "fit/parametric.hpp"
 #include "fit/parametric_parts.hpp"
@@ -38,6 +39,9 @@ struct RegressAgain {
   }
   remap::MappingKind operator()(const remap::Mlp&) const {
     return fit_mlp(rows, mlp_options(options)).mapping;
+  }
+  remap::MappingKind operator()(const remap::Chain&) const {
+    throw std::logic_error("chains are composed, not regressed");
   }
 };
 

@@ -12,17 +12,20 @@
 
 namespace remapc {
 
-RowSplit split_rows(const Table& table, std::uint64_t seed, double held_out_fraction) {
+RowSplit split_rows(const Table& table, const remap::Domain& domain, std::uint64_t seed,
+                    double held_out_fraction) {
   if (!(held_out_fraction >= 0.0 && held_out_fraction <= 0.9))
     throw remap::Error(remap::ErrorKind::kUsage,
                        "held-out share: " + remap::number_text(held_out_fraction) + "; expected 0 to 0.9");
   RowSplit split;
   std::vector<const TableRow*> usable;
   for (const TableRow& row : table.rows) {
-    if (row.status == RowStatus::kOk)
-      usable.push_back(&row);
-    else
+    if (row.status != RowStatus::kOk)
       ++split.record.left_out[std::string(status_name(row.status))];
+    else if (!is_inside(row, domain))
+      ++split.record.left_out["beyond the domain"];
+    else
+      usable.push_back(&row);
   }
   // Fisher and Yates by hand: std::shuffle is not the same in every standard library.
   std::vector<std::size_t> order(usable.size());

@@ -16,9 +16,11 @@ struct RowSplit {
   remap::Split record;
 };
 
-// Rows of status ok, `held_out_fraction` of them (rounded) drawn by `seed` and kept apart. The same split on
-// every machine. Throws kUsage for a fraction outside [0, 0.9].
-RowSplit split_rows(const Table& table, std::uint64_t seed, double held_out_fraction);
+// Rows of status ok in `domain`, `held_out_fraction` of them (rounded) drawn by `seed` and kept apart; others
+// are counted by their status, or as `beyond the domain`. The same split on every machine. Throws kUsage for a
+// fraction outside [0, 0.9].
+RowSplit split_rows(const Table& table, const remap::Domain& domain, std::uint64_t seed,
+                    double held_out_fraction);
 
 // Root mean square, 99th percentile (nearest rank) and largest of absolute values. Zeros for none.
 remap::ErrorFigures error_figures(std::vector<double> errors);

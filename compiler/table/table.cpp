@@ -252,10 +252,14 @@ std::vector<TableRow> usable_rows(const Table& table) {
   return rows;
 }
 
+bool is_inside(const TableRow& row, const remap::Domain& domain) {
+  return domain.alpha.contains(row.alpha1) && domain.specular.contains(row.specular1);
+}
+
 std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap::Domain& domain) {
   std::vector<TableRow> inside;
   for (const TableRow& row : rows)
-    if (domain.alpha.contains(row.alpha1) && domain.specular.contains(row.specular1)) inside.push_back(row);
+    if (is_inside(row, domain)) inside.push_back(row);
   return inside;
 }
 

@@ -65,6 +65,9 @@ Table read_table(const std::filesystem::path& path, const ColumnMap& map = {});
 // The rows of status ok.
 std::vector<TableRow> usable_rows(const Table& table);
 
+// Whether the source parameters of a row lie in `domain`.
+bool is_inside(const TableRow& row, const remap::Domain& domain);
+
 // Those of `rows` whose source parameters lie in `domain`.
 std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap::Domain& domain);
 

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "model/mapping.hpp"
@@ -138,6 +140,32 @@ Scalar target_specular(const Svr& svr, const Scalar& alpha, const Scalar& specul
 template <typename Scalar>
 Scalar target_specular(const Mlp& mlp, const Scalar& alpha, const Scalar& specular) {
   return network_outputs(mlp.specular, inputs_of(mlp.specular.inputs.size(), alpha, specular))[0];
+}
+
+// A chain up to its last step: what that one gets.
+template <typename Scalar>
+void follow_chain(const Chain& chain, Scalar* alpha, Scalar* specular) {
+  for (std::size_t i = 0; i + 1 < chain.steps.size(); ++i) {
+    const auto [next_alpha, next_specular] = std::visit(
+        [&](const auto& kind) {
+          return std::pair(target_alpha(kind, *alpha, *specular), target_specular(kind, *alpha, *specular));
+        },
+        chain.steps[i].mapping);
+    *alpha = next_alpha;
+    *specular = next_specular;
+  }
+}
+template <typename Scalar>
+Scalar target_alpha(const Chain& chain, Scalar alpha, Scalar specular) {
+  follow_chain(chain, &alpha, &specular);
+  return std::visit([&](const auto& kind) { return target_alpha(kind, alpha, specular); },
+                    chain.steps.back().mapping);
+}
+template <typename Scalar>
+Scalar target_specular(const Chain& chain, Scalar alpha, Scalar specular) {
+  follow_chain(chain, &alpha, &specular);
+  return std::visit([&](const auto& kind) { return target_specular(kind, alpha, specular); },
+                    chain.steps.back().mapping);
 }
 
 }  // namespace remap

@@ -109,6 +109,8 @@ struct Fit {
   Split split;
   TableRecord table;
   std::string tool_version;
+  // Whether the errors are known: formulas that were taken from elsewhere have been held against no rows.
+  bool has_errors() const { return roughness_error != ErrorFigures{} || specular_error != ErrorFigures{}; }
   bool operator==(const Fit&) const = default;
 };
 

@@ -81,6 +81,24 @@ Json to_json(const Regressors& kind) {
   return {{"alpha", to_json(kind.alpha)}, {"specular", to_json(kind.specular)}};
 }
 
+// A mapping with its kind.
+template <typename Kinds>
+Json mapping_json(const Kinds& mapping);
+
+Json to_json(const Chain& chain) {
+  Json steps = Json::array();
+  for (const auto& [id, mapping] : chain.steps)
+    steps.push_back({{"id", id}, {"mapping", mapping_json(mapping)}});
+  return {{"steps", steps}};
+}
+
+template <typename Kinds>
+Json mapping_json(const Kinds& mapping) {
+  Json json = {{"kind", kind_name(std::visit([](const auto& kind) { return MappingKind(kind); }, mapping))}};
+  json.update(std::visit([](const auto& kind) { return to_json(kind); }, mapping));
+  return json;
+}
+
 Json to_json(const Candidate& candidate) {
   return {{"name", candidate.name},
           {"number_count", candidate.number_count},
@@ -274,7 +292,7 @@ Network read_network(const Field& field) {
   return network;
 }
 
-MappingKind read_mapping(const Field& field) {
+RegressedKind read_regressed(const Field& field) {
   const std::string kind = field["kind"].text();
   if (kind == "parametric") return read_parametric(field);
   if (kind == "svr") return Svr{read_expansion(field["alpha"]), read_expansion(field["specular"])};
@@ -286,6 +304,15 @@ MappingKind read_mapping(const Field& field) {
   }
   field["kind"].require(false, "parametric, svr or mlp");
   return {};
+}
+
+MappingKind read_mapping(const Field& field) {
+  if (field["kind"].text() != "chain") return widened(read_regressed(field));
+  return Chain{field["steps"].list(1, [](const Field& step) {
+    const std::string id = step["id"].text();
+    step["id"].require(is_valid_id(id), "the id of a fit");
+    return ChainStep{id, read_regressed(step["mapping"])};
+  })};
 }
 
 Candidate read_candidate(const Field& field) {
@@ -324,8 +351,6 @@ Split read_split(const Field& field) {
 }  // namespace
 
 std::string fit_to_json(const Fit& fit) {
-  Json mapping = {{"kind", kind_name(fit.mapping)}};
-  mapping.update(std::visit([](const auto& form) { return to_json(form); }, fit.mapping));
   Json candidates = Json::array();
   for (const Candidate& candidate : fit.candidates) candidates.push_back(to_json(candidate));
   const Json json = {
@@ -335,7 +360,7 @@ std::string fit_to_json(const Fit& fit) {
       {"source", to_json(fit.source)},
       {"target", to_json(fit.target)},
       {"domain", {{"alpha", to_json(fit.domain.alpha)}, {"specular", to_json(fit.domain.specular)}}},
-      {"mapping", mapping},
+      {"mapping", mapping_json(fit.mapping)},
       {"method", fit.method},
       {"candidates", candidates},
       {"error_on_held_out_rows",

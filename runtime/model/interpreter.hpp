@@ -9,10 +9,6 @@
 namespace remap {
 
 // The mapping inside its domain, in canonical coordinates. No domain rule.
-struct MappedTexel {
-  double alpha = 0.0;
-  double specular = 0.0;
-};
 MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double specular);
 
 // One texel with the domain rule, in the models' own parameters.

@@ -35,12 +35,17 @@ struct Name {
   std::string operator()(const Parametric&) const { return "parametric"; }
   std::string operator()(const Svr&) const { return "svr"; }
   std::string operator()(const Mlp&) const { return "mlp"; }
+  std::string operator()(const Chain&) const { return "chain"; }
 };
 
 struct AlphaDependsOnSpecular {
   bool operator()(const Parametric& form) const { return form.roughness.size() > 1; }
   bool operator()(const Svr& svr) const { return svr.alpha.inputs.size() > 1; }
   bool operator()(const Mlp& mlp) const { return mlp.alpha.inputs.size() > 1; }
+  bool operator()(const Chain& chain) const {
+    return std::any_of(chain.steps.begin(), chain.steps.end(),
+                       [this](const ChainStep& step) { return std::visit(*this, step.mapping); });
+  }
 };
 
 struct IsProportional {
@@ -50,6 +55,15 @@ struct IsProportional {
   }
   bool operator()(const Svr&) const { return false; }
   bool operator()(const Mlp&) const { return false; }
+  // A width that depends on specular bends the specular of the next step.
+  bool operator()(const Chain& chain) const {
+    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+      if (!std::visit(*this, chain.steps[i].mapping)) return false;
+      if (i + 1 < chain.steps.size() && std::visit(AlphaDependsOnSpecular{}, chain.steps[i].mapping))
+        return false;
+    }
+    return true;
+  }
 };
 
 struct NumberCount {
@@ -61,6 +75,11 @@ struct NumberCount {
   }
   std::size_t operator()(const Svr& svr) const { return count_of(svr.alpha) + count_of(svr.specular); }
   std::size_t operator()(const Mlp& mlp) const { return count_of(mlp.alpha) + count_of(mlp.specular); }
+  std::size_t operator()(const Chain& chain) const {
+    std::size_t count = 0;
+    for (const ChainStep& step : chain.steps) count += std::visit(*this, step.mapping);
+    return count;
+  }
 };
 
 }  // namespace
@@ -81,6 +100,10 @@ std::vector<std::string> activation_names() {
   std::vector<std::string> names;
   for (const ActivationName& entry : kActivations) names.emplace_back(entry.name);
   return names;
+}
+
+MappingKind widened(const RegressedKind& mapping) {
+  return std::visit([](const auto& kind) { return MappingKind(kind); }, mapping);
 }
 
 std::string kind_name(const MappingKind& mapping) { return std::visit(Name{}, mapping); }

@@ -110,8 +110,26 @@ struct Mlp {
   bool operator==(const Mlp&) const = default;
 };
 
+// What one regression gives.
+using RegressedKind = std::variant<Parametric, Svr, Mlp>;
+
+// Kind `chain`: mappings one after another, the outputs of each being the inputs of the next. It has no rule
+// between its steps: its domain is where every step stays in its own (chain.hpp).
+struct ChainStep {
+  std::string id;  // of the fit that it is taken from
+  RegressedKind mapping;
+  bool operator==(const ChainStep&) const = default;
+};
+struct Chain {
+  std::vector<ChainStep> steps;  // at least 1
+  bool operator==(const Chain&) const = default;
+};
+
 // The mapping itself. A new kind is a new alternative here; std::visit makes every consumer handle it.
-using MappingKind = std::variant<Parametric, Svr, Mlp>;
+using MappingKind = std::variant<Parametric, Svr, Mlp, Chain>;
+
+// A kind as one of the wider variant.
+MappingKind widened(const RegressedKind& mapping);
 
 // The word for the kind in JSON, on the command line and on model cards.
 std::string kind_name(const MappingKind& mapping);
@@ -121,6 +139,12 @@ bool alpha_depends_on_specular(const MappingKind& mapping);
 
 // Whether target specular is a factor of alpha times specular: then every channel can be scaled by itself.
 bool is_proportional(const MappingKind& mapping);
+
+// The two parameters of a texel of one channel, canonical.
+struct MappedTexel {
+  double alpha = 0.0;
+  double specular = 0.0;
+};
 
 // How many numbers the mapping consists of; the measure of simplicity when kinds are compared.
 std::size_t number_count(const MappingKind& mapping);

@@ -15,6 +15,7 @@
 #include "model/fit_json.hpp"
 #include "model/interpreter.hpp"
 #include "support/shared_data.hpp"
+#include "table/domain.hpp"
 
 using namespace remapc;
 using remap::Parametric;
@@ -285,7 +286,7 @@ TEST_CASE("parametric: an unknown form is answered with the nearest") {
 
 TEST_CASE("fit: the held-out rows judge and do not train") {
   Table table = table_of(kStraight);
-  const RowSplit split = split_rows(table, 3, 0.2);
+  const RowSplit split = split_rows(table, table_domain(table), 3, 0.2);
   CHECK(split.training.size() == 120);
   CHECK(split.held_out.size() == 30);
   // Spoil the rows that seed 3 holds out, in their order in the table: the fit must not notice, the errors

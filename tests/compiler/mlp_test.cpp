@@ -17,6 +17,7 @@
 #include "model/evaluate.hpp"
 #include "support/build_speed.hpp"
 #include "support/shared_data.hpp"
+#include "table/domain.hpp"
 #include "table/table.hpp"
 
 using namespace remapc;
@@ -56,7 +57,7 @@ TEST_CASE("mlp: errors on unseen rows of the published table") {
   if (kSlowBuild) std::cout << "under a sanitizer: " << kSeeds << " seed instead of 5\n";
   double alpha_mean = 0.0, specular_mean = 0.0, seconds = 0.0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    const RowSplit split = split_rows(table, static_cast<std::uint64_t>(seed), 0.2);
+    const RowSplit split = split_rows(table, table_domain(table), static_cast<std::uint64_t>(seed), 0.2);
     MlpOptions options;
     options.seed = static_cast<std::uint64_t>(seed);
     Regression regression;

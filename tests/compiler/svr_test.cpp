@@ -20,6 +20,7 @@
 #include "number_text.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
+#include "table/domain.hpp"
 
 using namespace remapc;
 using remap::KernelExpansion;
@@ -114,7 +115,7 @@ TEST_CASE("svr: errors on unseen rows of the published table") {
   const int seeds = kSanitized ? 1 : 5;
   double alpha = 0.0, specular = 0.0, largest = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const RowSplit split = split_rows(table, static_cast<std::uint64_t>(seed), 0.2);
+    const RowSplit split = split_rows(table, table_domain(table), static_cast<std::uint64_t>(seed), 0.2);
     const auto start = std::chrono::steady_clock::now();
     SvrOptions options;
     options.seed = static_cast<std::uint64_t>(seed);

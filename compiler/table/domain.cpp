@@ -1,0 +1,90 @@
+#include "table/domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "error.hpp"
+#include "model/covered_box.hpp"
+
+namespace remapc {
+namespace {
+
+// Up to so many different alpha1 each is a column of its own; more are put together by their order.
+constexpr std::size_t kMostColumns = 128;
+constexpr std::size_t kRowsAColumn = 64;
+// A column of scattered rows that ends within this share of the highest specular1 reaches as far.
+constexpr double kSameReach = 0.9;
+// The column of every alpha1.
+std::map<double, std::size_t> column_of_alpha(const Table& table) {
+  std::map<double, std::size_t> rows_of_alpha;
+  for (const TableRow& row : table.rows) ++rows_of_alpha[row.alpha1];
+  const bool own_columns = rows_of_alpha.size() <= kMostColumns;
+  std::map<double, std::size_t> column_of;
+  std::size_t column = 0, filled = 0;
+  for (const auto& [alpha, rows] : rows_of_alpha) {
+    column_of[alpha] = column;
+    filled += rows;
+    if (!own_columns && filled < kRowsAColumn) continue;
+    ++column;
+    filled = 0;
+  }
+  return column_of;
+}
+
+// Rows of much the same width.
+struct Column {
+  double first = INFINITY, last = -INFINITY;  // alpha1 of its usable rows
+  double cut = INFINITY;                      // lowest clamped specular1
+  double reach = 0.0;                         // highest usable specular1 below that
+  bool is_cut() const { return std::isfinite(cut); }
+};
+
+std::vector<Column> columns_of(const Table& table) {
+  const std::map<double, std::size_t> column_of = column_of_alpha(table);
+  if (column_of.empty()) return {};
+  std::vector<Column> columns(column_of.rbegin()->second + 1);
+  for (const TableRow& row : table.rows) {
+    Column& column = columns[column_of.at(row.alpha1)];
+    if (row.status == RowStatus::kClamped) column.cut = std::min(column.cut, row.specular1);
+  }
+  double highest = 0.0;
+  for (const TableRow& row : table.rows) {
+    Column& column = columns[column_of.at(row.alpha1)];
+    if (row.status != RowStatus::kOk || row.specular1 >= column.cut) continue;
+    column.first = std::min(column.first, row.alpha1);
+    column.last = std::max(column.last, row.alpha1);
+    column.reach = std::max(column.reach, row.specular1);
+    highest = std::max(highest, column.reach);
+  }
+  for (Column& column : columns)
+    if (!column.is_cut() && column.reach >= kSameReach * highest) column.reach = highest;
+  return columns;
+}
+
+}  // namespace
+
+remap::Domain table_domain(const Table& table) {
+  std::vector<remap::CoveredColumn> covered;
+  for (const Column& column : columns_of(table))
+    covered.push_back({column.first, column.last, column.reach, column.reach == 0.0 && !column.is_cut()});
+  const auto domain = remap::covered_box(covered);
+  if (!domain)
+    throw remap::Error(remap::ErrorKind::kInput,
+                       table.name + ": no width has usable rows; expected some of status ok");
+  return *domain;
+}
+
+Table swapped(const Table& table) {
+  Table result = table;
+  result.comments.emplace_back("roles", "swapped");
+  std::swap(result.source, result.target);
+  result.rows = usable_rows(table);
+  for (TableRow& row : result.rows) {
+    std::swap(row.alpha1, row.alpha2);
+    std::swap(row.specular1, row.specular2);
+  }
+  return result;
+}
+
+}  // namespace remapc

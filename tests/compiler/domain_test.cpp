@@ -1,0 +1,100 @@
+// The box of source parameters that a table covers, and tables with reversed roles.
+#include "table/domain.hpp"
+
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace remapc;
+
+namespace {
+
+constexpr int kAlphas = 20, kSpeculars = 10;
+
+// A grid over alpha 0.05 to 1, specular 0.1 to 1; `status_of` decides which rows are usable.
+template <typename StatusOf>
+Table grid(const StatusOf& status_of) {
+  Table table;
+  table.name = "t.csv";
+  table.source.model = "a/b";
+  table.target.model = "c/d";
+  for (int i = 1; i <= kAlphas; ++i)
+    for (int j = 1; j <= kSpeculars; ++j) {
+      const double alpha = static_cast<double>(i) / kAlphas, specular = static_cast<double>(j) / kSpeculars;
+      table.rows.push_back(
+          {alpha, specular, 0.5 * alpha, 2.0 * specular, 0.01, status_of(alpha, specular), 0});
+    }
+  return table;
+}
+
+RowStatus clamped_where(bool condition) { return condition ? RowStatus::kClamped : RowStatus::kOk; }
+
+}  // namespace
+
+TEST_CASE("domain: without clamped rows it is the box of all rows") {
+  const remap::Domain domain = table_domain(grid([](double, double) { return RowStatus::kOk; }));
+  CHECK(domain.alpha == remap::Range{0.05, 1.0});
+  CHECK(domain.specular == remap::Range{0.0, 1.0});
+}
+
+TEST_CASE("domain: a width that the target does not reach ends it, whatever the specular") {
+  const remap::Domain domain =
+      table_domain(grid([](double alpha, double) { return clamped_where(alpha > 0.71); }));
+  CHECK(domain.alpha == remap::Range{0.05, 0.7});
+  CHECK(domain.specular == remap::Range{0.0, 1.0});
+}
+
+TEST_CASE("domain: where the target's specular passes its bound, widths count more than specular") {
+  // As Beckmann to Ward: specular2 = (1 + 2 alpha) specular1 must stay within 1.
+  const Table table =
+      grid([](double alpha, double specular) { return clamped_where((1.0 + 2.0 * alpha) * specular > 1.0); });
+  const remap::Domain domain = table_domain(table);
+  CHECK(domain.alpha == remap::Range{0.05, 1.0});
+  CHECK(domain.specular.max == Approx(0.3));
+  for (const TableRow& row : table.rows) {
+    const bool inside = is_inside(row, domain);
+    CHECK((!inside || row.status == RowStatus::kOk));
+  }
+}
+
+TEST_CASE("domain: rows that are unstable or flat are gaps and bound nothing") {
+  const remap::Domain domain = table_domain(grid([](double alpha, double specular) {
+    if (alpha == 0.5 && specular == 0.5) return RowStatus::kUnstable;
+    return alpha == 0.25 ? RowStatus::kFlat : RowStatus::kOk;
+  }));
+  CHECK(domain.alpha == remap::Range{0.05, 1.0});
+  CHECK(domain.specular.max == 1.0);
+}
+
+TEST_CASE("domain: scattered rows are covered where neighbours in width reach as far") {
+  std::mt19937_64 random(7);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  Table table;
+  for (int i = 0; i < 4000; ++i) {
+    const double alpha = 0.05 + 0.95 * uniform(), specular = uniform();
+    table.rows.push_back({alpha, specular, alpha, specular, 0.0, clamped_where(alpha > 0.8), 0});
+  }
+  const remap::Domain domain = table_domain(table);
+  CHECK(domain.alpha.max < 0.8);
+  CHECK(domain.alpha.max > 0.75);
+  CHECK(domain.specular.max > 0.98);
+  for (const TableRow& row : table.rows)
+    if (row.status == RowStatus::kClamped) CHECK_FALSE(is_inside(row, domain));
+}
+
+TEST_CASE("domain: a table without usable rows has none") {
+  CHECK_THROWS_WITH(table_domain(grid([](double, double) { return RowStatus::kClamped; })),
+                    Catch::Contains("t.csv") && Catch::Contains("status ok"));
+}
+
+TEST_CASE("swapped: parameters and models change places, rows that are not usable go") {
+  const Table table = swapped(grid([](double alpha, double) { return clamped_where(alpha > 0.71); }));
+  CHECK(table.source.model == "c/d");
+  CHECK(table.target.model == "a/b");
+  CHECK(table.rows.size() == 14 * kSpeculars);
+  CHECK(table.rows.front().alpha1 == Approx(0.025));
+  CHECK(table.rows.front().specular1 == Approx(0.2));
+  CHECK(table.rows.front().alpha2 == Approx(0.05));
+  CHECK(table.rows.front().specular2 == Approx(0.1));
+  CHECK(table.comments.back() == std::pair<std::string, std::string>{"roles", "swapped"});
+}
