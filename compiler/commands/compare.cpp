@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
-#include "commands/fit_folder.hpp"
 #include "commands/table_input.hpp"
 #include "error.hpp"
 #include "fit/baselines.hpp"

@@ -5,8 +5,8 @@
 #include <iostream>
 #include <memory>
 
+#include "build/fit_folder.hpp"
 #include "commands/commands.hpp"
-#include "commands/fit_folder.hpp"
 #include "error.hpp"
 #include "files.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
-#include "commands/fit_folder.hpp"
 #include "commands/table_input.hpp"
 #include "error.hpp"
 #include "fit/fit_table.hpp"

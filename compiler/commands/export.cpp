@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "build/fit_folder.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
-#include "commands/fit_folder.hpp"
 #include "error.hpp"
 #include "export/lookup_table.hpp"
 #include "files.hpp"

@@ -43,10 +43,6 @@ remap::Range parse_range(const std::string& option, const std::vector<double>& v
   return {values[0], values[1]};
 }
 
-std::string range_text(const remap::Range& range) {
-  return number_text(range.min) + " to " + number_text(range.max);
-}
-
 void choose_samples(const SweepCommand& command, const ModelDescription& source, SweepOptions* options) {
   if (!command.samples_of.empty()) {
     const Table table =
@@ -63,8 +59,7 @@ void choose_samples(const SweepCommand& command, const ModelDescription& source,
                                      ? source.parameter(ParameterRole::kSpecular).range
                                      : parse_range("--specular-range", command.specular_range);
   options->samples = grid_samples(alphas, command.roughness_samples, speculars, command.specular_samples);
-  options->sampling = std::to_string(command.roughness_samples) + " alpha " + range_text(alphas) + " x " +
-                      std::to_string(command.specular_samples) + " specular " + range_text(speculars);
+  options->sampling = grid_text(alphas, command.roughness_samples, speculars, command.specular_samples);
 }
 
 SweepOptions sweep_options(const SweepCommand& command, const Renderer& renderer) {

@@ -20,6 +20,9 @@ struct EmitOptions {
 // itself.
 std::string emit_header(const remap::Fit& fit, const EmitOptions& options = {});
 
+// The same from polynomials that fit.mapping was lowered to.
+std::string emit_header(const remap::Fit& fit, const remap::Lowered& lowered);
+
 // `registry.hpp` for headers of these fits, which stand beside it: one entry a converter, in the order of
 // ids.
 std::string emit_registry(std::vector<remap::Fit> fits);

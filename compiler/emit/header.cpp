@@ -335,22 +335,9 @@ MappingCode mapping_code(const Fit& fit, const EmitOptions& options) {
   return std::visit([&](const auto& kind) { return exact_code(kind, fit.domain); }, fit.mapping);
 }
 
-}  // namespace
-
-std::string literal(double value) { return float_literal(static_cast<float>(value)); }
-
-std::string double_literal(double value) {
-  if (!std::isfinite(value))
-    throw remap::Error(remap::ErrorKind::kNumeric,
-                       "emit: a number is not finite; expected finite numbers only");
-  const std::string text = remap::number_text(value);
-  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
-}
-
-std::string emit_header(const Fit& fit, const EmitOptions& options) {
+std::string header_text(const Fit& fit, const MappingCode& code) {
   require_free_name(fit.source.specular);
   require_free_name(fit.target.specular);
-  const MappingCode code = mapping_code(fit, options);
   const Range own = remap::own_roughness_range(fit), specular = remap::specular_range(fit);
   const auto golden = golden_vectors(fit, code);
   const std::string in_roughness(remap::convention_name(fit.source.roughness));
@@ -382,6 +369,26 @@ std::string emit_header(const Fit& fit, const EmitOptions& options) {
                                  {"block", block},
                                  {"golden_count", std::to_string(golden.size())},
                                  {"golden", golden_text(golden)}});
+}
+
+}  // namespace
+
+std::string literal(double value) { return float_literal(static_cast<float>(value)); }
+
+std::string double_literal(double value) {
+  if (!std::isfinite(value))
+    throw remap::Error(remap::ErrorKind::kNumeric,
+                       "emit: a number is not finite; expected finite numbers only");
+  const std::string text = remap::number_text(value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string emit_header(const Fit& fit, const EmitOptions& options) {
+  return header_text(fit, mapping_code(fit, options));
+}
+
+std::string emit_header(const Fit& fit, const remap::Lowered& lowered) {
+  return header_text(fit, lowered_code(lowered));
 }
 
 }  // namespace remapc

@@ -46,10 +46,10 @@ class Referee {
 
   Comparison compare() {
     enter_all();
-    judge_by_folds();
     for (Contender& contender : comparison_.contenders) judge_beyond(contender);
-    judge_by_edge();
     judge_by_lowering();
+    judge_by_folds();
+    judge_by_edge();
     decide();
     return std::move(comparison_);
   }
@@ -115,7 +115,7 @@ class Referee {
 
   FoldErrors errors_in_fold(const Contender& contender, const Fold& fold) const {
     FoldErrors errors;
-    if (!contender.fitted || fold.judging.empty()) return errors;
+    if (!contender.sound || fold.judging.empty()) return errors;
     try {
       const remap::MappingKind mapping =
           regress_again(contender.regression, fold.training, single_threaded());
@@ -164,7 +164,7 @@ class Referee {
     std::vector<Contender>& contenders = comparison_.contenders;
     remap::run_parallel(contenders.size(), options_.regression.jobs, [&](std::size_t task) {
       Contender& contender = contenders[contenders.size() - 1 - task];
-      if (!contender.fitted) return;
+      if (!contender.sound) return;
       try {
         const remap::MappingKind mapping = regress_again(contender.regression, edge.inner, single_threaded());
         const EdgeErrors errors = edge_errors(mapping, covered_domain(edge.inner), edge.outer);

@@ -17,8 +17,8 @@ struct RowSplit {
 };
 
 // Rows of status ok in `domain`, `held_out_fraction` of them (rounded) drawn by `seed` and kept apart; others
-// are counted by their status, or as `beyond the domain`. The same split on every machine. Throws kUsage for a
-// fraction outside [0, 0.9].
+// are counted by their status, or as `beyond the domain`. The same split on every machine. Throws kUsage for
+// a fraction outside [0, 0.9].
 RowSplit split_rows(const Table& table, const remap::Domain& domain, std::uint64_t seed,
                     double held_out_fraction);
 

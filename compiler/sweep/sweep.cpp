@@ -199,6 +199,15 @@ std::vector<SamplePoint> grid_samples(const Range& alphas, std::size_t alpha_cou
   return samples;
 }
 
+std::string grid_text(const Range& alphas, std::size_t alpha_count, const Range& speculars,
+                      std::size_t specular_count) {
+  const auto text = [](const Range& range) {
+    return number_text(range.min) + " to " + number_text(range.max);
+  };
+  return std::to_string(alpha_count) + " alpha " + text(alphas) + " x " + std::to_string(specular_count) +
+         " specular " + text(speculars);
+}
+
 double subpixel_alpha(int resolution, int samples_per_axis) {
   // The sphere's radius is resolution / 2 pixels; at a camera distance of 3 the half vector turns by 1.5
   // times the angle of the normal near the middle of the picture.

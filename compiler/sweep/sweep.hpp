@@ -43,6 +43,10 @@ struct SweepExecution {
 std::vector<SamplePoint> grid_samples(const remap::Range& alphas, std::size_t alpha_count,
                                       const remap::Range& speculars, std::size_t specular_count);
 
+// The same in words, for SweepOptions::sampling.
+std::string grid_text(const remap::Range& alphas, std::size_t alpha_count, const remap::Range& speculars,
+                      std::size_t specular_count);
+
 // Width below which a highlight under the headlight has a radius of less than one pixel sample, so that a
 // picture no longer resolves it.
 double subpixel_alpha(int resolution, int samples_per_axis);

@@ -35,8 +35,8 @@ void require_links(const std::vector<Fit>& steps) {
   std::set<std::string> visited = {steps.front().source.model};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (!visited.insert(steps[i].target.model).second)
-      throw Error(ErrorKind::kUsage, "chain: comes to " + steps[i].target.model + " twice, by " + steps[i].id +
-                                         "; expected every model once");
+      throw Error(ErrorKind::kUsage, "chain: comes to " + steps[i].target.model + " twice, by " +
+                                         steps[i].id + "; expected every model once");
     if (i == 0 || steps[i - 1].target == steps[i].source) continue;
     throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " gives " + side_text(steps[i - 1].target) +
                                        ", but " + steps[i].id + " takes " + side_text(steps[i].source));
@@ -234,7 +234,8 @@ ChainDifference difference_from_steps(const Fit& chain, const std::vector<Fit>& 
       const double top = chain.domain.specular.max * j / kCoarse;
       for (int k = 0; k <= kCoarse; ++k) {
         const std::array<double, 3> colour = {top, top * k / kCoarse, 0.0};
-        const SteppedTexel stepped = step_by_step(steps, alpha, colour), one = step_by_step({chain}, alpha, colour);
+        const SteppedTexel stepped = step_by_step(steps, alpha, colour),
+                           one = step_by_step({chain}, alpha, colour);
         difference.alpha = std::max(difference.alpha, std::fabs(one.alpha - stepped.alpha));
         for (std::size_t c = 0; c < colour.size(); ++c) {
           const double off = std::fabs(one.specular[c] - stepped.specular[c]);

@@ -1,12 +1,12 @@
 #include "model/fit_json.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "error.hpp"
 #include "files.hpp"
+#include "json_field.hpp"
 
 namespace remap {
 namespace {
@@ -121,73 +121,6 @@ Json to_json(const std::optional<Likeness>& likeness) {
     spheres.push_back({{"alpha", finite(alpha)}, {"ssim", finite(ssim)}});
   return {{"image_error", to_json(likeness->image_error)}, {"spheres", spheres}};
 }
-
-// A JSON value with the place it came from, so that every complaint says where.
-class Field {
- public:
-  Field(const Json& value, std::string place) : value_(value), place_(std::move(place)) {}
-
-  Field operator[](const std::string& key) const {
-    require(value_.is_object(), "an object");
-    const auto found = value_.find(key);
-    if (found == value_.end()) fail("has no field \"" + key + "\"");
-    return Field(*found, place_ + "." + key);
-  }
-  Field at(std::size_t index, std::size_t count) const {
-    require(value_.is_array() && value_.size() == count, "a list of " + std::to_string(count));
-    return Field(value_[index], place_ + "[" + std::to_string(index) + "]");
-  }
-  // Every entry of a list of at least `fewest`.
-  template <typename Read>
-  auto list(std::size_t fewest, Read read) const {
-    require(value_.is_array() && value_.size() >= fewest, "a list of at least " + std::to_string(fewest));
-    std::vector<decltype(read(*this))> entries;
-    for (std::size_t i = 0; i < value_.size(); ++i) entries.push_back(read(at(i, value_.size())));
-    return entries;
-  }
-  std::vector<double> numbers(std::size_t fewest) const {
-    return list(fewest, [](const Field& entry) { return entry.number(); });
-  }
-  std::string text() const {
-    require(value_.is_string(), "a text");
-    const std::string text = value_.get<std::string>();
-    const bool one_line = std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; });
-    require(one_line, "a text of one line");  // it may become a comment in generated code
-    return text;
-  }
-  double number() const {
-    require(value_.is_number(), "a number");
-    const double number = value_.get<double>();
-    require(std::isfinite(number), "a finite number");
-    return number;
-  }
-  bool is_null() const { return value_.is_null(); }
-  std::int64_t count() const {
-    require(value_.is_number_integer() && value_.get<std::int64_t>() >= 0, "a whole number from 0");
-    return value_.get<std::int64_t>();
-  }
-  template <typename Value, typename Read>
-  std::map<std::string, Value> dictionary(Read read) const {
-    require(value_.is_object(), "an object");
-    std::map<std::string, Value> entries;
-    for (const auto& [key, value] : value_.items()) entries[key] = read(Field(value, place_ + "." + key));
-    return entries;
-  }
-  void require(bool condition, const std::string& expected) const {
-    if (!condition) fail("is " + excerpt() + "; expected " + expected);
-  }
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorKind::kInput, place_ + ": " + what);
-  }
-
- private:
-  std::string excerpt() const {
-    const std::string text = value_.dump();
-    return text.size() > 40 ? text.substr(0, 37) + "..." : text;
-  }
-  const Json& value_;
-  std::string place_;
-};
 
 Range read_range(const Field& field) {
   const Range range{field.at(0, 2).number(), field.at(1, 2).number()};
@@ -380,12 +313,7 @@ std::string fit_to_json(const Fit& fit) {
 }
 
 Fit fit_from_json(std::string_view text, const std::string& place) {
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::exception& failure) {
-    throw Error(ErrorKind::kInput, place + ": is no JSON: " + failure.what());
-  }
+  const Json json = parse_json(text, place);
   const Field root(json, place);
   if (root["format"].text() != "remap-fit") root.fail("is no fit file; expected \"format\": \"remap-fit\"");
   const std::int64_t version = root["version"].count();

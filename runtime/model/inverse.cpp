@@ -34,7 +34,9 @@ std::optional<MappedTexel> inverse(const MappingKind& mapping, const Domain& dom
     if (rising(domain.specular.min) >= target.specular) return domain.specular.min;
     return root(rising, domain.specular, target.specular).value_or(domain.specular.max);
   };
-  const auto rising = [&](double alpha) { return evaluate_mapping(mapping, alpha, specular_at(alpha)).alpha; };
+  const auto rising = [&](double alpha) {
+    return evaluate_mapping(mapping, alpha, specular_at(alpha)).alpha;
+  };
   const std::optional<double> alpha = root(rising, domain.alpha, target.alpha);
   if (!alpha) return std::nullopt;
   const double specular = specular_at(*alpha);

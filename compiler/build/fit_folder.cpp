@@ -1,7 +1,8 @@
-#include "commands/fit_folder.hpp"
+#include "build/fit_folder.hpp"
 
 #include <algorithm>
 
+#include "build/manifest.hpp"
 #include "error.hpp"
 #include "model/fit_json.hpp"
 #include "nearest_name.hpp"
@@ -16,7 +17,7 @@ std::vector<remap::Fit> load_fits(const std::filesystem::path& folder) {
     throw Error(ErrorKind::kInput, folder.string() + ": is no folder; expected one with fits (*.json)");
   std::vector<remap::Fit> fits;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".json") continue;
+    if (entry.path().extension() != ".json" || entry.path().filename() == kManifestName) continue;
     fits.push_back(remap::load_fit(entry.path()));
     if (entry.path().stem() != fits.back().id)
       throw Error(ErrorKind::kInput, entry.path().string() + ": holds the fit " + fits.back().id +

@@ -8,8 +8,8 @@
 
 namespace remapc {
 
-// Every `*.json` of `folder` as a fit, in the order of ids. Throws kInput for a folder that cannot be read, a
-// file that is no fit, and a file whose name is not its id.
+// Every `*.json` of `folder` but its manifest as a fit, in the order of ids. Throws kInput for a folder that
+// cannot be read, a file that is no fit, and a file whose name is not its id.
 std::vector<remap::Fit> load_fits(const std::filesystem::path& folder);
 
 // The fit that `name` means: a file, or an id in `folder`. Throws kUsage with the nearest known id.

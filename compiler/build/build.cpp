@@ -1,0 +1,274 @@
+#include "build/build.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
+#include "build/fit_folder.hpp"
+#include "build/lock.hpp"
+#include "build/report.hpp"
+#include "emit/emit.hpp"
+#include "error.hpp"
+#include "files.hpp"
+#include "fit/fit_table.hpp"
+#include "fit/inverse_table.hpp"
+#include "model/chain.hpp"
+#include "model/fit_json.hpp"
+#include "parallel.hpp"
+#include "sweep/sweep.hpp"
+#include "version.hpp"
+
+namespace remapc {
+namespace {
+
+namespace fs = std::filesystem;
+using remap::Error;
+using remap::ErrorKind;
+
+// Empty for a file that is not there.
+std::string file_sha256(const fs::path& path) {
+  return fs::is_regular_file(path) ? sha256(remap::read_file(path)) : std::string();
+}
+
+struct ItemPaths {
+  fs::path table, fit, header;
+};
+ItemPaths paths_of(const BuildFolders& folders, const std::string& id) {
+  return {folders.fits / "tables" / (id + ".csv"), folders.fits / (id + ".json"),
+          folders.generated / (id + ".hpp")};
+}
+
+bool has_table(const ManifestItem& item) {
+  return std::holds_alternative<SweptItem>(item.kind) || std::holds_alternative<InverseItem>(item.kind);
+}
+
+// What an item is made from. `lock` holds its inputs as they are now.
+std::string recipe_hash(const ManifestItem& item, const Lock& lock) {
+  std::string text = std::string(remap::kVersion) + "\n" + std::to_string(remap::kFitFormatVersion) + "\n" +
+                     item.recipe + "\n" + std::to_string(item.seed);
+  for (const std::string& input : inputs_of(item)) {
+    const auto found = lock.find(input);
+    text += "\n" + (found == lock.end() ? std::string() : found->second.fit);
+  }
+  return sha256(text);
+}
+
+// Which files of an item are those that the lock knows, and were made from what it is to be made from now.
+struct Freshness {
+  bool table = false, fit = false, header = false;
+  std::string reason;  // of the first that is not
+};
+Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock) {
+  const auto found = lock.find(item.id);
+  if (found == lock.end()) return {false, false, false, "has not been built"};
+  const LockedItem& known = found->second;
+  const ItemPaths paths = paths_of(folders, item.id);
+  if (known.recipe != recipe_hash(item, lock))
+    return {false, false, false, "its recipe or what it is made from has changed"};
+  const auto same = [](const fs::path& path, const std::string& hash) {
+    return !hash.empty() && file_sha256(path) == hash;
+  };
+  const auto reason = [](const fs::path& path) {
+    return path.string() + (fs::exists(path) ? " is not the file that the last build made" : " is missing");
+  };
+  if (has_table(item) && !same(paths.table, known.table)) return {false, false, false, reason(paths.table)};
+  if (!same(paths.fit, known.fit)) return {true, false, false, reason(paths.fit)};
+  if (!same(paths.header, known.header)) return {true, true, false, reason(paths.header)};
+  return {true, true, true, ""};
+}
+
+class Builder {
+ public:
+  Builder(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
+          const BuildExecution& execution)
+      : renderer_(renderer),
+        manifest_(manifest),
+        folders_(folders),
+        execution_(execution),
+        lock_(execution.force ? Lock{} : load_lock(folders.fits)) {}
+
+  std::vector<BuiltItem> run() {
+    forget_others();
+    std::vector<const ManifestItem*> waiting;
+    for (const ManifestItem& item : manifest_.items) waiting.push_back(&item);
+    while (!waiting.empty()) {
+      // Those whose inputs do not wait; the order of a manifest lets there be some.
+      std::vector<const ManifestItem*> ready, later;
+      for (const ManifestItem* item : waiting) {
+        const std::vector<std::string> inputs = inputs_of(*item);
+        const bool waits = std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
+          return std::any_of(waiting.begin(), waiting.end(),
+                             [&](const ManifestItem* other) { return other->id == input; });
+        });
+        (waits ? later : ready).push_back(item);
+      }
+      remap::run_parallel(ready.size(), execution_.jobs, [&](std::size_t i) { build_item(*ready[i]); });
+      waiting = later;
+    }
+    write_registry();
+    std::sort(built_.begin(), built_.end(),
+              [](const BuiltItem& a, const BuiltItem& b) { return a.id < b.id; });
+    return std::move(built_);
+  }
+
+ private:
+  // Items that the manifest no longer has.
+  void forget_others() {
+    std::erase_if(lock_, [&](const auto& entry) {
+      return std::none_of(manifest_.items.begin(), manifest_.items.end(),
+                          [&](const ManifestItem& item) { return item.id == entry.first; });
+    });
+  }
+
+  void build_item(const ManifestItem& item) {
+    if (execution_.cancelled != nullptr && *execution_.cancelled)
+      throw Error(ErrorKind::kInterrupted, "build: interrupted; what is finished is kept, run it again");
+    const auto start = std::chrono::steady_clock::now();
+    LockedItem record;
+    Freshness fresh;
+    {
+      const std::lock_guard lock(mutex_);
+      fresh = freshness(item, folders_, lock_);
+      record = lock_[item.id];
+      record.recipe = recipe_hash(item, lock_);
+    }
+    try {
+      make(item, fresh, &record);
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::kInterrupted) throw;
+      throw Error(error.kind(), item.id + ": " + error.what());
+    }
+    const std::lock_guard lock(mutex_);
+    lock_[item.id] = record;
+    if (!fresh.header) {
+      save_lock(folders_.fits, lock_);
+      built_.push_back({item.id, !fresh.table && has_table(item), !fresh.fit, true,
+                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+    }
+    ++done_;
+    if (execution_.progress) execution_.progress(done_, manifest_.items.size());
+  }
+
+  void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record) const {
+    const ItemPaths paths = paths_of(folders_, item.id);
+    if (has_table(item) && !fresh.table) {
+      const std::string text = table_text(table_of(item, paths));
+      remap::write_file(paths.table, text);
+      record->table = sha256(text);
+    }
+    if (!fresh.fit) {
+      const std::string text = fit_to_json(fit_of(item, paths));
+      remap::write_file(paths.fit, text);
+      record->fit = sha256(text);
+    }
+    if (fresh.header) return;
+    const remap::Fit fit = remap::load_fit(paths.fit);
+    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
+    const std::string text = emit_header(fit, lowered);
+    remap::write_file(paths.header, text);
+    record->header = sha256(text);
+    record->alpha_bound = lowered.alpha.bound;
+    record->specular_bound = lowered.specular.bound;
+  }
+
+  Table table_of(const ManifestItem& item, const ItemPaths& paths) const {
+    if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
+      const std::string bytes = remap::read_file(paths_of(folders_, inverse->of).fit);
+      return inverse_table(remap::fit_from_json(bytes, inverse->of), bytes);
+    }
+    const auto& [source, target, recipe] = std::get<SweptItem>(item.kind);
+    SweepOptions options;
+    options.source = source;
+    options.target = target;
+    options.objective = objective_preset(recipe.objective);
+    options.objective_name = recipe.objective;
+    options.resolution = recipe.resolution;
+    const remap::Range speculars{0.0,
+                                 find_model(renderer_, source).parameter(ParameterRole::kSpecular).range.max};
+    options.samples =
+        grid_samples(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
+    options.sampling = grid_text(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
+    const fs::path journal = paths.table.string() + ".partial";
+    remap::create_parent(journal);
+    fs::remove(journal);
+    const Table table = run_sweep(renderer_, options, {1, {}, execution_.cancelled}, journal, false);
+    fs::remove(journal);
+    return table;
+  }
+
+  remap::Fit fit_of(const ManifestItem& item, const ItemPaths& paths) const {
+    if (const auto* published = std::get_if<PublishedItem>(&item.kind)) return published->fit;
+    if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain_of(*chain, item.id);
+    const std::string bytes = remap::read_file(paths.table);
+    FitOptions options;
+    options.id = item.id;
+    options.regression.seed = item.seed;
+    options.regression.jobs = 1;
+    return fit_table(parse_table(bytes, paths.table.string()), bytes, options,
+                     [&](double) {
+                       if (execution_.cancelled != nullptr && *execution_.cancelled)
+                         throw Error(ErrorKind::kInterrupted,
+                                     "build: interrupted; what is finished is kept, run it again");
+                     })
+        .fit;
+  }
+
+  remap::Fit chain_of(const ChainItem& chain, const std::string& id) const {
+    std::vector<remap::Fit> steps;
+    for (const std::string& step : chain.steps)
+      steps.push_back(remap::load_fit(paths_of(folders_, step).fit));
+    return composed_fit(steps, id);
+  }
+
+  void write_registry() const {
+    const std::vector<remap::Fit> fits = load_fits(folders_.fits);
+    const auto write_changed = [](const fs::path& path, const std::string& text) {
+      if (!fs::exists(path) || remap::read_file(path) != text) remap::write_file(path, text);
+    };
+    write_changed(folders_.generated / "registry.hpp", emit_registry(fits));
+    // The report takes a second to compute.
+    if (!built_.empty() || !fs::exists(folders_.fits / kReportName))
+      for (const ReportFile& file : report(fits, lock_)) write_changed(folders_.fits / file.name, file.text);
+  }
+
+  const Renderer& renderer_;
+  const Manifest& manifest_;
+  const BuildFolders& folders_;
+  const BuildExecution& execution_;
+  Lock lock_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  std::vector<BuiltItem> built_;
+};
+
+}  // namespace
+
+std::vector<BuiltItem> build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
+                             const BuildExecution& execution) {
+  return Builder(renderer, manifest, folders, execution).run();
+}
+
+remap::Fit composed_fit(const std::vector<remap::Fit>& steps, const std::string& id) {
+  remap::Fit chain = remap::compose(steps, id);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    chain.table.comments["step " + std::to_string(i + 1)] =
+        steps[i].id + ", sha256 " + sha256(fit_to_json(steps[i]));
+  return chain;
+}
+
+std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& folders) {
+  const Lock lock = load_lock(folders.fits);
+  std::vector<std::string> reasons;
+  for (const ManifestItem& item : manifest.items) {
+    const Freshness fresh = freshness(item, folders, lock);
+    if (!fresh.header) reasons.push_back(item.id + ": " + fresh.reason);
+  }
+  for (const remap::Fit& fit : load_fits(folders.fits)) {
+    const fs::path table = folders.fits / "tables" / fit.table.name;
+    if (fit.table.name.empty() || !fs::exists(table) || file_sha256(table) == fit.table.sha256) continue;
+    reasons.push_back(fit.id + ": " + table.string() + " is not the table that it was fitted to");
+  }
+  return reasons;
+}
+
+}  // namespace remapc

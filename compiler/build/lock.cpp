@@ -1,0 +1,45 @@
+#include "build/lock.hpp"
+
+#include "files.hpp"
+#include "json_field.hpp"
+
+namespace remapc {
+namespace {
+
+constexpr int kLockVersion = 1;
+
+LockedItem read_item(const remap::Field& field) {
+  return {field["recipe"].text(), field["table"].text(),         field["fit"].text(),
+          field["header"].text(), field["alpha_bound"].number(), field["specular_bound"].number()};
+}
+
+}  // namespace
+
+Lock load_lock(const std::filesystem::path& fit_folder) {
+  const std::filesystem::path path = fit_folder / kLockName;
+  if (!std::filesystem::exists(path)) return {};
+  try {
+    const nlohmann::ordered_json json = remap::parse_json(remap::read_file(path), path.string());
+    const remap::Field root(json, path.string());
+    if (root["version"].count() != kLockVersion) return {};
+    return root["items"].dictionary<LockedItem>(read_item);
+  } catch (const remap::Error& error) {
+    if (error.kind() != remap::ErrorKind::kInput) throw;
+    return {};
+  }
+}
+
+void save_lock(const std::filesystem::path& fit_folder, const Lock& lock) {
+  nlohmann::ordered_json items = nlohmann::ordered_json::object();
+  for (const auto& [id, item] : lock)
+    items[id] = {{"recipe", item.recipe},
+                 {"table", item.table},
+                 {"fit", item.fit},
+                 {"header", item.header},
+                 {"alpha_bound", item.alpha_bound},
+                 {"specular_bound", item.specular_bound}};
+  const nlohmann::ordered_json json = {{"format", "remap-lock"}, {"version", kLockVersion}, {"items", items}};
+  remap::write_file(fit_folder / kLockName, json.dump(1) + "\n");
+}
+
+}  // namespace remapc

@@ -1,0 +1,148 @@
+#include "build/manifest.hpp"
+
+#include <algorithm>
+
+#include "error.hpp"
+#include "files.hpp"
+#include "json_field.hpp"
+#include "nearest_name.hpp"
+#include "version.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Field;
+using remap::Fit;
+
+remap::Range read_range(const Field& field) {
+  const remap::Range range{field.at(0, 2).number(), field.at(1, 2).number()};
+  field.require(range.min < range.max, "[min, max] with min < max");
+  return range;
+}
+
+std::size_t read_count(const Field& field) {
+  field.require(field.count() >= 2 && field.count() <= 1000, "a number from 2 to 1000");
+  return static_cast<std::size_t>(field.count());
+}
+
+// Every ordered pair of a group of models.
+void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
+  SweepRecipe recipe;
+  recipe.objective = group["objective"].text();
+  recipe.resolution = static_cast<int>(group["resolution"].count());
+  recipe.alphas = read_range(group["alpha"]);
+  recipe.roughness_samples = read_count(group["roughness_samples"]);
+  recipe.specular_samples = read_count(group["specular_samples"]);
+  const auto seed = static_cast<std::uint64_t>(group["seed"].count());
+  const std::vector<std::string> models =
+      group["models"].list(2, [](const Field& model) { return model.text(); });
+  for (const std::string& source : models)
+    for (const std::string& target : models) {
+      if (source == target) continue;
+      nlohmann::ordered_json text = group.json();
+      text["models"] = {source, target};
+      items->push_back(
+          {remap::converter_id(source, target), SweptItem{source, target, recipe}, text.dump(), seed});
+    }
+}
+
+remap::ModelSide read_side(const Field& field) {
+  const auto roughness = remap::convention_from_name(field["roughness"].text());
+  field["roughness"].require(roughness.has_value(), "alpha, roughness, exponent or glossiness");
+  const remap::ModelSide side{field["model"].text(), *roughness, field["specular"].text()};
+  field["model"].require(remap::is_valid_model(side.model), "letters, digits and _ - . /");
+  field["specular"].require(remap::is_valid_specular(side.specular), "an identifier that names no width");
+  return side;
+}
+
+// Coefficients as the paper prints them (Sztrajman et al. 2019, section 7 and appendix A):
+// c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) + c5 / alpha.
+remap::AlphaCurve read_slope(const Field& field) {
+  const double c1 = field["c1"].number(), c2 = field["c2"].number();
+  const double c3 = field["c3"].number(), c4 = field["c4"].number();
+  field.require(c2 >= 0.0 && c4 >= 0.0, "rates c2 and c4 from 0");
+  return {field["c0"].number() + c1 + c3, -c1 * c2, c2, -c3 * c4, c4, field["c5"].number()};
+}
+
+void read_published(const Field& field, std::vector<ManifestItem>* items) {
+  Fit fit;
+  fit.id = field["id"].text();
+  fit.source = read_side(field["source"]);
+  fit.target = read_side(field["target"]);
+  fit.domain = {read_range(field["domain"]["alpha"]), read_range(field["domain"]["specular"])};
+  fit.mapping = remap::Parametric{{field["roughness"].numbers(1)}, {{1, read_slope(field["slope"])}}};
+  fit.method["form"] = "paper";
+  fit.method["source"] = field["from"].text();
+  fit.remarks = field["remarks"].list(0, [](const Field& remark) { return remark.text(); });
+  fit.remarks.insert(fit.remarks.begin(), "Published in " + fit.method["source"] + ".");
+  fit.tool_version = remap::kVersion;
+  items->push_back({fit.id, PublishedItem{fit}, field.json().dump(), 0});
+}
+
+std::string read_id(const Field& field, const std::vector<ManifestItem>& items) {
+  std::vector<std::string> known;
+  for (const ManifestItem& item : items) known.push_back(item.id);
+  const std::string id = field.text();
+  if (std::find(known.begin(), known.end(), id) == known.end())
+    field.fail("is " + id + ", which is no item before it" + remap::suggestion(id, known));
+  return id;
+}
+
+void require_unique(const std::vector<ManifestItem>& items, const std::string& place) {
+  std::vector<std::string> ids;
+  for (const ManifestItem& item : items) ids.push_back(item.id);
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end())
+    throw remap::Error(remap::ErrorKind::kInput,
+                       place + ": makes " + *twice + " twice; expected every id once");
+  for (const std::string& id : ids)
+    if (!remap::is_valid_id(id))
+      throw remap::Error(
+          remap::ErrorKind::kInput,
+          place + ": id \"" + id + "\"; expected a C++ identifier without leading or doubled underscore");
+}
+
+}  // namespace
+
+Manifest manifest_from_json(std::string_view text, const std::string& place) {
+  const nlohmann::ordered_json json = remap::parse_json(text, place);
+  const Field root(json, place);
+  root["format"].require(root["format"].text() == "remap-manifest", "\"remap-manifest\"");
+  root["version"].require(root["version"].count() == kManifestVersion,
+                          "version " + std::to_string(kManifestVersion));
+  Manifest manifest;
+  std::vector<ManifestItem>& items = manifest.items;
+  const auto each = [&](const std::string& key, const auto& read) {
+    root[key].list(0, [&](const Field& entry) {
+      read(entry);
+      return 0;
+    });
+  };
+  each("published", [&](const Field& entry) { read_published(entry, &items); });
+  each("sweeps", [&](const Field& entry) { read_sweeps(entry, &items); });
+  each("inverses", [&](const Field& entry) {
+    const std::string of = read_id(entry["of"], items);
+    items.push_back({entry["id"].text(), InverseItem{of}, entry.json().dump(),
+                     static_cast<std::uint64_t>(entry["seed"].count())});
+  });
+  each("chains", [&](const Field& entry) {
+    ChainItem chain{entry["steps"].list(2, [&](const Field& step) { return read_id(step, items); })};
+    items.push_back({entry["id"].text(), chain, entry.json().dump(), 0});
+  });
+  require_unique(items, place);
+  return manifest;
+}
+
+Manifest load_manifest(const std::filesystem::path& fit_folder) {
+  const std::filesystem::path path = fit_folder / kManifestName;
+  return manifest_from_json(remap::read_file(path), path.string());
+}
+
+std::vector<std::string> inputs_of(const ManifestItem& item) {
+  if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) return {inverse->of};
+  if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain->steps;
+  return {};
+}
+
+}  // namespace remapc

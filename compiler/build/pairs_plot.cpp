@@ -1,0 +1,89 @@
+// The small multiples of the report, drawn without any plotting program so that every machine gives the same
+// bytes.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <set>
+
+#include "build/report.hpp"
+#include "model/interpreter.hpp"
+
+namespace remapc {
+namespace {
+
+constexpr int kPanel = 110, kGap = 12, kMargin = 130, kTop = 40;
+constexpr int kSteps = 48;
+constexpr double kSpecular = 0.5, kLargestRatio = 2.0;
+
+std::string decimals(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.1f", value);
+  return text.data();
+}
+
+struct Place {
+  double x, y;
+};
+
+std::string polyline(const Place& corner, const std::string& colour, const remap::Range& alphas,
+                     const auto& share_at) {
+  std::string points;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double alpha = alphas.min + (alphas.max - alphas.min) * i / kSteps;
+    const double share = std::clamp(share_at(alpha), 0.0, 1.0);
+    points += (points.empty() ? "" : " ") + decimals(corner.x + kPanel * alpha) + "," +
+              decimals(corner.y + kPanel * (1.0 - share));
+  }
+  return "<polyline fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"1.5\" points=\"" + points +
+         "\"/>\n";
+}
+
+std::string panel(const remap::Fit& fit, const Place& corner) {
+  const double specular = std::min(kSpecular, fit.domain.specular.max);
+  const std::string x = decimals(corner.x), y = decimals(corner.y), side = std::to_string(kPanel);
+  std::string text = "<rect x=\"" + x + "\" y=\"" + y + "\" width=\"" + side + "\" height=\"" + side +
+                     "\" fill=\"white\" stroke=\"#999\"/>\n<path d=\"M" + x + "," +
+                     decimals(corner.y + kPanel) + " l" + side + ",-" + side + "\" stroke=\"#ccc\"/>\n";
+  text += polyline(corner, "#1f6fb4", fit.domain.alpha,
+                   [&](double alpha) { return remap::evaluate_mapping(fit.mapping, alpha, specular).alpha; });
+  text += polyline(corner, "#e07b00", fit.domain.alpha, [&](double alpha) {
+    return remap::evaluate_mapping(fit.mapping, alpha, specular).specular / (specular * kLargestRatio);
+  });
+  return text;
+}
+
+std::string label(double x, double y, const std::string& anchor, const std::string& text) {
+  return "<text x=\"" + decimals(x) + "\" y=\"" + decimals(y) + "\" text-anchor=\"" + anchor + "\">" + text +
+         "</text>\n";
+}
+
+}  // namespace
+
+std::string pairs_plot(const std::vector<remap::Fit>& fits) {
+  std::set<std::string> names;
+  for (const remap::Fit& fit : fits)
+    if (fit.likeness && !fit.likeness->ssim.empty()) names.insert({fit.source.model, fit.target.model});
+  const std::vector<std::string> models(names.begin(), names.end());
+  const auto place = [&](std::size_t row, std::size_t column) {
+    return Place{kMargin + static_cast<double>(column) * (kPanel + kGap),
+                 kTop + static_cast<double>(row) * (kPanel + kGap)};
+  };
+  const Place end = place(models.size(), models.size());
+  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + decimals(end.x) + "\" height=\"" +
+                     decimals(end.y) + "\" font-family=\"sans-serif\" font-size=\"11\">\n" +
+                     "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    text += label(place(0, i).x + 0.5 * kPanel, kTop - 8.0, "middle", "to " + models[i]);
+    text += label(kMargin - 8.0, place(i, 0).y + 0.5 * kPanel, "end", models[i]);
+  }
+  for (const remap::Fit& fit : fits) {
+    if (!fit.likeness || fit.likeness->ssim.empty()) continue;
+    const auto index = [&](const std::string& model) {
+      return static_cast<std::size_t>(std::find(models.begin(), models.end(), model) - models.begin());
+    };
+    text += panel(fit, place(index(fit.source.model), index(fit.target.model)));
+  }
+  return text + "</svg>\n";
+}
+
+}  // namespace remapc

@@ -1,0 +1,173 @@
+#include "build/report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "fit/split.hpp"
+#include "model/round_trip.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Fit;
+
+constexpr const char* kPlotName = "pairs.svg";
+
+std::string decimals(double value, int digits) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
+
+std::string percent(double value) { return decimals(100.0 * value, value < 0.00995 ? 2 : 1); }
+
+std::string range_text(const remap::Range& range) {
+  return decimals(range.min, 3) + " to " + decimals(range.max, 3);
+}
+
+bool is_measured(const Fit& fit) { return fit.likeness && !fit.likeness->ssim.empty(); }
+bool is_chain(const Fit& fit) { return std::holds_alternative<remap::Chain>(fit.mapping); }
+
+double mean_ssim(const Fit& fit) {
+  double sum = 0.0;
+  for (const remap::SphereSimilarity& sphere : fit.likeness->ssim) sum += sphere.ssim;
+  return sum / static_cast<double>(fit.likeness->ssim.size());
+}
+
+// Measured pairs by source and target.
+using Pairs = std::map<std::pair<std::string, std::string>, const Fit*>;
+
+Pairs measured_pairs(const std::vector<Fit>& fits) {
+  Pairs pairs;
+  for (const Fit& fit : fits)
+    if (is_measured(fit)) pairs[{fit.source.model, fit.target.model}] = &fit;
+  return pairs;
+}
+
+std::set<std::string> models_of(const Pairs& pairs) {
+  std::set<std::string> models;
+  for (const auto& [pair, fit] : pairs) models.insert({pair.first, pair.second});
+  return models;
+}
+
+std::string matrix(const Pairs& pairs) {
+  const std::set<std::string> models = models_of(pairs);
+  std::string text = "| from \\ to |", rule = "|---|";
+  for (const std::string& target : models) {
+    text += " " + target + " |";
+    rule += "---|";
+  }
+  text += "\n" + rule + "\n";
+  for (const std::string& source : models) {
+    text += "| **" + source + "** |";
+    for (const std::string& target : models) {
+      const auto found = pairs.find({source, target});
+      text += found == pairs.end() ? " |"
+                                   : " " + percent(found->second->likeness->image_error.rms) + " %, " +
+                                         decimals(mean_ssim(*found->second), 3) + " |";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string trip_text(const Fit& fit, const Pairs& pairs) {
+  const auto back = pairs.find({fit.target.model, fit.source.model});
+  if (back == pairs.end()) return "-";
+  const remap::RoundTrip trip = remap::round_trip(fit, *back->second);
+  if (trip.share == 0.0) return "domains do not meet";
+  return percent(std::max(trip.alpha_median, trip.specular_median)) + ", " +
+         percent(std::max(trip.alpha_p99, trip.specular_p99)) + (remap::returns(trip) ? "" : " (!)");
+}
+
+std::string bound_text(const Fit& fit, const Lock& lock) {
+  const auto found = lock.find(fit.id);
+  if (found == lock.end()) return "-";
+  return error_text(found->second.alpha_bound) + ", " + error_text(found->second.specular_bound);
+}
+
+std::string fit_text(const Fit& fit) {
+  return fit.has_errors() ? error_text(fit.roughness_error.rms) + ", " + error_text(fit.specular_error.rms)
+                          : "unknown";
+}
+
+std::string pair_lines(const Pairs& pairs, const Lock& lock) {
+  std::string text =
+      "| converter | covers alpha | covers specular | image error rms, 99 % | SSIM mean, least | fit error | "
+      "lowered within | there and back median, 99 % | kind |\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const auto& [pair, fit] : pairs) {
+    const auto least = std::min_element(
+        fit->likeness->ssim.begin(), fit->likeness->ssim.end(),
+        [](const remap::SphereSimilarity& a, const remap::SphereSimilarity& b) { return a.ssim < b.ssim; });
+    text += "| [" + fit->id + "](" + fit->id + ".json) | " + range_text(fit->domain.alpha) + " | to " +
+            decimals(fit->domain.specular.max, 3) + " | " + percent(fit->likeness->image_error.rms) + " %, " +
+            percent(fit->likeness->image_error.p99) + " % | " + decimals(mean_ssim(*fit), 3) + ", " +
+            decimals(least->ssim, 3) + " at " + decimals(least->alpha, 2) + " | " + fit_text(*fit) + " | " +
+            bound_text(*fit, lock) + " | " + trip_text(*fit, pairs) + " | " + kind_name(fit->mapping) +
+            " |\n";
+  }
+  return text;
+}
+
+std::string other_lines(const std::vector<Fit>& fits, const Lock& lock) {
+  std::string text =
+      "| converter | covers alpha | covers specular | fit error | lowered within | where it comes from |\n"
+      "|---|---|---|---|---|---|\n";
+  for (const Fit& fit : fits) {
+    if (is_measured(fit)) continue;
+    std::string remarks;
+    for (const std::string& remark : fit.remarks) remarks += (remarks.empty() ? "" : " ") + remark;
+    if (const auto inverse = fit.table.comments.find("inverse_of"); inverse != fit.table.comments.end())
+      remarks += "The way back through " + inverse->second + ".";
+    if (is_chain(fit))
+      remarks += " Against its steps: " + fit.method.at("against its steps one after another") + ".";
+    text += "| [" + fit.id + "](" + fit.id + ".json) | " + range_text(fit.domain.alpha) + " | to " +
+            decimals(fit.domain.specular.max, 3) + " | " + fit_text(fit) + " | " + bound_text(fit, lock) +
+            " | " + remarks + " |\n";
+  }
+  return text;
+}
+
+constexpr const char* kIntroduction = R"(# Converters and how far to trust them
+
+Written by `remapc build`. `remapc show ID` has the whole card of one.
+
+Three things are apart, and a converter is as good as the worst of them:
+
+1. **How alike the two models can be at all**: no converter can be better. *Image error* is the difference between the
+   pictures of source and target at the best parameters, relative to the source's and weighted as the match weighs it,
+   over the rows of the table. *SSIM* is that of the two spheres under the light of the match, as a screen shows them.
+2. **How well the fit follows the measured table**: root mean square on rows that it was not trained on, in the target's
+   alpha and specular.
+3. **How well the polynomials of the header follow the fit**: proven bounds, in the target's alpha and specular.
+
+*There and back* converts to the target and back by the converter of the other direction: the larger of the relative
+changes of alpha and specular. Where the models differ in shape each direction finds its own best match, and what comes
+back is not what went: such pairs carry (!), and their SSIM says why.
+
+*Covers* is the domain: beyond it alpha is held at the edge and specular extrapolated in proportion, and the texel counts
+as out of domain. A domain ends where the target's own parameter would leave its range.
+)";
+
+}  // namespace
+
+std::vector<ReportFile> report(const std::vector<Fit>& fits, const Lock& lock) {
+  const Pairs pairs = measured_pairs(fits);
+  std::string text = kIntroduction;
+  text += "\n## Every pair: image error rms, mean SSIM\n\n" + matrix(pairs);
+  text +=
+      std::string("\n![Target alpha and specular over source alpha, a panel a pair](") + kPlotName + ")\n";
+  text +=
+      "\nBlue: target alpha over source alpha, both 0 to 1. Orange: target specular / source specular, 0 to "
+      "2, over "
+      "source alpha. Grey: the identity.\n";
+  text += "\n## Measured pairs\n\n" + pair_lines(pairs, lock);
+  text += "\n## Published formulas, inverses and chains\n\n" + other_lines(fits, lock);
+  return {{kReportName, text}, {kPlotName, pairs_plot(fits)}};
+}
+
+}  // namespace remapc

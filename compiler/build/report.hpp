@@ -1,0 +1,27 @@
+// The page that says how far each converter of a folder can be trusted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "build/lock.hpp"
+#include "model/fit.hpp"
+
+namespace remapc {
+
+inline constexpr const char* kReportName = "README.md";
+
+struct ReportFile {
+  std::string name;  // in the folder of fits
+  std::string text;
+};
+
+// The page in Markdown and the pictures that it shows. `lock`: for the bounds of lowering. The same fits give
+// the same bytes on every machine.
+std::vector<ReportFile> report(const std::vector<remap::Fit>& fits, const Lock& lock);
+
+// Small multiples of the measured pairs in SVG: target alpha over source alpha, and the ratio of speculars,
+// at specular 0.5 or the edge of the domain below it. One row a source, one column a target.
+std::string pairs_plot(const std::vector<remap::Fit>& fits);
+
+}  // namespace remapc

@@ -1,0 +1,109 @@
+// `remapc build`: everything that a manifest asks for, as far as it is not there yet.
+#include "build/build.hpp"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
+#include "commands/commands.hpp"
+#include "error.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+struct BuildCommand {
+  BuildFolders folders;
+  unsigned jobs = 0;
+  bool force = false, check = false, json = false;
+};
+
+void run_check(const BuildCommand& command, const Manifest& manifest) {
+  const std::vector<std::string> reasons = stale(manifest, command.folders);
+  if (command.json)
+    std::cout << nlohmann::ordered_json({{"items", manifest.items.size()}, {"stale", reasons}}).dump(2)
+              << "\n";
+  else
+    for (const std::string& reason : reasons) std::cout << reason << "\n";
+  if (!reasons.empty())
+    throw remap::Error(remap::ErrorKind::kInput, command.folders.fits.string() + ": " +
+                                                     std::to_string(reasons.size()) +
+                                                     " items are not up to date; run `remapc build`");
+}
+
+void report(const BuildCommand& command, const Manifest& manifest, const std::vector<BuiltItem>& built,
+            double seconds) {
+  if (command.json) {
+    nlohmann::ordered_json json = {
+        {"items", manifest.items.size()}, {"seconds", seconds}, {"built", nlohmann::json::array()}};
+    for (const BuiltItem& item : built)
+      json["built"].push_back({{"id", item.id},
+                               {"table", item.table},
+                               {"fit", item.fit},
+                               {"header", item.header},
+                               {"seconds", item.seconds}});
+    std::cout << json.dump(2) << "\n";
+    return;
+  }
+  for (const BuiltItem& item : built)
+    std::cerr << item.id << ": " << (item.table ? "table, " : "") << (item.fit ? "fit, " : "") << "header in "
+              << remap::number_text(remap::rounded_up(item.seconds, 2)) << " s\n";
+  std::cerr << manifest.items.size() << " items, " << built.size() << " made anew, "
+            << remap::number_text(remap::rounded_up(seconds, 2)) << " s\n";
+}
+
+void run(const BuildCommand& command) {
+  const auto start = std::chrono::steady_clock::now();
+  const Manifest manifest = load_manifest(command.folders.fits);
+  if (command.check) {
+    run_check(command, manifest);
+    return;
+  }
+  remap::watch_interruptions();
+  const auto renderer = make_builtin_renderer();
+  std::vector<BuiltItem> built;
+  {
+    remap::Progress progress("build " + command.folders.fits.string(), manifest.items.size());
+    BuildExecution execution;
+    execution.jobs = command.jobs;
+    execution.force = command.force;
+    execution.cancelled = &remap::interruption();
+    execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };
+    built = build(*renderer, manifest, command.folders, execution);
+  }
+  report(command, manifest, built,
+         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+}  // namespace
+
+void add_build_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "build", "Sweep, fit and emit everything that fits/manifest.json asks for and that is not up to date");
+  auto options = std::make_shared<BuildCommand>();
+  command
+      ->add_option(
+          "--fits", options->folders.fits,
+          "Folder of fits, with manifest.json; tables go to tables/ in it, the report is its README.md")
+      ->capture_default_str();
+  command->add_option("-o,--output", options->folders.generated, "Folder for the headers")
+      ->capture_default_str();
+  command
+      ->add_option("--jobs", options->jobs, "Items at once; 0: one a core. The results do not depend on it")
+      ->capture_default_str();
+  command->add_flag("--force", options->force, "Make everything anew");
+  command->add_flag("--check", options->check, "Write nothing; say what is not up to date, exit code 1 then");
+  command->add_flag("--json", options->json, "What was made as JSON on standard output");
+  command->footer(
+      "An item is made anew where its entry in the manifest, what it is made from, or one of its files is "
+      "not\n"
+      "what manifest.lock recorded. A build that was interrupted goes on where it was.\n\n"
+      "Example:\n  remapc build");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace remapc

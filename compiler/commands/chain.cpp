@@ -1,0 +1,123 @@
+// `remapc chain` and `remapc invert`: fits made of fits.
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "build/build.hpp"
+#include "build/fit_folder.hpp"
+#include "commands/candidate_table.hpp"
+#include "commands/commands.hpp"
+#include "error.hpp"
+#include "files.hpp"
+#include "fit/fit_table.hpp"
+#include "fit/inverse_table.hpp"
+#include "fit/split.hpp"
+#include "lower/lower.hpp"
+#include "model/fit_json.hpp"
+
+namespace remapc {
+namespace {
+
+struct ChainCommand {
+  std::vector<std::string> steps;  // of chain: files or ids
+  std::string fit;                 // of invert
+  std::string id;
+  std::filesystem::path fit_folder = "fits", output = "fits";
+  bool json = false;
+};
+
+std::filesystem::path write_fit(const ChainCommand& command, const remap::Fit& fit) {
+  const std::filesystem::path path = command.output / (fit.id + ".json");
+  remap::write_file(path, fit_to_json(fit));
+  return path;
+}
+
+void run_chain(const ChainCommand& command) {
+  std::vector<remap::Fit> steps;
+  for (const std::string& name : command.steps) steps.push_back(find_fit(name, command.fit_folder));
+  const remap::Fit chain = composed_fit(steps, command.id);
+  // What cannot be emitted is of no use: one pass is what a chain is for.
+  const remap::Lowered lowered = remap::lower(chain.mapping, chain.domain);
+  const std::filesystem::path path = write_fit(command, chain);
+  const std::string& steps_text = chain.method.at("against its steps one after another");
+  if (command.json) {
+    const nlohmann::ordered_json json = {
+        {"fit", path.string()},
+        {"id", chain.id},
+        {"domain",
+         {{"alpha", {chain.domain.alpha.min, chain.domain.alpha.max}},
+          {"specular", {chain.domain.specular.min, chain.domain.specular.max}}}},
+        {"alpha_error", figures_json(chain.roughness_error)},
+        {"specular_error", figures_json(chain.specular_error)},
+        {"lowered_within", {{"alpha", lowered.alpha.bound}, {"specular", lowered.specular.bound}}},
+        {"against_its_steps", steps_text}};
+    std::cout << json.dump(2) << "\n";
+    return;
+  }
+  std::cerr << path.string() << ": chain of " << steps.size()
+            << " fits\n  errors carried on: " << errors_text(chain, "held out")
+            << "\n  one pass: alpha within " << error_text(lowered.alpha.bound) << ", specular within "
+            << error_text(lowered.specular.bound)
+            << " of the composed fits, proven\n  against its steps: " << steps_text << "\n";
+}
+
+void run_invert(const ChainCommand& command) {
+  const remap::Fit fit = find_fit(command.fit, command.fit_folder);
+  const std::string bytes = fit_to_json(fit);
+  FitOptions options;
+  options.id = command.id;
+  const Table table = inverse_table(fit, bytes);
+  const remap::Fit inverse = fit_table(table, table_text(table), options).fit;
+  const std::filesystem::path path = write_fit(command, inverse);
+  if (command.json) {
+    const nlohmann::ordered_json json = {{"fit", path.string()},
+                                         {"id", inverse.id},
+                                         {"inverse_of", fit.id},
+                                         {"kind", kind_name(inverse.mapping)},
+                                         {"alpha_error", figures_json(inverse.roughness_error)},
+                                         {"specular_error", figures_json(inverse.specular_error)}};
+    std::cout << json.dump(2) << "\n";
+    return;
+  }
+  std::cerr << path.string() << ": the way back through " << fit.id << "; "
+            << errors_text(inverse, "of the exact inverse held out") << "\n";
+}
+
+void add_common_options(CLI::App& app, ChainCommand& command) {
+  app.add_option("--id", command.id, "Name of the converter; default: <source>_to_<target>");
+  app.add_option("--fits", command.fit_folder, "Folder of fits")->capture_default_str();
+  app.add_option("-o,--output", command.output, "Folder for the new fit")->capture_default_str();
+  app.add_flag("--json", command.json, "Summary as JSON on standard output");
+}
+
+}  // namespace
+
+void add_chain_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "chain", "Compose fits one after another into one fit, whose header is a single pass");
+  auto options = std::make_shared<ChainCommand>();
+  command->add_option("steps", options->steps, "Fits in order: files, or ids in the folder of fits")
+      ->required();
+  add_common_options(*command, *options);
+  command->footer(
+      "The composed fit covers what every step covers. Its error figures are those of the steps, carried on "
+      "to\n"
+      "the end.\n\nExample:\n  remapc chain mitsuba_ward_to_mitsuba_ggx mitsuba_ggx_to_cycles_2_7_ggx -o "
+      "mine");
+  command->callback([options] { run_chain(*options); });
+}
+
+void add_invert_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "invert", "Fit the way back through a fit: from its target's parameters to its source's");
+  auto options = std::make_shared<ChainCommand>();
+  command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
+  add_common_options(*command, *options);
+  command->footer(
+      "For a measured pair `remapc fit --swap` on its table is closer to the measurement.\n\n"
+      "Example:\n  remapc invert mitsuba_ggx_to_cycles_2_7_ggx -o mine");
+  command->callback([options] { run_invert(*options); });
+}
+
+}  // namespace remapc

@@ -1,0 +1,192 @@
+// `remapc show`: the card of one fit.
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include "build/fit_folder.hpp"
+#include "commands/candidate_table.hpp"
+#include "commands/commands.hpp"
+#include "error.hpp"
+#include "fit/split.hpp"
+#include "lower/lower.hpp"
+#include "model/fit_json.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+struct ShowOptions {
+  std::filesystem::path fit_folder = "fits";
+  std::string fit;
+  bool json = false;
+};
+
+std::string range_text(const remap::Range& range) {
+  return number_text(range.min) + " to " + number_text(range.max);
+}
+
+std::string side_text(const remap::ModelSide& side) {
+  return side.model + " (" + std::string(remap::convention_name(side.roughness)) + ", " + side.specular + ")";
+}
+
+std::string figures_text(const remap::ErrorFigures& f) {
+  return "rms " + error_text(f.rms) + ", 99 % " + error_text(f.p99) + ", max " + error_text(f.max);
+}
+
+// ` + c` or ` - c`, or the number itself at the front of a sum.
+std::string summand(double coefficient, bool first) {
+  if (first) return number_text(coefficient);
+  return (coefficient < 0.0 ? " - " : " + ") + number_text(std::fabs(coefficient));
+}
+
+std::string specular_power(std::size_t power) {
+  if (power == 0) return "";
+  return power == 1 ? " s" : " s^" + std::to_string(power);
+}
+
+std::string curve_text(const remap::AlphaCurve& curve) {
+  std::string text = curve.start == 0.0 ? "" : summand(curve.start, true);
+  const auto add = [&](double coefficient, const std::string& function) {
+    if (coefficient != 0.0) text += summand(coefficient, text.empty()) + " " + function;
+  };
+  add(curve.ramp, "phi(" + number_text(curve.ramp_rate) + ", a)");
+  add(curve.bump, "phi(" + number_text(curve.bump_rate) + ", a^2)");
+  add(curve.pole, "/ a");
+  return text.empty() ? "0" : text;
+}
+
+std::string inputs_text(std::size_t count) { return count == 1 ? "alpha" : "alpha and specular"; }
+
+// How a mapping is read, with a = alpha1, s = specular1.
+struct PrintMapping {
+  void operator()(const remap::Parametric& form) const {
+    for (std::size_t j = 0; j < form.roughness.size(); ++j) {
+      std::cout << (j == 0 ? "  alpha2 = (" : "\n         + (");
+      for (std::size_t i = 0; i < form.roughness[j].size(); ++i)
+        std::cout << summand(form.roughness[j][i], i == 0) << " a"
+                  << (i == 0 ? "" : "^" + std::to_string(i + 1));
+      std::cout << ")" << specular_power(j);
+    }
+    std::cout << "\n";
+    for (std::size_t t = 0; t < form.specular.size(); ++t) {
+      const auto& [power, factor] = form.specular[t];
+      std::cout << (t == 0 ? "  specular2 = (" : "            + (") << curve_text(factor) << ")"
+                << specular_power(static_cast<std::size_t>(power)) << "\n";
+    }
+    std::cout << "  phi(c, x) = (1 - exp(-c x)) / c\n";
+  }
+  void operator()(const remap::Svr& svr) const {
+    print("alpha2", svr.alpha);
+    print("specular2", svr.specular);
+  }
+  void operator()(const remap::Mlp& mlp) const {
+    print("alpha2", mlp.alpha);
+    print("specular2", mlp.specular);
+  }
+
+  void operator()(const remap::Chain& chain) const {
+    for (const remap::ChainStep& step : chain.steps) {
+      std::cout << "  " << step.id << "\n";
+      std::visit(*this, step.mapping);
+    }
+  }
+
+ private:
+  static void print(const std::string& output, const remap::KernelExpansion& expansion) {
+    std::cout << "  " << output << ": " << expansion.count() << " Gaussians of "
+              << inputs_text(expansion.inputs.size()) << ", gamma " << number_text(expansion.gamma) << "\n";
+  }
+  static void print(const std::string& output, const remap::Network& network) {
+    std::cout << "  " << output << ": a network of " << inputs_text(network.inputs.size()) << ", layers";
+    for (const remap::Layer& layer : network.layers) std::cout << " " << layer.output_count();
+    std::cout << ", " << activation_name(network.activation) << "\n";
+  }
+};
+
+void print_method(const remap::Fit& fit) {
+  if (!fit.method.empty()) std::cout << "Method\n";
+  for (const auto& [key, value] : fit.method) std::cout << "  " << key << ": " << value << "\n";
+  if (!fit.candidates.empty())
+    std::cout << "Compared with\n" << candidate_text(fit.candidates, fit.target.specular);
+}
+
+std::string rows_text(const remap::Fit& fit) {
+  if (fit.split.held_out_rows == 0) return "its steps, whose errors are carried on";
+  return "its table: " + std::to_string(fit.split.held_out_rows) + " rows " +
+         (fit.split.trained_rows == 0 ? "(trained elsewhere)"
+                                      : "held out (" + std::to_string(fit.split.trained_rows) +
+                                            " trained, seed " + std::to_string(fit.split.seed) + ")");
+}
+
+void print_lowering(const remap::Fit& fit) {
+  try {
+    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
+    std::cout << "How well its header follows the fit: alpha within " << error_text(lowered.alpha.bound)
+              << ", " << fit.target.specular << " within " << error_text(lowered.specular.bound)
+              << ", proven\n";
+  } catch (const remap::Error& error) {
+    if (error.kind() != remap::ErrorKind::kNumeric) throw;
+    std::cout << "Its header cannot be had with the default tolerances: " << error.what() << "\n";
+  }
+}
+
+// The three things that are apart: the models, the fit, its polynomials.
+void print_trust(const remap::Fit& fit) {
+  if (fit.likeness) {
+    std::cout << "How alike the models can be\n  picture " << figures_text(fit.likeness->image_error)
+              << ", relative to the source's\n";
+    for (const remap::SphereSimilarity& sphere : fit.likeness->ssim)
+      std::cout << "  sphere  SSIM " << std::fixed << std::setprecision(3) << sphere.ssim << " at alpha "
+                << std::defaultfloat << number_text(sphere.alpha) << "\n";
+  } else {
+    std::cout << "How alike the models can be is not known: no pictures were compared\n";
+  }
+  if (!fit.has_errors()) {
+    std::cout << "How well the fit follows its table is not known: it was held against no rows\n";
+  } else {
+    std::cout << "How well the fit follows " << rows_text(fit) << "\n  alpha   "
+              << figures_text(fit.roughness_error) << "\n  " << std::left << std::setw(8)
+              << fit.target.specular << figures_text(fit.specular_error) << "\n";
+  }
+  print_lowering(fit);
+}
+
+void show(const ShowOptions& options) {
+  const remap::Fit fit = find_fit(options.fit, options.fit_folder);
+  if (options.json) {
+    std::cout << fit_to_json(fit);
+    return;
+  }
+  std::cout << fit.id << "\n"
+            << "  from    " << side_text(fit.source) << "\n"
+            << "  to      " << side_text(fit.target) << "\n"
+            << "  covers  alpha " << range_text(fit.domain.alpha) << ", " << fit.source.specular << " "
+            << range_text(fit.domain.specular) << "\n"
+            << "  kind    " << kind_name(fit.mapping) << ", by remapc " << fit.tool_version << "\n";
+  for (const std::string& remark : fit.remarks) std::cout << "  " << remark << "\n";
+  print_trust(fit);
+  std::cout << "Mapping\n";
+  std::visit(PrintMapping{}, fit.mapping);
+  print_method(fit);
+  std::cout << (fit.table.name.empty() ? "No table" : "Table " + fit.table.name) << "\n";
+  if (!fit.table.sha256.empty()) std::cout << "  sha256 " << fit.table.sha256 << "\n";
+  for (const auto& [key, value] : fit.table.comments) std::cout << "  " << key << ": " << value << "\n";
+}
+
+}  // namespace
+
+void add_show_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("show", "Show the card of a fit: models, domain, errors, mapping, table");
+  auto options = std::make_shared<ShowOptions>();
+  command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
+  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
+  command->add_flag("--json", options->json, "The fit file itself");
+  command->footer("Example:\n  remapc show mitsuba_ward_to_mitsuba_as");
+  command->callback([options] { show(*options); });
+}
+
+}  // namespace remapc
