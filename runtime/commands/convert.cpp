@@ -166,7 +166,7 @@ struct Outcome {
 // The id of one converter; the models of a path.
 std::string converter_text(const ChosenConverter& chosen) {
   if (chosen.path.steps.size() == 1) return chosen.converter->info().id;
-  return models_text(chosen.path) + " (expected error " + figure_text(chosen.path.expected_error) + ")";
+  return models_text(chosen.path) + " (expected error " + expected_text(chosen.path.expected_error) + ")";
 }
 
 // What texels were outside of.

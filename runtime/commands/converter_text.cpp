@@ -15,6 +15,8 @@ std::string domain_text(const ConverterInfo& info) {
 
 std::string figure_text(double error) { return number_text(rounded_up(error, 2)); }
 
+std::string expected_text(double error) { return number_text(rounded_up(error, 3)); }
+
 std::string errors_text(const ConverterInfo& info) {
   const std::string image = info.image_rms_error ? figure_text(*info.image_rms_error) : "unknown";
   return "image " + image + ", fit rms " + figure_text(info.roughness_rms_error) + " in alpha and " +

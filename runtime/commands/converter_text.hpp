@@ -21,6 +21,9 @@ std::string domain_text(const ConverterInfo& info);
 // An error figure, rounded up to two digits.
 std::string figure_text(double error);
 
+// An expected error, which is an estimate, rounded up to three digits.
+std::string expected_text(double error);
+
 // `image 0.059, fit rms 0.00026 in alpha and 4.1e-05 in f0`.
 std::string errors_text(const ConverterInfo& info);
 

@@ -82,7 +82,7 @@ void list_models(const ListOptions& options) {
         entry["reaches"].push_back(
             {{"model", target}, {"path", path_json(path)}, {"expected_error", path.expected_error}});
       else
-        std::cout << "  reaches  " << target << ", expected error " << figure_text(path.expected_error)
+        std::cout << "  reaches  " << target << ", expected error " << expected_text(path.expected_error)
                   << (path.steps.size() > 1 ? ", in " + std::to_string(path.steps.size()) + " steps" : "")
                   << '\n';
     }

@@ -38,7 +38,7 @@ void print_step(std::size_t number, const ConverterInfo& info) {
   std::cout << "  " << number << "  " << info.id << '\n'
             << "     errors   " << errors_text(info) << '\n'
             << "     covers   " << domain_text(info) << '\n'
-            << "     expected error " << figure_text(expected_error(info));
+            << "     expected error " << expected_text(expected_error(info));
   if (!info.image_rms_error)
     std::cout << ", with " << figure_text(kAssumedImageError) << " for the image error that is unknown";
   std::cout << '\n';
@@ -48,13 +48,13 @@ void print_text(const std::vector<ConverterPath>& paths, const ConverterInfo& wh
   const ConverterPath& path = paths.front();
   std::cout << models_text(path) << '\n';
   for (std::size_t i = 0; i < path.steps.size(); ++i) print_step(i + 1, path.steps[i]->info());
-  std::cout << "expected error " << figure_text(path.expected_error)
+  std::cout << "expected error " << expected_text(path.expected_error)
             << (path.steps.size() > 1 ? ", the sum of the steps'" : "") << '\n'
             << "covers " << domain_text(whole) << '\n'
             << "chosen because " << reason(paths) << '\n';
   for (std::size_t i = 1; i < paths.size(); ++i) {
     std::cout << (i == 1 ? "next best: " : "           ") << models_text(paths[i]) << ", expected error "
-              << figure_text(paths[i].expected_error) << " (";
+              << expected_text(paths[i].expected_error) << " (";
     for (std::size_t k = 0; k < paths[i].steps.size(); ++k)
       std::cout << (k == 0 ? "" : ", ") << paths[i].steps[k]->info().id;
     std::cout << ")\n";
