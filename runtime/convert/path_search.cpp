@@ -49,20 +49,14 @@ struct ComesLater {
 
 // Takes beginnings in the order that is asked of paths. A path comes no earlier than any of its beginnings,
 // so the first that is whole is the least, the second the next. Bounds leave out what the beginning has
-// visited: one that leads nowhere is dropped at once, where there are no waypoints between.
+// visited: one from which a waypoint cannot be reached any more is dropped at once.
 class Search {
  public:
   Search(const DirectedGraph& graph, const std::vector<std::size_t>& waypoints)
-      : graph_(graph), waypoints_(waypoints), rest_(waypoints.size(), 0) {
-    for (std::size_t i = waypoints.size() - 1; i-- > 1 && possible_;) {
-      const auto leg =
-          least_cost(graph, waypoints[i], waypoints[i + 1], std::vector<bool>(graph.node_count, false));
-      possible_ = leg.has_value();
-      rest_[i] = rest_[i + 1] + leg.value_or(0);
-    }
+      : graph_(graph), waypoints_(waypoints) {
     Beginning start;
     start.node = waypoints.front();
-    if (possible_) push(std::move(start));
+    push(std::move(start));
   }
 
   std::vector<std::vector<std::size_t>> run(std::size_t count) {
@@ -103,20 +97,27 @@ class Search {
     }
   }
 
-  void push(Beginning beginning) {
-    beginning.bound = beginning.cost;
-    if (beginning.next < waypoints_.size()) {
-      const auto leg = least_cost(graph_, beginning.node, waypoints_[beginning.next], closed(beginning));
-      if (!leg) return;
-      beginning.bound += *leg + rest_[beginning.next];
+  // The sum of the least costs from the beginning's end to each waypoint that follows in turn.
+  std::optional<Cost> least_rest(const Beginning& beginning) const {
+    Beginning from = beginning;
+    Cost sum = 0;
+    for (; from.next < waypoints_.size(); from.node = waypoints_[from.next++]) {
+      const auto leg = least_cost(graph_, from.node, waypoints_[from.next], closed(from));
+      if (!leg) return std::nullopt;
+      sum += *leg;
     }
+    return sum;
+  }
+
+  void push(Beginning beginning) {
+    const auto rest = least_rest(beginning);
+    if (!rest) return;
+    beginning.bound = beginning.cost + *rest;
     queue_.push(std::move(beginning));
   }
 
   const DirectedGraph& graph_;
   const std::vector<std::size_t>& waypoints_;
-  std::vector<Cost> rest_;  // least cost from a waypoint through all that follow
-  bool possible_ = true;
   std::priority_queue<Beginning, std::vector<Beginning>, ComesLater> queue_;
 };
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "convert/chained_converter.hpp"
 #include "convert/path.hpp"
+#include "number_text.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -15,6 +15,16 @@ using Json = nlohmann::json;
 namespace {
 
 const std::string kId = "mitsuba_ward_to_mitsuba_as";
+
+// What the converter says of itself: `image 0.1, fit rms 0.2 in alpha and 0.3 in f0`.
+std::string ward_to_as_errors() {
+  const ConverterInfo& info = find_converter("mitsuba/ward", "mitsuba/as").info();
+  return "image " + number_text(info.image_rms_error.value()) + ", fit rms " +
+         number_text(info.roughness_rms_error) + " in alpha and " + number_text(info.specular_rms_error) +
+         " in " + info.target.specular;
+}
+
+double ward_to_as_expected() { return expected_error(find_converter("mitsuba/ward", "mitsuba/as").info()); }
 
 std::vector<std::string> path_words(const std::string& from, const std::string& to,
                                     const std::vector<std::string>& more = {}) {
@@ -30,8 +40,8 @@ void check_refused(const ProcessResult& result, const std::string& message) {
   CHECK(result.output.empty());
 }
 
-// The first pair of models that no path joins, or that a path of more than one step through a third model
-// does; empty names where there is none among the converters that ship.
+// The first pair of models that no path joins; empty names where there is none among the converters that
+// ship.
 PathRequest missing_pair() {
   const ConverterGraph graph = compiled_graph();
   for (const std::string& from : graph.models())
@@ -41,6 +51,8 @@ PathRequest missing_pair() {
     }
   return {};
 }
+
+// The first path of two steps, the model between them given; empty names where there is none.
 PathRequest detour() {
   for (const auto& first : compiled_converters())
     for (const auto& second : compiled_converters()) {
@@ -59,8 +71,9 @@ TEST_CASE("texremap path: tells steps, errors, domain and reason") {
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output,
              Contains("mitsuba/ward -> mitsuba/as\n") && Contains("1  " + kId) &&
-                 Contains("errors   image 0.059, fit rms 0.00026 in alpha and 4.1e-05 in f0") &&
-                 Contains("covers alpha 0.01 to 1, specular 0 to 1") && Contains("expected error 0.0591") &&
+                 Contains("errors   " + ward_to_as_errors()) &&
+                 Contains("covers alpha 0.01 to 1, specular 0 to ") &&
+                 Contains("expected error " + number_text(rounded_up(ward_to_as_expected(), 3))) &&
                  Contains("chosen because "));
 }
 
@@ -70,10 +83,11 @@ TEST_CASE("texremap path: --json holds what the text says") {
       Json::parse(session.texremap(path_words("mitsuba/ward", "mitsuba/as", {"--json"})).output);
   CHECK(json["models"] == Json({"mitsuba/ward", "mitsuba/as"}));
   CHECK(json["path"] == Json::array({kId}));
-  CHECK(json["expected_error"].get<double>() == Approx(0.059).epsilon(0.02));
+  CHECK(json["expected_error"].get<double>() == Approx(ward_to_as_expected()).margin(1e-9));
   CHECK(json["assumed_image_error"] == kAssumedImageError);
   REQUIRE(json["steps"].size() == 1);
-  CHECK(json["steps"][0]["rms_error"]["image"] == 0.059);
+  CHECK(json["steps"][0]["rms_error"]["image"] ==
+        find_converter("mitsuba/ward", "mitsuba/as").info().image_rms_error.value());
   CHECK(json["steps"][0]["domain"] == json["domain"]);
   CHECK(json["reason"].is_string());
   for (const auto& other : json["alternatives"]) CHECK(other["expected_error"] >= json["expected_error"]);
@@ -114,7 +128,7 @@ TEST_CASE("texremap path: a missing link is named") {
 
 TEST_CASE("texremap list: shows image errors, and with --models what each model reaches") {
   const Session session;
-  CHECK_THAT(session.texremap({"list"}).output, Contains("error  image 0.059, fit rms 0.00026 in alpha"));
+  CHECK_THAT(session.texremap({"list"}).output, Contains("error  " + ward_to_as_errors()));
   CHECK(Json::parse(session.texremap({"list", "--json"}).output)[0]["rms_error"].contains("image"));
   CHECK_THAT(
       session.texremap({"list", "--models"}).output,
@@ -135,7 +149,7 @@ TEST_CASE("texremap convert: says which path it took, in JSON and in metadata") 
   REQUIRE(result.exit_code == 0);
   const auto json = Json::parse(result.output);
   CHECK(json["path"] == Json::array({kId}));
-  CHECK(json["expected_error"].get<double>() == Approx(0.059).epsilon(0.02));
+  CHECK(json["expected_error"].get<double>() == Approx(ward_to_as_expected()).margin(1e-9));
   CHECK_THAT(result.errors, Contains(" s by " + kId + ": "));
   CHECK(read_image(session.path("out/r.exr")).spec.get_string_attribute("remap:converter") == kId);
   check_refused(session.convert("r.exr", "s.exr", {"--fit", "x.json", "--via", "mitsuba/as"}), "--via");

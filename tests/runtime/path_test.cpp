@@ -205,6 +205,8 @@ TEST_CASE("path: a graph of many models is searched at once, also where no secon
     for (int j = 0; j < 20; ++j)
       if (i != j) converters.add("r/" + std::to_string(i), "r/" + std::to_string(j), 0.0);
   CHECK(converters.graph().find_paths({"r/in", "r/out", {}}, 3).size() == 1);
+  CHECK_THAT(refusal(converters, {"r/in", "r/out", {"r/7"}}),
+             Catch::Contains("r/in -> r/0 -> r/7 -> r/0 -> r/out: visits r/0 twice"));
 }
 
 TEST_CASE("path: --via leads through models in their order") {
