@@ -24,6 +24,8 @@ struct ConverterEntry {
   float roughness_min, roughness_max, specular_min, specular_max;
   // Of the fit, on rows that were held out: target alpha and target specular.
   float roughness_rms_error, specular_rms_error;
+  // Of the pictures at the best parameters, relative; negative where unknown.
+  float image_rms_error;
   // evaluate_batch for grey and for RGB specular.
   std::size_t (*evaluate_1)(std::size_t count, const float* roughness, const std::array<const float*, 1>& specular,
                             float* roughness_out, const std::array<float*, 1>& specular_out) noexcept;
@@ -37,7 +39,7 @@ inline constexpr std::array<ConverterEntry, 1> kConverters = {{
      mitsuba_ward_to_mitsuba_as::kTargetModel, mitsuba_ward_to_mitsuba_as::kTargetRoughness, mitsuba_ward_to_mitsuba_as::kTargetSpecular,
      mitsuba_ward_to_mitsuba_as::kDomainMin.alpha, mitsuba_ward_to_mitsuba_as::kDomainMax.alpha,
      mitsuba_ward_to_mitsuba_as::kDomainMin.specular, mitsuba_ward_to_mitsuba_as::kDomainMax.specular,
-     mitsuba_ward_to_mitsuba_as::kAlphaRmsError, mitsuba_ward_to_mitsuba_as::kSpecularRmsError,
+     mitsuba_ward_to_mitsuba_as::kAlphaRmsError, mitsuba_ward_to_mitsuba_as::kSpecularRmsError, mitsuba_ward_to_mitsuba_as::kImageRmsError,
      &mitsuba_ward_to_mitsuba_as::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_as::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_as::self_test},
 }};
 

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   remap::add_convert_command(app);
   remap::add_list_command(app);
+  remap::add_path_command(app);
   app.footer(
       "Example:\n  texremap convert --from mitsuba/ward --to mitsuba/as --roughness r.exr --specular s.exr "
       "-o out");

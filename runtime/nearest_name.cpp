@@ -39,6 +39,13 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   return nearest;
 }
 
+std::string closest_name(std::string_view name, std::span<const std::string> candidates) {
+  const auto nearer = [name](const std::string& a, const std::string& b) {
+    return edit_distance(name, a) < edit_distance(name, b);
+  };
+  return *std::min_element(candidates.begin(), candidates.end(), nearer);
+}
+
 std::string suggestion(std::string_view name, std::span<const std::string> candidates) {
   if (const std::string nearest = nearest_name(name, candidates); !nearest.empty())
     return "; did you mean " + nearest + "?";

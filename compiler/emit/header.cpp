@@ -57,6 +57,9 @@ inline constexpr const char* kTargetSpecular = "@out_specular@";
 // Root mean square error of the fit on rows it was not trained on.
 inline constexpr float kAlphaRmsError = @alpha_rms@;
 inline constexpr float kSpecularRmsError = @specular_rms@;
+// How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
+// to the source's. Negative where no pictures were compared.
+inline constexpr float kImageRmsError = @image_rms@;
 
 struct Input {
   float @in_roughness@;  // @in_roughness_meaning@
@@ -205,6 +208,10 @@ std::string upper(std::string text) {
 }
 
 std::string two_digits(double value) { return remap::number_text(remap::rounded_up(value, 2)); }
+
+double image_rms_error(const Fit& fit) {
+  return fit.likeness ? remap::rounded_up(fit.likeness->image_error.rms, 2) : -1.0;
+}
 
 std::string roughness_meaning(RoughnessConvention convention) {
   switch (convention) {
@@ -360,6 +367,7 @@ std::string header_text(const Fit& fit, const MappingCode& code) {
                                  {"out_specular_meaning", specular_meaning(fit.target.specular)},
                                  {"alpha_rms", literal(remap::rounded_up(fit.roughness_error.rms, 2))},
                                  {"specular_rms", literal(remap::rounded_up(fit.specular_error.rms, 2))},
+                                 {"image_rms", literal(image_rms_error(fit))},
                                  {"roughness_min", literal(own.min)},
                                  {"roughness_max", literal(own.max)},
                                  {"specular_min", literal(specular.min)},

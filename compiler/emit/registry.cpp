@@ -35,6 +35,8 @@ struct ConverterEntry {
   float roughness_min, roughness_max, specular_min, specular_max;
   // Of the fit, on rows that were held out: target alpha and target specular.
   float roughness_rms_error, specular_rms_error;
+  // Of the pictures at the best parameters, relative; negative where unknown.
+  float image_rms_error;
   // evaluate_batch for grey and for RGB specular.
   std::size_t (*evaluate_1)(std::size_t count, const float* roughness, const std::array<const float*, 1>& specular,
                             float* roughness_out, const std::array<float*, 1>& specular_out) noexcept;
@@ -71,7 +73,7 @@ constexpr std::string_view kEntry =
  @id@::kTargetModel, @id@::kTargetRoughness, @id@::kTargetSpecular,
  @id@::kDomainMin.@roughness@, @id@::kDomainMax.@roughness@,
  @id@::kDomainMin.@specular@, @id@::kDomainMax.@specular@,
- @id@::kAlphaRmsError, @id@::kSpecularRmsError,
+ @id@::kAlphaRmsError, @id@::kSpecularRmsError, @id@::kImageRmsError,
  &@id@::evaluate_batch<1>, &@id@::evaluate_batch<3>, &@id@::self_test},
 )";
 

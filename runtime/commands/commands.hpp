@@ -9,5 +9,6 @@ namespace remap {
 
 void add_convert_command(CLI::App& app);
 void add_list_command(CLI::App& app);
+void add_path_command(CLI::App& app);
 
 }  // namespace remap

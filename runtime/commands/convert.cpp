@@ -1,5 +1,5 @@
-// `texremap convert`: one texture set through one converter. Checks everything that can be checked before
-// the first texel is read.
+// `texremap convert`: one texture set through one converter, or through a path of them. Checks everything
+// that can be checked before the first texel is read.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -8,20 +8,21 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
+#include "commands/converter_text.hpp"
 #include "commands/output_paths.hpp"
-#include "convert/converter.hpp"
+#include "convert/chained_converter.hpp"
+#include "convert/path.hpp"
 #include "error.hpp"
 #include "model/fit_json.hpp"
 #include "nearest_name.hpp"
-#include "number_text.hpp"
 #include "texture/texture_pass.hpp"
 #include "version.hpp"
 
@@ -34,6 +35,7 @@ constexpr const char* kProgram = "texremap";
 struct ConvertOptions {
   std::string from;
   std::string to;
+  std::vector<std::string> via;
   std::string fit;
   std::string roughness;
   std::string specular;
@@ -48,10 +50,11 @@ struct ConvertOptions {
   bool quiet = false;
 };
 
-// A converter that is compiled in, or one that was made for this run.
+// A converter that is compiled in, or one that was made for this run: of a fit, or of the steps of a path.
 struct ChosenConverter {
   std::unique_ptr<Converter> owned;
   const Converter* converter = nullptr;
+  ConverterPath path;
 };
 
 void require_agreement(const std::string& option, const std::string& asked, const std::string& file,
@@ -88,13 +91,15 @@ ChosenConverter choose_converter(const ConvertOptions& options) {
   const InstructionSet set = chosen_instructions(options);
   if (!options.fit.empty()) {
     chosen.owned = converter_of_fit(options, set);
-    chosen.converter = chosen.owned.get();
+    chosen.path = {{chosen.owned.get()}, expected_error(chosen.owned->info())};
   } else {
     if (options.from.empty() || options.to.empty())
       throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") +
                                          ": is missing; expected --from and --to, or --fit");
-    chosen.converter = &find_converter(options.from, options.to, set);
+    chosen.path = compiled_graph(set).find_paths({options.from, options.to, options.via}).front();
+    if (chosen.path.steps.size() > 1) chosen.owned = make_chained_converter(chosen.path.steps);
   }
+  chosen.converter = chosen.owned ? chosen.owned.get() : chosen.path.steps.front();
   if (!chosen.converter->self_test())
     throw Error(ErrorKind::kNumeric,
                 chosen.converter->info().id + ": fails its self-test; expected the values it was made with");
@@ -115,10 +120,13 @@ TextureSetRequest set_request(const ConvertOptions& options) {
   return request;
 }
 
-ImageChanges changes_for(const ConvertOptions& options, const ConverterInfo& info) {
+ImageChanges changes_for(const ConvertOptions& options, const ChosenConverter& chosen) {
+  const ConverterInfo& info = chosen.converter->info();
+  std::string ids;
+  for (const Converter* step : chosen.path.steps) ids += (ids.empty() ? "" : " ") + step->info().id;
   ImageChanges changes;
   changes.type = chosen_type(options.type);
-  changes.metadata = {{"remap:converter", info.id},
+  changes.metadata = {{"remap:converter", ids},
                       {"remap:source", info.source.model},
                       {"remap:target", info.target.model},
                       {"remap:version", kVersion}};
@@ -149,16 +157,23 @@ int thread_count(const ConvertOptions& options) {
 }
 
 struct Outcome {
-  const ConverterInfo& converter;
+  const ChosenConverter& chosen;
   const TargetMaps& target;
   PassStatistics statistics;
   double seconds = 0.0;
 };
 
-std::string domain_text(const ConverterInfo& info) {
-  return std::string(convention_name(info.source.roughness)) + " " + number_text(info.roughness.min) +
-         " to " + number_text(info.roughness.max) + ", " + info.source.specular + " " +
-         number_text(info.specular.min) + " to " + number_text(info.specular.max);
+// The id of one converter; the models of a path.
+std::string converter_text(const ChosenConverter& chosen) {
+  if (chosen.path.steps.size() == 1) return chosen.converter->info().id;
+  return models_text(chosen.path) + " (expected error " + expected_text(chosen.path.expected_error) + ")";
+}
+
+// What texels were outside of.
+std::string outside_text(const ChosenConverter& chosen) {
+  const std::string domain = domain_text(chosen.converter->info());
+  if (chosen.path.steps.size() == 1) return domain;
+  return "what one of the steps covers (the path: " + domain + ")";
 }
 
 void print_summary(const Outcome& outcome) {
@@ -168,10 +183,10 @@ void print_summary(const Outcome& outcome) {
   };
   std::array<char, 32> seconds;
   std::snprintf(seconds.data(), seconds.size(), "%.2f", outcome.seconds);
-  line(counts.texel_count, " texels in " + std::string(seconds.data()) + " s by " + outcome.converter.id +
-                               ": " + outcome.target.roughness.path().string() + ", " +
-                               outcome.target.specular.path().string());
-  line(counts.out_of_domain_count, " texels outside " + domain_text(outcome.converter) +
+  line(counts.texel_count,
+       " texels in " + std::string(seconds.data()) + " s by " + converter_text(outcome.chosen) + ": " +
+           outcome.target.roughness.path().string() + ", " + outcome.target.specular.path().string());
+  line(counts.out_of_domain_count, " texels outside " + outside_text(outcome.chosen) +
                                        ": width clamped, specular extrapolated in proportion");
   line(counts.nan_count, " texels with NaN: kept as NaN where the pixel type can hold it");
   line(counts.infinite_count, " texels with infinite values");
@@ -180,10 +195,11 @@ void print_summary(const Outcome& outcome) {
 }
 
 void print_json(const Outcome& outcome) {
-  using Json = nlohmann::ordered_json;
-  const ConverterInfo& info = outcome.converter;
+  const ConverterInfo& info = outcome.chosen.converter->info();
   const PassStatistics& counts = outcome.statistics;
   const Json result = {{"converter", info.id},
+                       {"path", path_json(outcome.chosen.path)},
+                       {"expected_error", outcome.chosen.path.expected_error},
                        {"source", info.source.model},
                        {"target", info.target.model},
                        {"roughness", outcome.target.roughness.path().string()},
@@ -205,7 +221,7 @@ void convert(const ConvertOptions& options) {
   const ChosenConverter chosen = choose_converter(options);
   const ConverterInfo& info = chosen.converter->info();
   const TextureSetRequest request = set_request(options);
-  const ImageChanges changes = changes_for(options, info);
+  const ImageChanges changes = changes_for(options, chosen);
   const OutputPaths paths = output_paths(request, {options.output, options.format, options.force});
 
   set_image_thread_count(thread_count(options));
@@ -217,7 +233,7 @@ void convert(const ConvertOptions& options) {
   PassOptions pass;
   pass.thread_count = thread_count(options);
   pass.cancelled = &interruption();
-  Outcome outcome{info, target, {}, 0.0};
+  Outcome outcome{chosen, target, {}, 0.0};
   {
     Progress progress(info.id, static_cast<std::size_t>(set.height()), !options.quiet);
     pass.progress = [&](std::size_t rows) { progress.advance_to(rows); };
@@ -235,7 +251,13 @@ void add_convert_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("convert", "Convert a roughness map and a specular map");
   command->add_option("--from", options->from, "Source model, e.g. mitsuba/ward");
   command->add_option("--to", options->to, "Target model, e.g. mitsuba/as");
-  command->add_option("--fit", options->fit, "Lower this fit (JSON) instead of taking a compiled converter");
+  CLI::Option* via =
+      command
+          ->add_option("--via", options->via,
+                       "Model that the path must go through; give it again for more, in their order")
+          ->allow_extra_args(false);
+  command->add_option("--fit", options->fit, "Lower this fit (JSON) instead of taking compiled converters")
+      ->excludes(via);
   command->add_option("--roughness", options->roughness, "Roughness map of the source model")->required();
   command
       ->add_option("--specular", options->specular,

@@ -1,64 +1,48 @@
-// `texremap list`: the converters that were compiled in, and whether they still compute what they should.
+// `texremap list`: the converters that were compiled in, and whether they still compute what they should; or
+// the models that they join.
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
-#include "convert/converter.hpp"
+#include "commands/converter_text.hpp"
+#include "convert/path.hpp"
 #include "error.hpp"
-#include "number_text.hpp"
 
 namespace remap {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct ListOptions {
+  bool models = false;
   bool json = false;
 };
-
-Json side_json(const ModelSide& side) {
-  return {{"model", side.model},
-          {"roughness", std::string(convention_name(side.roughness))},
-          {"specular", side.specular}};
-}
 
 Json converter_json(const Converter& converter) {
   const ConverterInfo& info = converter.info();
   return {{"id", info.id},
           {"source", side_json(info.source)},
           {"target", side_json(info.target)},
-          {"domain",
-           {{"roughness", {info.roughness.min, info.roughness.max}},
-            {"specular", {info.specular.min, info.specular.max}}}},
-          {"rms_error", {{"roughness", info.roughness_rms_error}, {"specular", info.specular_rms_error}}},
+          {"domain", domain_json(info)},
+          {"rms_error", errors_json(info)},
           {"instructions", std::string(instruction_set_name(info.instructions))},
           {"self_test", converter.self_test()}};
-}
-
-std::string range_text(std::string_view name, const Range& range) {
-  return std::string(name) + " " + number_text(range.min) + " to " + number_text(range.max);
 }
 
 void print_converter(const Converter& converter) {
   const ConverterInfo& info = converter.info();
   std::cout << info.id << '\n'
-            << "  from   " << info.source.model << ", "
-            << range_text(convention_name(info.source.roughness), info.roughness) << ", "
-            << range_text(info.source.specular, info.specular) << '\n'
+            << "  from   " << info.source.model << ", " << domain_text(info) << '\n'
             << "  to     " << info.target.model << ", " << convention_name(info.target.roughness) << " and "
             << info.target.specular << '\n'
-            << "  error  rms " << number_text(info.roughness_rms_error) << " in alpha, "
-            << number_text(info.specular_rms_error) << " in " << info.target.specular << '\n'
+            << "  error  " << errors_text(info) << '\n'
             << "  test   " << (converter.self_test() ? "passed" : "FAILED") << " with "
             << instruction_set_name(info.instructions) << " instructions\n";
 }
 
-void list(const ListOptions& options) {
+void list_converters(const ListOptions& options) {
   Json all = Json::array();
   std::string failed;
   for (const auto& converter : compiled_converters()) {
@@ -73,14 +57,49 @@ void list(const ListOptions& options) {
     throw Error(ErrorKind::kNumeric, failed + ": fails its self-test; expected the values it was made with");
 }
 
+// The two parameters of a model, as a converter to or from it knows them.
+ModelSide side_of(const std::string& model) {
+  for (const auto& converter : compiled_converters()) {
+    if (converter->info().source.model == model) return converter->info().source;
+    if (converter->info().target.model == model) return converter->info().target;
+  }
+  return {};
+}
+
+void list_models(const ListOptions& options) {
+  const ConverterGraph graph = compiled_graph();
+  Json all = Json::array();
+  for (const std::string& model : graph.models()) {
+    Json entry = side_json(side_of(model));
+    entry["reaches"] = Json::array();
+    if (!options.json)
+      std::cout << model << '\n'
+                << "  takes    " << entry["roughness"].get<std::string>() << " and "
+                << entry["specular"].get<std::string>() << '\n';
+    for (const std::string& target : graph.reachable_from(model)) {
+      const ConverterPath path = graph.find_paths({model, target, {}}).front();
+      if (options.json)
+        entry["reaches"].push_back(
+            {{"model", target}, {"path", path_json(path)}, {"expected_error", path.expected_error}});
+      else
+        std::cout << "  reaches  " << target << ", expected error " << expected_text(path.expected_error)
+                  << (path.steps.size() > 1 ? ", in " + std::to_string(path.steps.size()) + " steps" : "")
+                  << '\n';
+    }
+    all.push_back(entry);
+  }
+  if (options.json) std::cout << all.dump(2) << '\n';
+}
+
 }  // namespace
 
 void add_list_command(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
-  CLI::App* command = app.add_subcommand("list", "List the converters that are compiled in");
+  CLI::App* command = app.add_subcommand("list", "List the converters that are compiled in, or their models");
+  command->add_flag("--models", options->models, "The models instead, and which others each one reaches");
   command->add_flag("--json", options->json, "Machine-readable result on standard output");
   command->footer("Example:\n  texremap list --json");
-  command->callback([options] { list(*options); });
+  command->callback([options] { options->models ? list_models(*options) : list_converters(*options); });
 }
 
 }  // namespace remap

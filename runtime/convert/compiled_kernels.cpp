@@ -1,69 +1,25 @@
-// The wrappers that make compilers build every generated header for every instruction set.
 #include "convert/compiled_kernels.hpp"
 
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-
-#include "convert/instruction_target.hpp"
-
-// The standard headers that registry.hpp asks for stand above: they are none of these functions.
-REMAP_INLINED_FUNCTIONS_BEGIN
-#include "registry.hpp"
-REMAP_INLINED_FUNCTIONS_END
+#include <utility>
 
 namespace remap {
 namespace {
 
-template <typename Converter, std::size_t Channels>
-REMAP_FOR_BASELINE std::size_t convert(std::size_t count, const float* roughness,
-                                       const std::array<const float*, Channels>& specular,
-                                       float* roughness_out,
-                                       const std::array<float*, Channels>& specular_out) noexcept {
-  return Converter::evaluate_batch(count, roughness, specular, roughness_out, specular_out);
-}
-
-#if REMAP_HAS_X86_SETS
-template <typename Converter, std::size_t Channels>
-REMAP_FOR_AVX2 std::size_t convert_avx2(std::size_t count, const float* roughness,
-                                        const std::array<const float*, Channels>& specular,
-                                        float* roughness_out,
-                                        const std::array<float*, Channels>& specular_out) noexcept {
-  return Converter::evaluate_batch(count, roughness, specular, roughness_out, specular_out);
-}
-
-template <typename Converter, std::size_t Channels>
-REMAP_FOR_AVX512 std::size_t convert_avx512(std::size_t count, const float* roughness,
-                                            const std::array<const float*, Channels>& specular,
-                                            float* roughness_out,
-                                            const std::array<float*, Channels>& specular_out) noexcept {
-  return Converter::evaluate_batch(count, roughness, specular, roughness_out, specular_out);
-}
-#endif
-
-template <std::size_t Count>
-using Table = std::array<CompiledKernels, Count>;
-
-template <typename... Converters>
-std::span<const CompiledKernels> kernels(InstructionSet set, ConverterList<Converters...>) {
-  static constexpr Table<sizeof...(Converters)> kBaseline = {
-      {{&convert<Converters, 1>, &convert<Converters, 3>}...}};
-#if REMAP_HAS_X86_SETS
-  static constexpr Table<sizeof...(Converters)> kAvx2 = {
-      {{&convert_avx2<Converters, 1>, &convert_avx2<Converters, 3>}...}};
-  static constexpr Table<sizeof...(Converters)> kAvx512 = {
-      {{&convert_avx512<Converters, 1>, &convert_avx512<Converters, 3>}...}};
-  if (set == InstructionSet::kAvx512) return kAvx512;
-  if (set == InstructionSet::kAvx2) return kAvx2;
-#endif
-  static_cast<void>(set);
-  return kBaseline;
+template <std::size_t... Shard>
+std::vector<CompiledKernels> gathered(InstructionSet set, std::index_sequence<Shard...>) {
+  const std::array<std::span<const CompiledKernels>, kKernelShards> shards = {
+      KernelShard<Shard>::kernels(set)...};
+  std::size_t count = 0;
+  for (const auto& shard : shards) count += shard.size();
+  std::vector<CompiledKernels> kernels;
+  for (std::size_t i = 0; i < count; ++i) kernels.push_back(shards[i % kKernelShards][i / kKernelShards]);
+  return kernels;
 }
 
 }  // namespace
 
-std::span<const CompiledKernels> compiled_kernels(InstructionSet set) {
-  return kernels(set, ConverterTypes{});
+std::vector<CompiledKernels> compiled_kernels(InstructionSet set) {
+  return gathered(set, std::make_index_sequence<kKernelShards>{});
 }
 
 }  // namespace remap

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "convert/instruction_set.hpp"
 
@@ -22,6 +23,15 @@ struct CompiledKernels {
 };
 
 // For `set`, which the processor must have: one entry a converter, in the order of kConverters.
-std::span<const CompiledKernels> compiled_kernels(InstructionSet set);
+std::vector<CompiledKernels> compiled_kernels(InstructionSet set);
+
+// Headers are compiled in this many parts, so that compilers work side by side.
+inline constexpr std::size_t kKernelShards = REMAP_KERNEL_SHARDS;
+
+// The part of converters `Shard`, `Shard` + kKernelShards and so on; in kernel_shard.cpp.
+template <std::size_t Shard>
+struct KernelShard {
+  static std::span<const CompiledKernels> kernels(InstructionSet set);
+};
 
 }  // namespace remap

@@ -49,6 +49,8 @@ class InterpretedConverter final : public Converter {
 }  // namespace
 
 ConverterInfo converter_info(const Fit& fit, InstructionSet instructions) {
+  const auto image_error =
+      fit.likeness ? std::optional<double>(fit.likeness->image_error.rms) : std::optional<double>();
   return {fit.id,
           fit.source,
           fit.target,
@@ -56,7 +58,9 @@ ConverterInfo converter_info(const Fit& fit, InstructionSet instructions) {
           decimal(specular_range(fit)),
           fit.roughness_error.rms,
           fit.specular_error.rms,
-          instructions};
+          image_error,
+          instructions,
+          {}};
 }
 
 std::unique_ptr<Converter> make_interpreted_converter(Fit fit) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,7 +24,9 @@ struct ConverterInfo {
   Range specular;   // covered range of the source's specular, linear
   double roughness_rms_error = 0.0;
   double specular_rms_error = 0.0;
+  std::optional<double> image_rms_error;  // of the pictures at the best parameters, relative; none if unknown
   InstructionSet instructions = InstructionSet::kBaseline;  // that it runs on; changes no bit of the results
+  std::vector<std::string> steps;  // ids of what a chained converter runs; otherwise empty
 };
 
 // What a fit says of itself; ranges as short decimals.
@@ -69,8 +72,8 @@ std::unique_ptr<Converter> make_lowered_converter(Fit fit, const Lowered& lowere
 const std::vector<std::unique_ptr<Converter>>& compiled_converters(
     InstructionSet set = best_instruction_set());
 
-// The compiled converter from one model to another. Throws kUsage with the nearest known model where a name
-// is unknown, and with the targets that can be reached where only the pair is.
+// The compiled converter that leads from one model to another in one step; paths: path.hpp. Throws kUsage
+// where there is none.
 const Converter& find_converter(const std::string& source_model, const std::string& target_model,
                                 InstructionSet set = best_instruction_set());
 

@@ -27,6 +27,9 @@ void add_passes();
 Section pass_section(const Medians& medians, const std::string& code, const std::string& title);
 Section other_pass_section(const Medians& medians);
 
+void add_chains();
+Section chain_section(const Medians& medians);
+
 void add_rivals();
 Section rival_section(const Medians& medians);
 

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
 
   add_passes();
+  add_chains();
   add_rivals();
   add_networks();
   add_compilations();
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
   const std::vector<Section> sections = {
       pass_section(medians, "svr", "Lowered SVR pass"),
       pass_section(medians, "parametric", "Lowered parametric pass (the paper's form)"),
+      chain_section(medians),
       rival_section(medians),
       network_section(medians),
       other_pass_section(medians),

@@ -1,0 +1,168 @@
+#include "convert/path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "error.hpp"
+#include "nearest_name.hpp"
+
+namespace remap {
+namespace {
+
+constexpr double kUnitsOfError = 1e9;
+
+double middle_alpha(const ConverterInfo& info) {
+  const RoughnessConvention convention = info.source.roughness;
+  return 0.5 * (to_alpha(convention, info.roughness.min) + to_alpha(convention, info.roughness.max));
+}
+
+std::string joined(const std::vector<std::string>& names, const char* separator) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
+  return text;
+}
+
+// Sorted, each name once.
+std::vector<std::string> unique_names(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+double expected_error(const ConverterInfo& info) {
+  const double image = info.image_rms_error.value_or(kAssumedImageError);
+  const double alpha = info.roughness_rms_error / middle_alpha(info);
+  const double specular = info.specular_rms_error / (0.5 * (info.specular.min + info.specular.max));
+  return std::sqrt(image * image + 2.0 * alpha * alpha + specular * specular);
+}
+
+std::vector<std::string> path_models(const ConverterPath& path) {
+  std::vector<std::string> models = {path.steps.front()->info().source.model};
+  for (const Converter* step : path.steps) models.push_back(step->info().target.model);
+  return models;
+}
+
+ConverterGraph::ConverterGraph(std::vector<const Converter*> converters)
+    : converters_(std::move(converters)) {
+  std::sort(converters_.begin(), converters_.end(),
+            [](const Converter* a, const Converter* b) { return a->info().id < b->info().id; });
+  for (const Converter* converter : converters_) {
+    models_.push_back(converter->info().source.model);
+    models_.push_back(converter->info().target.model);
+  }
+  models_ = unique_names(std::move(models_));
+  graph_.node_count = models_.size();
+  for (const Converter* converter : converters_) {
+    const ConverterInfo& info = converter->info();
+    graph_.edges.push_back({node(info.source.model), node(info.target.model),
+                            std::llround(expected_error(info) * kUnitsOfError)});
+  }
+}
+
+// `model` is one of the graph's.
+std::size_t ConverterGraph::node(const std::string& model) const {
+  return static_cast<std::size_t>(std::lower_bound(models_.begin(), models_.end(), model) - models_.begin());
+}
+
+std::vector<std::string> ConverterGraph::names_connected(const std::string& model, bool forwards) const {
+  std::vector<std::string> names;
+  if (!holds(models_, model)) return names;
+  const std::vector<bool> met = connected(graph_, node(model), forwards);
+  for (std::size_t i = 0; i < models_.size(); ++i)
+    if (met[i] && models_[i] != model) names.push_back(models_[i]);
+  return names;
+}
+
+std::vector<std::string> ConverterGraph::reachable_from(const std::string& model) const {
+  return names_connected(model, true);
+}
+
+std::vector<std::string> ConverterGraph::reaching(const std::string& model) const {
+  return names_connected(model, false);
+}
+
+ConverterPath ConverterGraph::path_of(const std::vector<std::size_t>& edges) const {
+  ConverterPath path;
+  std::int64_t error = 0;
+  for (const std::size_t edge : edges) {
+    path.steps.push_back(converters_[edge]);
+    error += graph_.edges[edge].cost;
+  }
+  path.expected_error = static_cast<double>(error) / kUnitsOfError;
+  return path;
+}
+
+std::vector<ConverterPath> ConverterGraph::find_paths(const PathRequest& request, std::size_t count) const {
+  const std::vector<std::size_t> nodes = waypoints(request);
+  std::vector<ConverterPath> paths;
+  for (const std::vector<std::size_t>& edges : least_paths(graph_, nodes, count))
+    paths.push_back(path_of(edges));
+  if (paths.empty()) refuse(nodes);
+  return paths;
+}
+
+// The models that a request names, which the graph knows, each once.
+std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) const {
+  std::vector<std::string> sources, targets;
+  for (const Converter* converter : converters_) {
+    sources.push_back(converter->info().source.model);
+    targets.push_back(converter->info().target.model);
+  }
+  std::vector<std::size_t> nodes;
+  const auto add = [&](const std::string& model, const char* role, std::vector<std::string> known) {
+    if (!holds(models_, model))
+      throw Error(ErrorKind::kUsage, model + ": is no " + role + " of a converter" +
+                                         suggestion(model, unique_names(std::move(known))));
+    if (std::find(nodes.begin(), nodes.end(), node(model)) != nodes.end())
+      throw Error(ErrorKind::kUsage,
+                  model +
+                      ": would be visited twice, which makes the path a cycle; expected a source, a "
+                      "target and models between that differ");
+    nodes.push_back(node(model));
+  };
+  add(request.source, "source", sources);
+  for (const std::string& model : request.via) add(model, "model", models_);
+  add(request.target, "target", targets);
+  return nodes;
+}
+
+// Says why no path goes through `waypoints`.
+void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
+  std::vector<std::string> walk = {models_[waypoints.front()]};
+  for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
+    const std::string &from = models_[waypoints[i]], &to = models_[waypoints[i + 1]];
+    const auto legs = least_paths(graph_, {waypoints[i], waypoints[i + 1]}, 1);
+    if (legs.empty()) {
+      const std::vector<std::string> reached = reachable_from(from), reaching_it = reaching(to);
+      throw Error(ErrorKind::kUsage,
+                  from + " to " + to + ": no converters lead there; " + from + " reaches " +
+                      (reached.empty() ? "nothing" : joined(reached, ", ")) +
+                      (reached.empty() ? "" : ", of which " + closest_name(to, reached) + " is nearest") +
+                      "; " + to + " is reached from " +
+                      (reaching_it.empty() ? "nothing" : joined(reaching_it, ", ")));
+    }
+    for (const std::size_t edge : legs.front()) walk.push_back(models_[graph_.edges[edge].to]);
+  }
+  std::string twice;
+  for (std::size_t i = 0; i < walk.size() && twice.empty(); ++i)
+    if (std::find(walk.begin(), walk.begin() + static_cast<std::ptrdiff_t>(i), walk[i]) !=
+        walk.begin() + static_cast<std::ptrdiff_t>(i))
+      twice = walk[i];
+  throw Error(ErrorKind::kUsage, joined(walk, " -> ") + ": visits " + twice +
+                                     " twice, as would every other path through these models; expected a "
+                                     "path without a cycle");
+}
+
+ConverterGraph compiled_graph(InstructionSet set) {
+  std::vector<const Converter*> converters;
+  for (const auto& converter : compiled_converters(set)) converters.push_back(converter.get());
+  return ConverterGraph(std::move(converters));
+}
+
+}  // namespace remap

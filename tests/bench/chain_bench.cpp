@@ -1,0 +1,116 @@
+// A path of three headers as texremap runs it, block by block, against the same headers one after another
+// over whole maps and a memcpy of the four channels.
+#include <memory>
+
+#include "bench/bench.hpp"
+#include "bench/builds.hpp"
+#include "convert/chained_converter.hpp"
+
+namespace remap_bench {
+namespace {
+
+constexpr const char* kCode = "parametric";
+constexpr int kSteps = 3;
+
+// The build of a header as a step from the model `number` to the next.
+class Step final : public remap::Converter {
+ public:
+  Step(Pass pass, int number) : Converter(info(number)), pass_(pass) {}
+
+  std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
+                      float* roughness_out, std::span<float* const> specular_out) const override {
+    if (specular.size() == 3)
+      return pass_(count, roughness, {specular[0], specular[1], specular[2]}, roughness_out,
+                   {specular_out[0], specular_out[1], specular_out[2]});
+    // The pass takes three channels only: a chain asks for one where it looks for its domain.
+    const std::vector<float> grey(specular[0], specular[0] + count);
+    std::vector<float> green(count), blue(count);
+    return pass_(count, roughness, {grey.data(), grey.data(), grey.data()}, roughness_out,
+                 {specular_out[0], green.data(), blue.data()});
+  }
+  bool self_test() const override { return true; }
+
+ private:
+  static remap::ConverterInfo info(int number) {
+    remap::ConverterInfo info;
+    info.id = "step_" + std::to_string(number);
+    info.source.model = "bench/" + std::to_string(number);
+    info.target.model = "bench/" + std::to_string(number + 1);
+    info.roughness = {0.005, 1.0};
+    info.specular = {0.0, 1.0};
+    return info;
+  }
+
+  Pass pass_;
+};
+
+struct Chain {
+  explicit Chain(Pass pass) {
+    std::vector<const remap::Converter*> pointers;
+    for (int i = 0; i < kSteps; ++i) {
+      steps.push_back(std::make_unique<Step>(pass, i));
+      pointers.push_back(steps.back().get());
+    }
+    chained = remap::make_chained_converter(pointers);
+  }
+  std::vector<std::unique_ptr<remap::Converter>> steps;
+  std::unique_ptr<remap::Converter> chained;
+};
+
+void convert(const remap::Converter& converter, const std::array<std::vector<float>, 4>& in, Maps& maps) {
+  const std::array<const float*, 3> specular = {in[1].data(), in[2].data(), in[3].data()};
+  const std::array<float*, 3> specular_out = {maps.out[1].data(), maps.out[2].data(), maps.out[3].data()};
+  benchmark::DoNotOptimize(
+      converter.convert(maps.texels, in[0].data(), specular, maps.out[0].data(), specular_out));
+}
+
+void convert_in_turn(const Chain& chain, Maps& maps) {
+  for (const auto& step : chain.steps) convert(*step, step == chain.steps.front() ? maps.in : maps.out, maps);
+}
+
+std::string chain_name(const std::string& flags) { return "chain_" + flags; }
+std::string in_turn_name(const std::string& flags) { return "in_turn_" + flags; }
+
+Row chain_row(const Medians& medians, const std::string& what, const std::string& name,
+              const std::string& maps) {
+  Row row;
+  row.what = what;
+  row.value = mega_items(medians, name + "/" + maps);
+  row.unit = "Mtexel/s";
+  row.ratio = speed_ratio(medians, name + "/" + maps, "memcpy/" + maps);
+  row.rival = "memcpy";
+  return row;
+}
+
+}  // namespace
+
+void add_chains() {
+  for (const Build<Pass>& build : pass_builds()) {
+    if (build.code != kCode || build.flags == "o2") continue;
+    const auto chain = std::make_shared<const Chain>(build.function);
+    const std::string chained = chain_name(build.flags), in_turn = in_turn_name(build.flags);
+    add_benchmark(chained + "/large", large_maps().texels, 15,
+                  [chain] { convert(*chain->chained, large_maps().in, large_maps()); });
+    add_benchmark(in_turn + "/large", large_maps().texels, 15,
+                  [chain] { convert_in_turn(*chain, large_maps()); });
+    add_benchmark(chained + "/small", small_maps().texels, 7,
+                  [chain] { convert(*chain->chained, small_maps().in, small_maps()); });
+  }
+}
+
+Section chain_section(const Medians& medians) {
+  Section section{"Path of three lowered parametric headers, roughness + RGB, one core", {}};
+  for (const Build<Pass>& build : pass_builds()) {
+    if (build.code != kCode || build.flags == "o2") continue;
+    const std::string flags = flags_text(build.flags);
+    section.rows.push_back(
+        chain_row(medians, "chained at " + flags + ", 4096 x 4096", chain_name(build.flags), "large"));
+    section.rows.push_back(chain_row(medians, "one after another at " + flags + ", 4096 x 4096",
+                                     in_turn_name(build.flags), "large"));
+    section.rows.push_back(
+        chain_row(medians, "chained at " + flags + ", 64 x 64, in cache", chain_name(build.flags), "small"));
+  }
+  return section;
+}
+
+}  // namespace remap_bench

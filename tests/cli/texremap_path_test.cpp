@@ -1,0 +1,190 @@
+// `texremap path`, and paths in `convert` and `list`, with whatever converters ship.
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/texremap_session.hpp"
+#include "convert/path.hpp"
+#include "number_text.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string kId = "mitsuba_ward_to_mitsuba_as";
+
+// What the converter says of itself: `image 0.1, fit rms 0.2 in alpha and 0.3 in f0`.
+std::string ward_to_as_errors() {
+  const ConverterInfo& info = find_converter("mitsuba/ward", "mitsuba/as").info();
+  return "image " + number_text(info.image_rms_error.value()) + ", fit rms " +
+         number_text(info.roughness_rms_error) + " in alpha and " + number_text(info.specular_rms_error) +
+         " in " + info.target.specular;
+}
+
+double ward_to_as_expected() { return expected_error(find_converter("mitsuba/ward", "mitsuba/as").info()); }
+
+std::vector<std::string> path_words(const std::string& from, const std::string& to,
+                                    const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {"path", "--from", from, "--to", to};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+void check_refused(const ProcessResult& result, const std::string& message) {
+  INFO(result.errors);
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.last_error(), Contains(message));
+  CHECK(result.output.empty());
+}
+
+// The first pair of models that no path joins; empty names where there is none among the converters that
+// ship.
+PathRequest missing_pair() {
+  const ConverterGraph graph = compiled_graph();
+  for (const std::string& from : graph.models())
+    for (const std::string& to : graph.models()) {
+      const std::vector<std::string> reached = graph.reachable_from(from);
+      if (from != to && std::find(reached.begin(), reached.end(), to) == reached.end()) return {from, to, {}};
+    }
+  return {};
+}
+
+// The first path of two steps, the model between them given; empty names where there is none.
+PathRequest detour() {
+  for (const auto& first : compiled_converters())
+    for (const auto& second : compiled_converters()) {
+      const ConverterInfo &a = first->info(), &b = second->info();
+      if (a.target == b.source && a.source.model != b.target.model)
+        return {a.source.model, b.target.model, {a.target.model}};
+    }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("texremap path: tells steps, errors, domain and reason") {
+  const Session session;
+  const ProcessResult result = session.texremap(path_words("mitsuba/ward", "mitsuba/as"));
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output,
+             Contains("mitsuba/ward -> mitsuba/as\n") && Contains("1  " + kId) &&
+                 Contains("errors   " + ward_to_as_errors()) &&
+                 Contains("covers alpha 0.01 to 1, specular 0 to ") &&
+                 Contains("expected error " + number_text(rounded_up(ward_to_as_expected(), 3))) &&
+                 Contains("chosen because "));
+}
+
+TEST_CASE("texremap path: --json holds what the text says") {
+  const Session session;
+  const auto json =
+      Json::parse(session.texremap(path_words("mitsuba/ward", "mitsuba/as", {"--json"})).output);
+  CHECK(json["models"] == Json({"mitsuba/ward", "mitsuba/as"}));
+  CHECK(json["path"] == Json::array({kId}));
+  CHECK(json["expected_error"].get<double>() == Approx(ward_to_as_expected()).margin(1e-9));
+  CHECK(json["assumed_image_error"] == kAssumedImageError);
+  REQUIRE(json["steps"].size() == 1);
+  CHECK(json["steps"][0]["rms_error"]["image"] ==
+        find_converter("mitsuba/ward", "mitsuba/as").info().image_rms_error.value());
+  CHECK(json["steps"][0]["domain"] == json["domain"]);
+  CHECK(json["reason"].is_string());
+  for (const auto& other : json["alternatives"]) CHECK(other["expected_error"] >= json["expected_error"]);
+}
+
+TEST_CASE("texremap path: its help ends with an example, and models are asked for") {
+  const Session session;
+  CHECK_THAT(session.texremap({"path", "--help"}).output, Contains("Example:\n  texremap path"));
+  check_refused(session.texremap({"path", "--from", "mitsuba/ward"}), "--to");
+}
+
+TEST_CASE("texremap path: a cycle is wrong usage, in path and in convert") {
+  const Session session;
+  const std::string twice = ": would be visited twice, which makes the path a cycle";
+  check_refused(session.texremap(path_words("mitsuba/ward", "mitsuba/ward")), "mitsuba/ward" + twice);
+  check_refused(session.texremap(path_words("mitsuba/ward", "mitsuba/as", {"--via", "mitsuba/as"})),
+                "mitsuba/as" + twice);
+  check_refused(session.convert("r.exr", "s.exr", {"--via", "mitsuba/ward"}), "mitsuba/ward" + twice);
+  CHECK(session.file_count() == 0);
+}
+
+TEST_CASE("texremap path: unknown models are answered with the nearest") {
+  const Session session;
+  check_refused(session.texremap(path_words("mitsuba/wrad", "mitsuba/as")),
+                "mitsuba/wrad: is no source of a converter; did you mean mitsuba/ward?");
+  check_refused(session.texremap(path_words("mitsuba/ward", "mitsuba/as", {"--via", "mitsuba/wrad"})),
+                "mitsuba/wrad: is no model of a converter; did you mean mitsuba/ward?");
+}
+
+TEST_CASE("texremap path: a missing link is named") {
+  const PathRequest missing = missing_pair();
+  if (missing.source.empty()) return;
+  const Session session;
+  check_refused(session.texremap(path_words(missing.source, missing.target)),
+                missing.source + " to " + missing.target + ": no converters lead there; " + missing.source +
+                    " reaches ");
+}
+
+TEST_CASE("texremap list: shows image errors, and with --models what each model reaches") {
+  const Session session;
+  CHECK_THAT(session.texremap({"list"}).output, Contains("error  " + ward_to_as_errors()));
+  CHECK(Json::parse(session.texremap({"list", "--json"}).output)[0]["rms_error"].contains("image"));
+  CHECK_THAT(
+      session.texremap({"list", "--models"}).output,
+      Contains("mitsuba/ward\n  takes    alpha and specular\n") && Contains("  reaches  mitsuba/as, "));
+  const auto models = Json::parse(session.texremap({"list", "--models", "--json"}).output);
+  const ConverterGraph graph = compiled_graph();
+  REQUIRE(models.size() == graph.models().size());
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    CHECK(models[i]["model"] == graph.models()[i]);
+    CHECK(models[i]["reaches"].size() == graph.reachable_from(graph.models()[i]).size());
+  }
+}
+
+TEST_CASE("texremap convert: says which path it took, in JSON and in metadata") {
+  const Session session;
+  session.write_pair("exr", 16);
+  const ProcessResult result = session.convert("r.exr", "s.exr", {"--json"});
+  REQUIRE(result.exit_code == 0);
+  const auto json = Json::parse(result.output);
+  CHECK(json["path"] == Json::array({kId}));
+  CHECK(json["expected_error"].get<double>() == Approx(ward_to_as_expected()).margin(1e-9));
+  CHECK_THAT(result.errors, Contains(" s by " + kId + ": "));
+  CHECK(read_image(session.path("out/r.exr")).spec.get_string_attribute("remap:converter") == kId);
+  check_refused(session.convert("r.exr", "s.exr", {"--fit", "x.json", "--via", "mitsuba/as"}), "--via");
+}
+
+TEST_CASE("texremap convert: a path of several steps writes what they give one after another") {
+  const PathRequest request = detour();
+  if (request.source.empty()) return;
+  const Session session;
+  session.write_pair("exr", 16);
+  const ProcessResult result =
+      session.texremap({"convert", "--from", request.source, "--via", request.via.front(), "--to",
+                        request.target, "--roughness", session.path("r.exr"), "--specular",
+                        session.path("s.exr"), "-o", session.path("out"), "--json"});
+  REQUIRE(result.exit_code == 0);
+  const ConverterPath path = compiled_graph().find_paths(request).front();
+  std::string ids, models = request.source;
+  for (const Converter* step : path.steps) {
+    ids += (ids.empty() ? "" : " ") + step->info().id;
+    models += " -> " + step->info().target.model;
+  }
+  CHECK(Json::parse(result.output)["path"].size() == path.steps.size());
+  CHECK_THAT(result.errors, Contains(models + " (expected error "));
+  const TestImage r = read_image(session.path("r.exr")), s = read_image(session.path("s.exr")),
+                  r_out = read_image(session.path("out/r.exr")),
+                  s_out = read_image(session.path("out/s.exr"));
+  CHECK(r_out.spec.get_string_attribute("remap:converter") == ids);
+  for (int x = 0; x < 16; ++x) {
+    float width = r.at(x, 5, 0);
+    std::array<float, 3> texel = {s.at(x, 5, 0), s.at(x, 5, 1), s.at(x, 5, 2)};
+    const std::array<const float*, 3> in = {&texel[0], &texel[1], &texel[2]};
+    const std::array<float*, 3> out = {&texel[0], &texel[1], &texel[2]};
+    for (const Converter* step : path.steps) step->convert(1, &width, in, &width, out);
+    CHECK(r_out.at(x, 5, 0) == as_stored(width, OIIO::TypeHalf));
+    for (int c = 0; c < 3; ++c)
+      CHECK(s_out.at(x, 5, c) == as_stored(texel[static_cast<std::size_t>(c)], OIIO::TypeHalf));
+  }
+}
