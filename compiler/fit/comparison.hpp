@@ -37,7 +37,8 @@ struct Comparison {
 // of the best and 2e-3 more, loses; so does one that cannot be lowered, if another can. Among the others the
 // one of fewest numbers wins whose rms errors of alpha and of specular are both within one standard error of
 // the best, or within kNegligibleError (folds.hpp); where none is, the one whose worse error, as a multiple
-// of that bound, is least. Throws kNumeric with the reasons where all lose. The result depends on nothing but
+// of that bound, is least. What loses before the folds is not fitted again in them. Throws kNumeric with the
+// reasons where all lose. The result depends on nothing but
 // rows, domain and options.
 Comparison compare_regressions(const std::vector<TableRow>& rows, const remap::Domain& domain,
                                const ComparisonOptions& options, const FitProgress& progress = {});
