@@ -26,14 +26,13 @@ PolarisedReflectance fresnel_conductor(double cosine, double eta, double k) {
   // a and b are the real and imaginary part of sqrt(c^2 - sin^2), the refracted ray's index times its cosine.
   const double cosine_2 = cosine * cosine, sine_2 = std::max(0.0, 1.0 - cosine_2);
   const double real = eta * eta - k * k - sine_2;
-  const double length = std::sqrt(real * real + 4.0 * eta * eta * k * k);  // a^2 + b^2
+  const double length = std::sqrt(real * real + 4.0 * eta * eta * k * k);
   const double a = std::sqrt(std::max(0.0, 0.5 * (length + real)));
-  const double s_numerator = length - 2.0 * a * cosine + cosine_2;
-  const double s_denominator = length + 2.0 * a * cosine + cosine_2;
-  if (s_denominator == 0.0) return {1.0, 1.0};
-  const double s = s_numerator / s_denominator;
-  const double even = cosine_2 * length + sine_2 * sine_2, odd = 2.0 * a * cosine * sine_2;
-  const double p = even + odd == 0.0 ? s : s * std::max(0.0, even - odd) / (even + odd);
+  const double b_2 = std::max(0.0, 0.5 * (length - real));
+  const auto square = [](double x) { return x * x; };
+  const double s_whole = square(a + cosine) + b_2, p_whole = square(a * cosine + sine_2) + b_2 * cosine_2;
+  const double s = s_whole == 0.0 ? 1.0 : (square(a - cosine) + b_2) / s_whole;
+  const double p = p_whole == 0.0 ? s : s * (square(a * cosine - sine_2) + b_2 * cosine_2) / p_whole;
   return {p, s};
 }
 

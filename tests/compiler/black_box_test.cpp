@@ -103,6 +103,18 @@ TEST_CASE("probe: scale and Schlick are told apart by pictures") {
   CHECK_FALSE(probe(*renderer, "mitsuba/ggx").proportional());
 }
 
+TEST_CASE("probe: the laws of the built-in models with indices and knees") {
+  const auto renderer = make_builtin_renderer();
+  for (const std::string name : {"as", "ggx", "beckmann"}) {
+    CHECK(probe(*renderer, "mitsuba/" + name + "-ior").law == SpecularLaw::kIor);
+    // Exact Fresnel changes its shape with the index: no linear coordinate.
+    CHECK(probe(*renderer, "mitsuba/" + name + "-dielectric").law == SpecularLaw::kOther);
+  }
+  const SpecularResponse trimmed = probe(*renderer, "mitsuba/ward-conserving");
+  CHECK(trimmed.law == SpecularLaw::kClamped);
+  CHECK(trimmed.knee == Approx(1.0).epsilon(1e-6));
+}
+
 TEST_CASE("probe: an index of refraction is found where pictures are affine in its F0") {
   const LawRenderer schlick("mitsuba/ggx", {1.0, 2.5}, [](double ior) { return normal_reflectance(ior); });
   CHECK(probe(schlick, "disguised/law").law == SpecularLaw::kIor);
