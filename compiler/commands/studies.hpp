@@ -5,4 +5,7 @@
 
 namespace remapc {
 
+void add_conductors_study(CLI::App& app);
+void add_dielectrics_study(CLI::App& app);
+
 }  // namespace remapc

@@ -32,6 +32,9 @@ struct SweepCommand {
   std::size_t roughness_samples = 30, specular_samples = 30;
   std::vector<double> roughness_range = {0.01, 1.0}, specular_range;
   std::string samples_of, columns;
+  int stages = 2;
+  double diffuse = 0.0;
+  bool keep_irradiance = false;
   unsigned jobs = 0;
   bool resume = false, force = false, json = false, quiet = false;
   std::filesystem::path output;
@@ -43,7 +46,7 @@ remap::Range parse_range(const std::string& option, const std::vector<double>& v
   return {values[0], values[1]};
 }
 
-void choose_samples(const SweepCommand& command, const ModelDescription& source, SweepOptions* options) {
+void choose_samples(const SweepCommand& command, const Renderer& renderer, SweepOptions* options) {
   if (!command.samples_of.empty()) {
     const Table table =
         read_table(command.samples_of, command.columns.empty() ? ColumnMap{} : column_map(command.columns));
@@ -56,7 +59,7 @@ void choose_samples(const SweepCommand& command, const ModelDescription& source,
     throw Error(ErrorKind::kUsage, "samples: 0; expected at least 1 for roughness and for specular");
   const remap::Range alphas = parse_range("--roughness-range", command.roughness_range);
   const remap::Range speculars = command.specular_range.empty()
-                                     ? source.parameter(ParameterRole::kSpecular).range
+                                     ? canonical_speculars(renderer, find_model(renderer, command.source))
                                      : parse_range("--specular-range", command.specular_range);
   options->samples = grid_samples(alphas, command.roughness_samples, speculars, command.specular_samples);
   options->sampling = grid_text(alphas, command.roughness_samples, speculars, command.specular_samples);
@@ -76,7 +79,10 @@ SweepOptions sweep_options(const SweepCommand& command, const Renderer& renderer
     options.objective_name = "custom";
   options.resolution = command.resolution;
   options.samples_per_axis = command.pixel_samples;
-  choose_samples(command, find_model(renderer, command.source), &options);
+  options.stages = command.stages;
+  options.diffuse = command.diffuse;
+  options.match_irradiance = !command.keep_irradiance;
+  choose_samples(command, renderer, &options);
   return options;
 }
 
@@ -180,11 +186,18 @@ void add_options(CLI::App& app, SweepCommand& command) {
       ->expected(1, 2)
       ->capture_default_str();
   app.add_option("--specular-range", command.specular_range,
-                 "MIN,MAX of the source's specular; default: all it takes")
+                 "MIN,MAX of the source's specular (F0 for an index); default: all it takes")
       ->delimiter(',')
       ->expected(1, 2);
   app.add_option("--samples-of", command.samples_of, "Take the samples of this table instead of a grid");
   app.add_option("--columns", command.columns, "Its column map: sztrajman-2019, or own=file,...");
+  app.add_option("--stages", command.stages,
+                 "2: diffuse and specular apart; 1: all at once from a fixed guess; 3: all at once from 2")
+      ->check(CLI::Range(1, 3))
+      ->capture_default_str();
+  app.add_option("--diffuse", command.diffuse, "Of the source, in every sample")->capture_default_str();
+  app.add_flag("--no-irradiance-matching", command.keep_irradiance,
+               "Leave a factor between the light of two renderers in specular and diffuse");
   app.add_option("--jobs", command.jobs, "Threads; 0: one a core. The table does not depend on it")
       ->capture_default_str();
   app.add_flag("--resume", command.resume, "Continue a sweep that was interrupted");

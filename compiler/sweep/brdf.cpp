@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "model/convention.hpp"
+#include "sweep/fresnel.hpp"
 
 namespace remapc {
 namespace {
@@ -71,26 +72,26 @@ double smith_shadowing(Brdf brdf, double alpha, double cos_direction) {
   return (3.535 * a + 2.181 * a * a) / (1.0 + 2.276 * a + 2.577 * a * a);
 }
 
-Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry& g) {
-  double value = 0.0;
+double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& g) {
   switch (brdf) {
     case Brdf::kWard:
     case Brdf::kWardDuer:
     case Brdf::kWardBalanced:
-      value = ward(brdf, alpha, g);
-      break;
+      return ward(brdf, alpha, g);
     case Brdf::kPhong:
-      value = phong(alpha, g);
-      break;
+      return phong(alpha, g);
     case Brdf::kBeckmann:
     case Brdf::kGgx:
     case Brdf::kAs:
-      value = microfacet(brdf, alpha, g);
-      break;
+      return microfacet(brdf, alpha, g);
   }
+  return 0.0;
+}
+
+Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry& g) {
+  const double value = evaluate_shape(brdf, alpha, g);
   if (fresnel == Fresnel::kNone) return {0.0, value};
-  const double m = 1.0 - g.cos_light_half;
-  const double schlick = m * m * m * m * m;  // F = F0 + (1 - F0) (1 - cos)^5
+  const double schlick = schlick_weight(g.cos_light_half);
   return {value * schlick, value * (1.0 - schlick)};
 }
 

@@ -27,6 +27,9 @@ struct Lobe {
 enum class Brdf { kWard, kWardDuer, kWardBalanced, kPhong, kBeckmann, kGgx, kAs };
 enum class Fresnel { kNone, kSchlick };
 
+// The lobe of a mirror-white surface: reflectance without Fresnel.
+double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& geometry);
+
 Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry& geometry);
 
 // Normal distribution of microfacets with projected area 1, and separable Smith shadowing for one direction

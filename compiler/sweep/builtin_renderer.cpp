@@ -12,6 +12,7 @@
 #include "nearest_name.hpp"
 #include "number_text.hpp"
 #include "sweep/brdf.hpp"
+#include "sweep/fresnel.hpp"
 #include "sweep/renderer.hpp"
 #include "version.hpp"
 
@@ -23,41 +24,85 @@ using remap::ErrorKind;
 using remap::Range;
 using remap::RoughnessConvention;
 
+// What the parameters beside width and diffuse mean, and which reflectance they give the lobe.
+enum class Reflectance {
+  kScale,         // `specular`, 0 to 1
+  kTrimmedScale,  // `specular`, 0 to 2, trimmed to 1 so that energy is conserved
+  kSchlick,       // `f0`, with Schlick's Fresnel
+  kSchlickIor,    // `ior`: Schlick's Fresnel with F0 from equation (1) of the paper
+  kDielectric,    // `ior`: exact Fresnel of a dielectric
+  kConductor,     // `eta`, `k`: exact Fresnel of a conductor
+};
+
 struct BuiltinModel {
   const char* name;
   Brdf brdf;
-  Fresnel fresnel;
-  RoughnessConvention roughness;
+  Reflectance reflectance;
+  RoughnessConvention roughness = RoughnessConvention::kAlpha;
 };
 
 // Names as in the hub; `-plain` scales the microfacet lobe by a constant reflectance instead of Schlick's F0.
 constexpr std::array kModels = {
-    BuiltinModel{"mitsuba/ward", Brdf::kWard, Fresnel::kNone, RoughnessConvention::kAlpha},
-    BuiltinModel{"mitsuba/ward-duer", Brdf::kWardDuer, Fresnel::kNone, RoughnessConvention::kAlpha},
-    BuiltinModel{"mitsuba/ward-balanced", Brdf::kWardBalanced, Fresnel::kNone, RoughnessConvention::kAlpha},
-    BuiltinModel{"mitsuba/phong", Brdf::kPhong, Fresnel::kNone, RoughnessConvention::kExponent},
-    BuiltinModel{"mitsuba/beckmann", Brdf::kBeckmann, Fresnel::kSchlick, RoughnessConvention::kAlpha},
-    BuiltinModel{"mitsuba/ggx", Brdf::kGgx, Fresnel::kSchlick, RoughnessConvention::kAlpha},
-    BuiltinModel{"mitsuba/as", Brdf::kAs, Fresnel::kSchlick, RoughnessConvention::kAlpha},
-    BuiltinModel{"mitsuba/beckmann-plain", Brdf::kBeckmann, Fresnel::kNone, RoughnessConvention::kAlpha},
-    BuiltinModel{"mitsuba/ggx-plain", Brdf::kGgx, Fresnel::kNone, RoughnessConvention::kAlpha},
-    BuiltinModel{"mitsuba/as-plain", Brdf::kAs, Fresnel::kNone, RoughnessConvention::kAlpha},
+    BuiltinModel{"mitsuba/ward", Brdf::kWard, Reflectance::kScale},
+    BuiltinModel{"mitsuba/ward-duer", Brdf::kWardDuer, Reflectance::kScale},
+    BuiltinModel{"mitsuba/ward-balanced", Brdf::kWardBalanced, Reflectance::kScale},
+    BuiltinModel{"mitsuba/ward-conserving", Brdf::kWard, Reflectance::kTrimmedScale},
+    BuiltinModel{"mitsuba/phong", Brdf::kPhong, Reflectance::kScale, RoughnessConvention::kExponent},
+    BuiltinModel{"mitsuba/beckmann", Brdf::kBeckmann, Reflectance::kSchlick},
+    BuiltinModel{"mitsuba/ggx", Brdf::kGgx, Reflectance::kSchlick},
+    BuiltinModel{"mitsuba/as", Brdf::kAs, Reflectance::kSchlick},
+    BuiltinModel{"mitsuba/beckmann-plain", Brdf::kBeckmann, Reflectance::kScale},
+    BuiltinModel{"mitsuba/ggx-plain", Brdf::kGgx, Reflectance::kScale},
+    BuiltinModel{"mitsuba/as-plain", Brdf::kAs, Reflectance::kScale},
+    BuiltinModel{"mitsuba/beckmann-ior", Brdf::kBeckmann, Reflectance::kSchlickIor},
+    BuiltinModel{"mitsuba/ggx-ior", Brdf::kGgx, Reflectance::kSchlickIor},
+    BuiltinModel{"mitsuba/as-ior", Brdf::kAs, Reflectance::kSchlickIor},
+    BuiltinModel{"mitsuba/beckmann-dielectric", Brdf::kBeckmann, Reflectance::kDielectric},
+    BuiltinModel{"mitsuba/ggx-dielectric", Brdf::kGgx, Reflectance::kDielectric},
+    BuiltinModel{"mitsuba/as-dielectric", Brdf::kAs, Reflectance::kDielectric},
+    BuiltinModel{"mitsuba/beckmann-conductor", Brdf::kBeckmann, Reflectance::kConductor},
+    BuiltinModel{"mitsuba/ggx-conductor", Brdf::kGgx, Reflectance::kConductor},
+    BuiltinModel{"mitsuba/as-conductor", Brdf::kAs, Reflectance::kConductor},
 };
 
 // Widths below 1e-4 are mirrors that no picture of the sweep resolves.
 constexpr Range kAlphaRange{1e-4, 1.0};
+// Of dielectrics, from none to germanium's in the infrared; of conductors, what measurements in visible light
+// have, the 0 of values projected into a colour space included.
+constexpr Range kIorRange{1.0, 4.0};
+constexpr Range kEtaRange{0.0, 12.0};
+constexpr Range kExtinctionRange{0.0, 20.0};
+
+std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
+  switch (reflectance) {
+    case Reflectance::kScale:
+      return {{"specular", ParameterRole::kSpecular, {0.0, 1.0}}};
+    case Reflectance::kTrimmedScale:
+      return {{"specular", ParameterRole::kSpecular, {0.0, 2.0}}};
+    case Reflectance::kSchlick:
+      return {{"f0", ParameterRole::kSpecular, {0.0, 1.0}}};
+    case Reflectance::kSchlickIor:
+    case Reflectance::kDielectric:
+      return {{"ior", ParameterRole::kSpecular, kIorRange}};
+    case Reflectance::kConductor:
+      return {{"eta", ParameterRole::kIndex, kEtaRange}, {"k", ParameterRole::kExtinction, kExtinctionRange}};
+  }
+  return {};
+}
 
 ModelDescription describe(const BuiltinModel& model) {
   const double bound_a = remap::from_alpha(model.roughness, kAlphaRange.min);
   const double bound_b = remap::from_alpha(model.roughness, kAlphaRange.max);
-  return {model.name,
-          model.roughness,
-          kAlphaRange,
-          {{std::string(remap::convention_name(model.roughness)),
-            ParameterRole::kRoughness,
-            {std::min(bound_a, bound_b), std::max(bound_a, bound_b)}},
-           {model.fresnel == Fresnel::kSchlick ? "f0" : "specular", ParameterRole::kSpecular, {0.0, 1.0}},
-           {"diffuse", ParameterRole::kDiffuse, {0.0, 1.0}}}};
+  ModelDescription description{model.name,
+                               model.roughness,
+                               kAlphaRange,
+                               {{std::string(remap::convention_name(model.roughness)),
+                                 ParameterRole::kRoughness,
+                                 {std::min(bound_a, bound_b), std::max(bound_a, bound_b)}}}};
+  for (ParameterDescription& parameter : specular_parameters(model.reflectance))
+    description.parameters.push_back(std::move(parameter));
+  description.parameters.push_back({"diffuse", ParameterRole::kDiffuse, {0.0, 1.0}});
+  return description;
 }
 
 // One lit sample of the picture: its pixel, its directions, and cos_light / distance^2 over the samples a
@@ -171,6 +216,57 @@ void require_known_parameters(const Material& material, const ModelDescription& 
   }
 }
 
+// The parameters of one colour channel.
+struct Channel {
+  double specular = 0.0;  // scale, F0, or the index of a dielectric
+  double eta = 0.0, k = 0.0;
+  double diffuse = 0.0;
+};
+
+double channel_value(const std::vector<double>& values, std::size_t channel) {
+  return values[values.size() == 1 ? 0 : channel];
+}
+
+// Values of the material for each channel; one channel where all are grey.
+std::vector<Channel> channels_of(const Material& material, const ModelDescription& description,
+                                 Reflectance reflectance) {
+  std::vector<Channel> channels(1);
+  const auto fill = [&](ParameterRole role, double Channel::*value) {
+    if (!description.has(role)) return;
+    const std::vector<double> values = parameter_values(material, description.parameter(role));
+    if (values.size() > channels.size()) channels.resize(values.size(), channels.front());
+    for (std::size_t c = 0; c < channels.size(); ++c) channels[c].*value = channel_value(values, c);
+  };
+  fill(ParameterRole::kSpecular, &Channel::specular);
+  fill(ParameterRole::kIndex, &Channel::eta);
+  fill(ParameterRole::kExtinction, &Channel::k);
+  fill(ParameterRole::kDiffuse, &Channel::diffuse);
+  for (Channel& channel : channels) {
+    if (reflectance == Reflectance::kTrimmedScale) channel.specular = std::min(channel.specular, 1.0);
+    if (reflectance == Reflectance::kSchlickIor) channel.specular = normal_reflectance(channel.specular);
+  }
+  return channels;
+}
+
+// A lobe of mirror white, `shape`, with the reflectance of one channel. Schlick's weight is that of the
+// geometry.
+double specular_reflectance(Reflectance reflectance, double shape, double schlick, const Channel& channel,
+                            double cos_light_half) {
+  switch (reflectance) {
+    case Reflectance::kScale:
+    case Reflectance::kTrimmedScale:
+      return channel.specular * shape;
+    case Reflectance::kSchlick:
+    case Reflectance::kSchlickIor:
+      return shape * schlick + channel.specular * (shape * (1.0 - schlick));
+    case Reflectance::kDielectric:
+      return shape * fresnel_dielectric(cos_light_half, channel.specular).mean();
+    case Reflectance::kConductor:
+      return shape * fresnel_conductor(cos_light_half, channel.eta, channel.k).mean();
+  }
+  return 0.0;
+}
+
 Image BuiltinRenderer::render(const Material& material, const Scene& scene) const {
   require_scene(scene);
   const ModelDescription description = find_model(*this, material.model);
@@ -179,25 +275,25 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
     return material.model == candidate.name;
   });
   const auto roughness = parameter_values(material, description.parameter(ParameterRole::kRoughness));
-  const auto specular = parameter_values(material, description.parameter(ParameterRole::kSpecular));
-  const auto diffuse = parameter_values(material, description.parameter(ParameterRole::kDiffuse));
   if (roughness.size() != 1)
     throw Error(ErrorKind::kUsage, material.model + ": roughness has 3 values; expected 1");
   const double alpha = remap::to_alpha(model->roughness, roughness[0]);
 
-  const std::size_t channels = std::max(specular.size(), diffuse.size());
+  const std::vector<Channel> channels = channels_of(material, description, model->reflectance);
   const auto side = static_cast<std::size_t>(scene.resolution);
-  std::vector<double> radiance(side * side * channels, 0.0);
+  std::vector<double> radiance(side * side * channels.size(), 0.0);
   const auto samples = samples_of(scene);
   for (const LitSample& sample : *samples) {
-    const Lobe lobe = evaluate_lobe(model->brdf, model->fresnel, alpha, sample.geometry);
-    for (std::size_t c = 0; c < channels; ++c) {
-      const double s = specular[specular.size() == 1 ? 0 : c], d = diffuse[diffuse.size() == 1 ? 0 : c];
-      const double reflectance = lobe.base + s * lobe.slope + d * std::numbers::inv_pi;
-      radiance[sample.pixel * channels + c] += reflectance * sample.irradiance;
+    const double shape = evaluate_shape(model->brdf, alpha, sample.geometry);
+    const double cosine = sample.geometry.cos_light_half, schlick = schlick_weight(cosine);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const double reflectance =
+          specular_reflectance(model->reflectance, shape, schlick, channels[c], cosine) +
+          channels[c].diffuse * std::numbers::inv_pi;
+      radiance[sample.pixel * channels.size() + c] += reflectance * sample.irradiance;
     }
   }
-  Image image{scene.resolution, scene.resolution, static_cast<int>(channels), {}};
+  Image image{scene.resolution, scene.resolution, static_cast<int>(channels.size()), {}};
   image.values.assign(radiance.begin(), radiance.end());
   return image;
 }

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "sweep/interpolation.hpp"
+#include "sweep/picture_sums.hpp"
+
 namespace remapc {
 namespace {
 
@@ -12,51 +15,6 @@ constexpr std::size_t kCoarseStride = 6;
 // A second minimum counts as a rival where its error is within 1 % of the best and its width is not a
 // neighbour.
 constexpr double kRivalError = 1.01;
-
-// Sums over pixels run in double precision, in as many lanes as two registers hold and in a fixed order, so
-// that the result does not depend on what the compiler makes of the loop.
-constexpr std::size_t kLanes = 4;
-using LaneSums = std::array<double, kLanes>;
-
-double total(const LaneSums& sums) { return (sums[0] + sums[1]) + (sums[2] + sums[3]); }
-
-// Calls `add(pixel, lane)` for every pixel, pixel i in lane i modulo kLanes.
-template <typename Add>
-void for_each_pixel(std::size_t count, const Add& add) {
-  const std::size_t whole = count - count % kLanes;
-  for (std::size_t i = 0; i < whole; i += kLanes)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) add(i + lane, lane);
-  for (std::size_t i = whole; i < count; ++i) add(i, i - whole);
-}
-
-double inner_product(const float* a, const float* b, std::size_t count) {
-  LaneSums sums{};
-  for_each_pixel(count, [&](std::size_t i, std::size_t lane) {
-    sums[lane] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-  });
-  return total(sums);
-}
-
-// Lagrange basis on `nodes` at `x`: values and first derivatives.
-struct LagrangeBasis {
-  using Values = std::array<double, kInterpolationNodes>;
-  Values value{};
-  Values derivative{};
-
-  LagrangeBasis(const Values& nodes, double x) {
-    for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
-      double product = 1.0, sum = 0.0;
-      for (std::size_t j = 0; j < kInterpolationNodes; ++j) {
-        if (j == i) continue;
-        const double factor = (x - nodes[j]) / (nodes[i] - nodes[j]);
-        sum = sum * factor + product / (nodes[i] - nodes[j]);  // product rule, one factor at a time
-        product *= factor;
-      }
-      value[i] = product;
-      derivative[i] = sum;
-    }
-  }
-};
 
 }  // namespace
 
@@ -117,7 +75,7 @@ Matcher::Quadratic Matcher::quadratic(const Products& p, const std::vector<doubl
 
 Matcher::Optimum Matcher::optimum(const Quadratic& q) const {
   const double best = q.c2 > 0.0 ? q.c1 / q.c2 : 0.0;
-  const double specular = std::clamp(best, 0.0, bank_.max_specular());
+  const double specular = std::clamp(best, bank_.min_specular(), bank_.max_specular());
   return {specular, q.c0 + specular * (specular * q.c2 - 2.0 * q.c1)};
 }
 
@@ -185,8 +143,8 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   match.alpha = std::exp(x);
   match.specular = best.specular;
   match.error = std::sqrt(std::max(0.0, power + best.loss) / power);
-  const bool clamped =
-      (at_edge && !bracketed) || best.specular <= 0.0 || best.specular >= bank_.max_specular();
+  const bool clamped = (at_edge && !bracketed) || best.specular <= bank_.min_specular() ||
+                       best.specular >= bank_.max_specular();
   match.status = clamped ? RowStatus::kClamped : RowStatus::kOk;
   return match;
 }

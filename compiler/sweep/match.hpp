@@ -12,9 +12,6 @@
 
 namespace remapc {
 
-// Nodes of the bank that one interpolation of the loss uses: twelve nodes 5 % apart leave 1e-7 of alpha.
-inline constexpr std::size_t kInterpolationNodes = 12;
-
 struct Match {
   double alpha = 0.0;
   double specular = 0.0;

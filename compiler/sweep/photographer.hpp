@@ -5,15 +5,28 @@
 #include <vector>
 
 #include "sweep/objective.hpp"
+#include "sweep/probe.hpp"
 #include "sweep/renderer.hpp"
 
 namespace remapc {
 
-// What to photograph: a grey material in canonical coordinates.
+// What to photograph: a grey material.
 struct Sitting {
   double alpha = 0.0;
   double specular = 0.0;
   double diffuse = 0.0;
+};
+
+// A model as a sweep photographs it: with the law that its specular parameter was found to follow, and the
+// factor that its pictures are multiplied by.
+struct Subject {
+  ModelDescription model;
+  SpecularResponse response;
+  double exposure = 1.0;
+
+  // Canonical speculars that the model takes, and those in which its picture is linear: they end at a knee.
+  remap::Range specular_range() const;
+  remap::Range linear_range() const;
 };
 
 class Photographer {
@@ -22,7 +35,14 @@ class Photographer {
 
   // Pictures of `model` under each light in turn, pixel_count() floats each. Throws kInput for a picture of
   // another size, and for values that are not finite.
+  // `specular` is the model's own parameter.
   std::vector<float> take(const ModelDescription& model, const Sitting& sitting) const;
+
+  // The same with canonical specular (clamped to what the model takes), times the exposure.
+  std::vector<float> take(const Subject& subject, const Sitting& sitting) const;
+
+  // The same for any grey material.
+  std::vector<float> take(const Material& material) const;
 
   // Pixels of one picture that show the sphere, and their view cosines.
   std::size_t pixel_count() const { return cosines_.size(); }
@@ -38,26 +58,11 @@ class Photographer {
   std::vector<float> cosines_;
 };
 
-// How a model's pictures depend on its specular parameter, found by rendering.
-struct SpecularResponse {
-  bool affine = false;        // picture = base + specular * slope
-  bool proportional = false;  // affine, and base is black
-  double residual = 0.0;      // largest deviation from affine, relative to the brightest pixel
+// Pictures of a subject that is affine in canonical specular, at one width: base + specular * slope, and the
+// picture at the largest specular of the linear range.
+struct AffinePictures {
+  std::vector<float> base, slope, full;
 };
-
-// Renders `model` at three widths within `alphas` and three specular values within [0, max_specular] each.
-SpecularResponse probe_specular(const Photographer& photographer, const ModelDescription& model,
-                                const remap::Range& alphas, double max_specular);
-
-// The factor between the diffuse parameters of two models that gives the same diffuse light, in least
-// squares, and what is left then relative to the source (RMS). What the diffuse parameter adds to the picture
-// is taken as the difference of two pictures, so a Fresnel rim does not count as diffuse. First stage of the
-// two-stage match (section 3.1).
-struct DiffuseMatch {
-  double scale = 1.0;
-  double error = 0.0;
-};
-DiffuseMatch match_diffuse(const Photographer& photographer, const ModelDescription& source,
-                           const ModelDescription& target);
+AffinePictures take_affine(const Photographer& photographer, const Subject& subject, double alpha);
 
 }  // namespace remapc

@@ -1,14 +1,42 @@
 #include "sweep/renderer.hpp"
 
+#include <algorithm>
+
 #include "error.hpp"
 #include "nearest_name.hpp"
 
 namespace remapc {
 
+namespace {
+
+const char* role_name(ParameterRole role) {
+  switch (role) {
+    case ParameterRole::kRoughness:
+      return "roughness";
+    case ParameterRole::kSpecular:
+      return "specular";
+    case ParameterRole::kDiffuse:
+      return "diffuse";
+    case ParameterRole::kIndex:
+      return "index of refraction";
+    case ParameterRole::kExtinction:
+      return "extinction";
+  }
+  return "";
+}
+
+}  // namespace
+
+bool ModelDescription::has(ParameterRole role) const {
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [&](const ParameterDescription& description) { return description.role == role; });
+}
+
 const ParameterDescription& ModelDescription::parameter(ParameterRole role) const {
   for (const ParameterDescription& description : parameters)
     if (description.role == role) return description;
-  throw remap::Error(remap::ErrorKind::kUsage, name + ": has no parameter of the role that was asked for");
+  throw remap::Error(remap::ErrorKind::kUsage, name + ": has no parameter for " + role_name(role) +
+                                                   "; expected a model with one (remapc list --models)");
 }
 
 ModelDescription find_model(const Renderer& renderer, const std::string& name) {

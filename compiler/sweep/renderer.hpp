@@ -15,10 +15,11 @@
 namespace remapc {
 
 // What a parameter does, so that a sweep can turn it without knowing its name.
-enum class ParameterRole { kRoughness, kSpecular, kDiffuse };
+// A sweep turns the first three; a conductor has an index and an extinction in place of one specular value.
+enum class ParameterRole { kRoughness, kSpecular, kDiffuse, kIndex, kExtinction };
 
 struct ParameterDescription {
-  std::string name;  // the model's own word: alpha, exponent, specular, f0, diffuse
+  std::string name;  // the model's own word: alpha, exponent, specular, f0, ior, eta, k, diffuse
   ParameterRole role = ParameterRole::kSpecular;
   remap::Range range;  // values the renderer accepts, in the parameter's own unit
 };
@@ -29,6 +30,8 @@ struct ModelDescription {
   remap::Range alpha;  // widths that the model can take, canonical
   std::vector<ParameterDescription> parameters;
 
+  bool has(ParameterRole role) const;
+  // Throws kUsage where it has none.
   const ParameterDescription& parameter(ParameterRole role) const;
 };
 

@@ -8,7 +8,8 @@
 #include "error.hpp"
 #include "number_text.hpp"
 #include "parallel.hpp"
-#include "sweep/match.hpp"
+#include "sweep/block_match.hpp"
+#include "sweep/joint_match.hpp"
 #include "sweep/photographer.hpp"
 #include "sweep/target_bank.hpp"
 #include "version.hpp"
@@ -25,33 +26,19 @@ using remap::Range;
 constexpr double kBankRatio = 1.05;
 // The search reaches this far below the narrowest source width; no pair of the hub differs by more than 2.
 constexpr double kNarrowing = 4.0;
+// Laws show in any picture that resolves the highlight.
+constexpr int kProbeResolution = 64;
 
-// Samples of one source width, as indices into SweepOptions::samples: the unit of work and of the journal.
-struct Block {
-  double alpha;
-  std::vector<std::size_t> samples;
-};
-
-std::vector<Block> blocks_of(const std::vector<SamplePoint>& samples) {
+std::vector<SampleBlock> blocks_of(const std::vector<SamplePoint>& samples) {
   std::map<double, std::vector<std::size_t>> by_alpha;
   for (std::size_t i = 0; i < samples.size(); ++i) by_alpha[samples[i].alpha].push_back(i);
-  std::vector<Block> blocks;
+  std::vector<SampleBlock> blocks;
   for (auto& [alpha, indices] : by_alpha) blocks.push_back({alpha, std::move(indices)});
   return blocks;
 }
 
-// Everything that the blocks of one sweep share.
-struct Setup {
-  const SweepOptions& options;
-  ModelDescription source;
-  ModelDescription target;
-  Photographer photographer;
-  SpecularResponse source_response;
-  TargetBank bank;
-};
-
-double max_specular(const ModelDescription& model) {
-  return model.parameter(ParameterRole::kSpecular).range.max;
+std::string range_text(const Range& range) {
+  return number_text(range.min) + " to " + number_text(range.max);
 }
 
 Range sampled_alphas(const std::vector<SamplePoint>& samples) {
@@ -61,81 +48,34 @@ Range sampled_alphas(const std::vector<SamplePoint>& samples) {
   return {low->alpha, high->alpha};
 }
 
-void require_samples(const SweepOptions& options, const ModelDescription& source) {
+void require_options(const SweepOptions& options, const ModelDescription& source) {
   if (options.samples.empty())
     throw Error(ErrorKind::kUsage, "samples: there are none; expected at least one");
-  const Range speculars = source.parameter(ParameterRole::kSpecular).range;
-  for (const SamplePoint& sample : options.samples) {
-    if (source.alpha.contains(sample.alpha) && speculars.contains(sample.specular)) continue;
-    throw Error(ErrorKind::kUsage, source.name + ": sample alpha " + number_text(sample.alpha) +
-                                       ", specular " + number_text(sample.specular) +
-                                       " is out of range; expected alpha " + number_text(source.alpha.min) +
-                                       " to " + number_text(source.alpha.max) + ", specular " +
-                                       number_text(speculars.min) + " to " + number_text(speculars.max));
-  }
+  if (options.stages < 1 || options.stages > 3)
+    throw Error(ErrorKind::kUsage, "stages: " + std::to_string(options.stages) + "; expected 1, 2 or 3");
+  const Range diffuses = source.parameter(ParameterRole::kDiffuse).range;
+  if (!diffuses.contains(options.diffuse))
+    throw Error(ErrorKind::kUsage, source.name + ": diffuse " + number_text(options.diffuse) + "; expected " +
+                                       range_text(diffuses));
 }
 
-TableRow flat_row(const SamplePoint& sample, const ModelDescription& target) {
-  const double alpha = std::clamp(sample.alpha, target.alpha.min, target.alpha.max);
-  return {sample.alpha, sample.specular, alpha, 0.0, 0.0, RowStatus::kFlat, 0};
+void require_alphas(const SweepOptions& options, const ModelDescription& source) {
+  for (const SamplePoint& sample : options.samples)
+    if (!source.alpha.contains(sample.alpha))
+      throw Error(ErrorKind::kUsage, source.name + ": sample alpha " + number_text(sample.alpha) +
+                                         " is out of range; expected alpha " + range_text(source.alpha));
 }
 
-TableRow matched_row(const SamplePoint& sample, const Match& match) {
-  return {sample.alpha, sample.specular, match.alpha, match.specular, match.error, match.status, 0};
+void require_speculars(const SweepOptions& options, const Subject& source) {
+  const Range speculars = source.specular_range();
+  for (const SamplePoint& sample : options.samples)
+    if (!speculars.contains(sample.specular))
+      throw Error(ErrorKind::kUsage, source.model.name + ": sample specular " + number_text(sample.specular) +
+                                         " is out of range; expected specular " + range_text(speculars));
 }
 
-// Pictures of the source where nothing is known of how they depend on specular: one for each sample.
-std::vector<TableRow> match_each(const Setup& setup, const Block& block) {
-  std::vector<TableRow> rows;
-  std::vector<std::size_t> minima;
-  for (const std::size_t index : block.samples) {
-    const SamplePoint& sample = setup.options.samples[index];
-    auto picture = setup.photographer.take(setup.source, {sample.alpha, sample.specular, 0.0});
-    if (sample.specular == 0.0 || *std::max_element(picture.begin(), picture.end()) <= 0.0f) {
-      rows.push_back(flat_row(sample, setup.target));
-      continue;
-    }
-    auto weights =
-        squared_weights(setup.photographer.objective(), picture, setup.photographer.view_cosines());
-    Matcher matcher(setup.bank, {std::move(picture)}, std::move(weights));
-    rows.push_back(matched_row(sample, matcher.match({1.0}, &minima)));
-  }
-  return rows;
-}
-
-// Pictures of an affine source are combinations of two. Where the weights do not depend on specular either
-// (uniform, or relative to a picture that only scales), one set of inner products serves the whole block.
-std::vector<TableRow> match_together(const Setup& setup, const Block& block) {
-  const double full = max_specular(setup.source);
-  auto base = setup.photographer.take(setup.source, {block.alpha, 0.0, 0.0});
-  auto slope = setup.photographer.take(setup.source, {block.alpha, full, 0.0});
-  auto weights = squared_weights(setup.photographer.objective(), slope, setup.photographer.view_cosines());
-  for (std::size_t i = 0; i < slope.size(); ++i)
-    slope[i] = static_cast<float>((static_cast<double>(slope[i]) - base[i]) / full);
-  const bool proportional = setup.source_response.proportional;
-  std::vector<std::vector<float>> basis;
-  basis.push_back(std::move(slope));
-  if (!proportional) basis.push_back(std::move(base));
-  Matcher matcher(setup.bank, std::move(basis), std::move(weights));
-
-  std::vector<TableRow> rows;
-  for (const std::size_t index : block.samples) {
-    const SamplePoint& sample = setup.options.samples[index];
-    std::vector<std::size_t> minima;  // products are shared, so every material can search the whole bank
-    std::vector<double> coefficients = {sample.specular};
-    if (!proportional) coefficients.push_back(1.0);
-    rows.push_back(sample.specular == 0.0 ? flat_row(sample, setup.target)
-                                          : matched_row(sample, matcher.match(coefficients, &minima)));
-  }
-  return rows;
-}
-
-std::vector<TableRow> match_block(const Setup& setup, const Block& block) {
-  const bool uniform = setup.options.objective.weighting == Weighting::kUniform;
-  const SpecularResponse& source = setup.source_response;
-  return source.proportional || (source.affine && uniform) ? match_together(setup, block)
-                                                           : match_each(setup, block);
-}
+// Pictures are floats: digits beyond the ninth are noise.
+double rounded_ratio(double ratio) { return ratio >= 1e-3 ? std::round(ratio * 1e9) / 1e9 : ratio; }
 
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 
@@ -145,33 +85,59 @@ std::string lights_text(const std::vector<Light>& lights) {
   return text;
 }
 
-Table empty_table(const Renderer& renderer, const Setup& setup, const SpecularResponse& target_response) {
+// What the table says of one side: the model, its parameters, and the law that its specular follows.
+void add_side(const std::string& role, const Subject& subject, Table* table) {
+  const remap::ModelSide side = model_side(subject.model);
+  const SpecularResponse& response = subject.response;
+  auto& comments = table->comments;
+  comments.emplace_back(role, side.model);
+  comments.emplace_back(role + "_roughness", std::string(remap::convention_name(side.roughness)));
+  comments.emplace_back(role + "_specular", side.specular);
+  comments.emplace_back(role + "_specular_proportional", yes_no(response.proportional()));
+  comments.emplace_back(role + "_specular_law", std::string(law_name(response.law)));
+  if (response.law == SpecularLaw::kIor) comments.emplace_back(role + "_specular_column", "f0");
+  if (response.law == SpecularLaw::kClamped)
+    comments.emplace_back(role + "_specular_knee", number_text(response.knee));
+}
+
+// What the columns of a side hold.
+remap::ModelSide column_side(const Subject& subject) {
+  remap::ModelSide side = model_side(subject.model);
+  if (subject.response.law == SpecularLaw::kIor) side.specular = "f0";
+  return side;
+}
+
+void add_stages(const SweepSetup& setup, Table* table) {
   const SweepOptions& options = setup.options;
-  const DiffuseMatch diffuse = match_diffuse(setup.photographer, setup.source, setup.target);
-  const remap::ModelSide source = model_side(setup.source), target = model_side(setup.target);
+  auto& comments = table->comments;
+  comments.emplace_back("stages", std::to_string(options.stages));
+  if (options.stages == 1) {
+    comments.emplace_back(
+        "initial_guess", number_text(kFixedGuess.alpha) + "," + number_text(kFixedGuess.specular) + "," +
+                             number_text(kFixedGuess.diffuse) + " of the ranges of alpha, specular, diffuse");
+  }
+  if (table->has_diffuse) comments.emplace_back("diffuse", number_text(options.diffuse));
+  comments.emplace_back("irradiance_scale", number_text(rounded_ratio(setup.irradiance_scale)));
+  comments.emplace_back("diffuse_scale", number_text(rounded_ratio(setup.diffuse.scale)));
+  comments.emplace_back("diffuse_error", number_text(remap::rounded_up(setup.diffuse.error, 2)));
+}
+
+Table empty_table(const Renderer& renderer, const SweepSetup& setup) {
+  const SweepOptions& options = setup.options;
   Table table;
-  table.source = source;
-  table.target = target;
-  table.comments = {
-      {"tool", std::string("remapc ") + remap::kVersion},
-      {"source", source.model},
-      {"source_roughness", std::string(remap::convention_name(source.roughness))},
-      {"source_specular", source.specular},
-      {"source_specular_proportional", yes_no(setup.source_response.proportional)},
-      {"target", target.model},
-      {"target_roughness", std::string(remap::convention_name(target.roughness))},
-      {"target_specular", target.specular},
-      {"target_specular_proportional", yes_no(target_response.proportional)},
-      {"renderer", renderer.version()},
-      {"objective", options.objective_name},
-      {"lights", lights_text(options.objective.lights)},
-      {"weighting", weighting_name(options.objective.weighting)},
-  };
+  table.source = column_side(setup.source);
+  table.target = column_side(setup.target);
+  table.has_diffuse = has_diffuse(options);
+  table.comments = {{"tool", std::string("remapc ") + remap::kVersion}};
+  add_side("source", setup.source, &table);
+  add_side("target", setup.target, &table);
+  table.comments.emplace_back("renderer", renderer.version());
+  table.comments.emplace_back("objective", options.objective_name);
+  table.comments.emplace_back("lights", lights_text(options.objective.lights));
+  table.comments.emplace_back("weighting", weighting_name(options.objective.weighting));
   if (options.objective.weighting == Weighting::kRelative)
     table.comments.emplace_back("weighting_floor", number_text(options.objective.floor));
-  table.comments.emplace_back("stages", "2");
-  table.comments.emplace_back("diffuse_scale", number_text(std::round(diffuse.scale * 1e9) / 1e9));
-  table.comments.emplace_back("diffuse_error", number_text(remap::rounded_up(diffuse.error, 2)));
+  add_stages(setup, &table);
   table.comments.emplace_back("resolution", std::to_string(options.resolution));
   table.comments.emplace_back("pixel_samples", std::to_string(options.samples_per_axis) + "x" +
                                                    std::to_string(options.samples_per_axis));
@@ -179,6 +145,35 @@ Table empty_table(const Renderer& renderer, const Setup& setup, const SpecularRe
                               number_text(subpixel_alpha(options.resolution, options.samples_per_axis)));
   table.comments.emplace_back("samples", options.sampling);
   return table;
+}
+
+// Probes both models, matches their light, and makes what the blocks need.
+SweepSetup make_setup(const SweepOptions& options, const Photographer& photographer,
+                      const ModelDescription& source, const ModelDescription& target) {
+  const Range alphas = sampled_alphas(options.samples);
+  const Range probed{std::max(target.alpha.min, alphas.min), target.alpha.max};
+  const Range searched{std::max(target.alpha.min, alphas.min / kNarrowing), target.alpha.max};
+  SweepSetup setup{options,
+                   photographer,
+                   {source, probe_specular(photographer, source, alphas)},
+                   {target, probe_specular(photographer, target, probed)},
+                   1.0,
+                   match_diffuse(photographer, source, target),
+                   nullptr,
+                   nullptr,
+                   nullptr};
+  if (options.match_irradiance) {
+    setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
+    setup.diffuse.scale = 1.0;
+  }
+  const bool affine = setup.target.response.affine();
+  if (affine) setup.bank = std::make_unique<TargetBank>(photographer, setup.target, searched, kBankRatio);
+  if (!affine) setup.grid = std::make_unique<TargetGrid>(photographer, setup.target, searched);
+  if (affine && has_diffuse(options) && probe_diffuse(photographer, target, probed))
+    setup.pictures = std::make_unique<BankPictures>(photographer, setup.target, *setup.bank);
+  else if (!affine || has_diffuse(options))
+    setup.pictures = std::make_unique<RenderedPictures>(photographer, setup.target, searched);
+  return setup;
 }
 
 }  // namespace
@@ -208,6 +203,11 @@ std::string grid_text(const Range& alphas, std::size_t alpha_count, const Range&
          " specular " + text(speculars);
 }
 
+Range canonical_speculars(const Renderer& renderer, const ModelDescription& model) {
+  const Photographer photographer(renderer, objective_preset("natural"), kProbeResolution, 1);
+  return Subject{model, probe_specular(photographer, model, {0.1, model.alpha.max})}.specular_range();
+}
+
 double subpixel_alpha(int resolution, int samples_per_axis) {
   // The sphere's radius is resolution / 2 pixels; at a camera distance of 3 the half vector turns by 1.5
   // times the angle of the normal near the middle of the picture.
@@ -218,32 +218,20 @@ Table run_sweep(const Renderer& renderer, const SweepOptions& options, const Swe
                 const std::filesystem::path& journal_path, bool resume) {
   const ModelDescription source = find_model(renderer, options.source);
   const ModelDescription target = find_model(renderer, options.target);
-  require_samples(options, source);
+  require_options(options, source);
+  require_alphas(options, source);
   const Photographer photographer(renderer, options.objective, options.resolution, options.samples_per_axis);
-  const Range alphas = sampled_alphas(options.samples);
-  const Range target_alphas{std::max(target.alpha.min, alphas.min / kNarrowing), target.alpha.max};
-  const SpecularResponse target_response = probe_specular(
-      photographer, target, {std::max(target.alpha.min, alphas.min), target.alpha.max}, max_specular(target));
-  if (!target_response.affine)
-    throw Error(ErrorKind::kNumeric, target.name + ": pictures deviate by " +
-                                         number_text(target_response.residual) + " from affine in " +
-                                         model_side(target).specular +
-                                         "; this version matches targets that are affine in it");
-  const Setup setup{options,
-                    source,
-                    target,
-                    photographer,
-                    probe_specular(photographer, source, alphas, max_specular(source)),
-                    TargetBank(photographer, target, target_alphas, kBankRatio)};
+  const SweepSetup setup = make_setup(options, photographer, source, target);
+  require_speculars(options, setup.source);
 
-  Table table = empty_table(renderer, setup, target_response);
+  Table table = empty_table(renderer, setup);
   SweepJournal journal(journal_path, table, options.samples.size(), resume);
   table.rows.resize(options.samples.size());
-  const std::vector<Block> blocks = blocks_of(options.samples);
+  const std::vector<SampleBlock> blocks = blocks_of(options.samples);
   std::mutex mutex;
   std::size_t done = 0;
   remap::run_parallel(blocks.size(), execution.jobs, [&](std::size_t b) {
-    const Block& block = blocks[b];
+    const SampleBlock& block = blocks[b];
     const bool known = std::all_of(block.samples.begin(), block.samples.end(),
                                    [&](std::size_t sample) { return journal.row(sample).has_value(); });
     if (!known && execution.cancelled != nullptr && *execution.cancelled)

@@ -16,7 +16,7 @@ namespace remapc {
 
 struct SamplePoint {
   double alpha = 0.0;
-  double specular = 0.0;
+  double specular = 0.0;  // canonical (probe.hpp)
 };
 
 // What a sweep computes. Every field is recorded in the table's comments.
@@ -28,7 +28,10 @@ struct SweepOptions {
   int resolution = 512;
   int samples_per_axis = 1;
   std::string sampling;              // how the samples were chosen, in words
-  std::vector<SamplePoint> samples;  // in the order of the table
+  std::vector<SamplePoint> samples;  // in the order of the table; specular canonical
+  int stages = 2;                    // 1, 2 or 3 (section 3.1)
+  double diffuse = 0.0;              // of the source, for every sample
+  bool match_irradiance = true;
 };
 
 // How a sweep is carried out. Nothing of it changes the table.
@@ -46,6 +49,9 @@ std::vector<SamplePoint> grid_samples(const remap::Range& alphas, std::size_t al
 // The same in words, for SweepOptions::sampling.
 std::string grid_text(const remap::Range& alphas, std::size_t alpha_count, const remap::Range& speculars,
                       std::size_t specular_count);
+
+// Canonical speculars that `model` takes, by the law that a few small pictures show (probe_specular).
+remap::Range canonical_speculars(const Renderer& renderer, const ModelDescription& model);
 
 // Width below which a highlight under the headlight has a radius of less than one pixel sample, so that a
 // picture no longer resolves it.
@@ -65,12 +71,15 @@ class SweepJournal {
 
  private:
   std::filesystem::path path_;
+  bool has_diffuse_;
   std::vector<std::optional<TableRow>> rows_;
 };
 
-// Matches every sample. The same table for any number of jobs, and whether resumed or not. Throws kUsage for
-// unknown models, kNumeric where the target is not affine in its specular parameter, and what the renderer
-// throws.
+// Matches every sample. Stages 2: width and specular from pictures without diffuse, diffuse apart from them.
+// Stages 1: width, specular and diffuse at once from kFixedGuess (joint_match.hpp); 3: the same from the
+// result of 2. Where the two models' light differs by a factor, the source's pictures are multiplied by it
+// first (section 4). The same table for any number of jobs, and whether resumed or not. Throws kUsage for
+// unknown models and samples out of range, kNumeric where a search breaks, and what the renderer throws.
 Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution,
                 const std::filesystem::path& journal, bool resume);
 

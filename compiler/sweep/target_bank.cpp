@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sweep/match.hpp"
+#include "sweep/interpolation.hpp"
 
 namespace remapc {
 namespace {
@@ -14,11 +14,9 @@ constexpr double kEdgeRefinement = 4.0;
 
 }  // namespace
 
-TargetBank::TargetBank(const Photographer& photographer, const ModelDescription& target,
-                       const remap::Range& alphas, double ratio)
-    : photographer_(photographer),
-      target_(target),
-      max_specular_(target.parameter(ParameterRole::kSpecular).range.max) {
+TargetBank::TargetBank(const Photographer& photographer, const Subject& target, const remap::Range& alphas,
+                       double ratio)
+    : photographer_(photographer), target_(target), speculars_(target.linear_range()) {
   // From the top down: a window of narrow steps, then the full ones.
   log_step_ = std::log(ratio);
   const double bottom = std::log(alphas.min), top = std::log(alphas.max);
@@ -35,12 +33,8 @@ TargetBank::TargetBank(const Photographer& photographer, const ModelDescription&
 const BankEntry& TargetBank::entry(std::size_t node) const {
   Slot& slot = slots_[node];
   std::call_once(slot.once, [&] {
-    slot.entry.base = photographer_.take(target_, {alphas_[node], 0.0, 0.0});
-    slot.entry.slope = photographer_.take(target_, {alphas_[node], max_specular_, 0.0});
-    const double scale = 1.0 / max_specular_;
-    for (std::size_t i = 0; i < slot.entry.base.size(); ++i)
-      slot.entry.slope[i] =
-          static_cast<float>((static_cast<double>(slot.entry.slope[i]) - slot.entry.base[i]) * scale);
+    AffinePictures pictures = take_affine(photographer_, target_, alphas_[node]);
+    slot.entry = {std::move(pictures.base), std::move(pictures.slope)};
   });
   return slot.entry;
 }

@@ -19,15 +19,15 @@ struct BankEntry {
 class TargetBank {
  public:
   // A bank for widths in `alphas`, neighbours at most `ratio` apart, and closer at the upper end, where
-  // interpolation has nodes on one side only. `target` must be affine in its specular parameter
-  // (probe_specular).
-  TargetBank(const Photographer& photographer, const ModelDescription& target, const remap::Range& alphas,
+  // interpolation has nodes on one side only. `target` must be affine in canonical specular (probe.hpp).
+  TargetBank(const Photographer& photographer, const Subject& target, const remap::Range& alphas,
              double ratio);
 
   std::size_t size() const { return alphas_.size(); }
   double alpha(std::size_t node) const { return alphas_[node]; }
-  double log_step() const { return log_step_; }  // largest, in log(alpha)
-  double max_specular() const { return max_specular_; }
+  double log_step() const { return log_step_; }           // largest, in log(alpha)
+  double min_specular() const { return speculars_.min; }  // canonical
+  double max_specular() const { return speculars_.max; }  // a knee, where the target has one
 
   // The pictures of a node; rendered on the first call, kept for the next. Safe from many threads.
   const BankEntry& entry(std::size_t node) const;
@@ -38,8 +38,8 @@ class TargetBank {
     BankEntry entry;
   };
   const Photographer& photographer_;
-  ModelDescription target_;
-  double max_specular_;
+  Subject target_;
+  remap::Range speculars_;
   double log_step_;
   std::vector<double> alphas_;
   mutable std::deque<Slot> slots_;

@@ -17,8 +17,10 @@ using remap::ErrorKind;
 
 constexpr std::array kStatuses = {RowStatus::kOk, RowStatus::kClamped, RowStatus::kFlat,
                                   RowStatus::kUnstable};
-const std::array<std::string, 6> kColumns = {"alpha1", "specular1", "alpha2", "specular2", "error", "status"};
+const std::array<std::string, 8> kColumns = {"alpha1",   "specular1", "alpha2", "specular2",
+                                             "diffuse1", "diffuse2",  "error",  "status"};
 constexpr std::size_t kRequiredColumns = 4;
+constexpr std::size_t kDiffuse1 = 4, kDiffuse2 = 5, kError = 6, kStatus = 7;
 
 // A field of a line with its place, 1-based, for messages.
 struct Cell {
@@ -126,6 +128,11 @@ class Reader {
                     "\"; expected columns parted by comma, tab or semicolon");
       fail(1, "has no column " + wanted + remap::suggestion(wanted, found));
     }
+    const bool source = places_[kDiffuse1] != kMissing, target = places_[kDiffuse2] != kMissing;
+    if (source != target)
+      fail(1, "has a column " + kColumns[source ? kDiffuse1 : kDiffuse2] + " but no " +
+                  kColumns[source ? kDiffuse2 : kDiffuse1] + "; expected both or neither");
+    table_.has_diffuse = source;
   }
 
   double number(const Cell& cell, const std::string& name) const {
@@ -151,9 +158,13 @@ class Reader {
     row.specular1 = number(cells[places_[1]], kColumns[1]);
     row.alpha2 = number(cells[places_[2]], kColumns[2]);
     row.specular2 = number(cells[places_[3]], kColumns[3]);
-    row.error = places_[4] == kMissing ? std::numeric_limits<double>::quiet_NaN()
-                                       : number(cells[places_[4]], kColumns[4]);
-    if (places_[5] != kMissing) row.status = status(cells[places_[5]]);
+    if (table_.has_diffuse) {
+      row.diffuse1 = number(cells[places_[kDiffuse1]], kColumns[kDiffuse1]);
+      row.diffuse2 = number(cells[places_[kDiffuse2]], kColumns[kDiffuse2]);
+    }
+    row.error = places_[kError] == kMissing ? std::numeric_limits<double>::quiet_NaN()
+                                            : number(cells[places_[kError]], kColumns[kError]);
+    if (places_[kStatus] != kMissing) row.status = status(cells[places_[kStatus]]);
     table_.rows.push_back(row);
   }
 
@@ -174,7 +185,8 @@ class Reader {
                                            remap::suggestion(text, remap::convention_names()));
       side.roughness = *convention;
     }
-    if (const std::string text = comment(role + "_specular"); !text.empty()) side.specular = text;
+    for (const char* suffix : {"_specular", "_specular_column"})
+      if (const std::string text = comment(role + suffix); !text.empty()) side.specular = text;
     return side;
   }
 
@@ -238,11 +250,12 @@ Table read_table(const std::filesystem::path& path, const ColumnMap& map) {
   return parse_table(remap::read_file(path), path.string(), map);
 }
 
-std::string row_text(const TableRow& row) {
+std::string row_text(const TableRow& row, bool has_diffuse) {
   std::string text;
-  for (const double value : {row.alpha1, row.specular1, row.alpha2, row.specular2, row.error})
+  for (const double value : {row.alpha1, row.specular1, row.alpha2, row.specular2})
     text += remap::number_text(value) + ",";
-  return text + std::string(status_name(row.status));
+  if (has_diffuse) text += remap::number_text(row.diffuse1) + "," + remap::number_text(row.diffuse2) + ",";
+  return text + remap::number_text(row.error) + "," + std::string(status_name(row.status));
 }
 
 std::vector<TableRow> usable_rows(const Table& table) {
@@ -266,9 +279,12 @@ std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap
 std::string table_text(const Table& table) {
   std::string text;
   for (const auto& [key, value] : table.comments) text += "# " + key + ": " + value + "\n";
-  for (std::size_t i = 0; i < kColumns.size(); ++i) text += (i == 0 ? "" : ",") + kColumns[i];
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    if (!table.has_diffuse && (i == kDiffuse1 || i == kDiffuse2)) continue;
+    text += (i == 0 ? "" : ",") + kColumns[i];
+  }
   text += "\n";
-  for (const TableRow& row : table.rows) text += row_text(row) + "\n";
+  for (const TableRow& row : table.rows) text += row_text(row, table.has_diffuse) + "\n";
   return text;
 }
 

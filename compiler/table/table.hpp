@@ -31,7 +31,9 @@ struct TableRow {
   double specular2 = 0.0;  // target specular, linear
   double error = 0.0;      // image error of the match, relative RMS; NaN where the file has none
   RowStatus status = RowStatus::kOk;
-  std::size_t line = 0;  // in the file it was read from, 1-based; 0 for a new row
+  std::size_t line = 0;   // in the file it was read from, 1-based; 0 for a new row
+  double diffuse1 = 0.0;  // source diffuse, linear; of tables that have it
+  double diffuse2 = 0.0;  // target diffuse, linear
 };
 
 struct Table {
@@ -39,6 +41,7 @@ struct Table {
   std::vector<std::pair<std::string, std::string>> comments;  // `# key: value`, in file order
   remap::ModelSide source;
   remap::ModelSide target;
+  bool has_diffuse = false;  // rows carry diffuse1 and diffuse2
   std::vector<TableRow> rows;
 };
 
@@ -55,9 +58,11 @@ struct ColumnMap {
 ColumnMap column_map(const std::string& text);
 
 // Reads CSV text: UTF-8, comma, tab or semicolon (whichever the header row has), `#` comments before it.
-// Columns alpha1, specular1, alpha2, specular2 are needed, error and status may be missing, others are
-// ignored. Throws kInput with `name:line:column:` for a missing column, a bad number or status, a row of
-// another length, text without rows.
+// Columns alpha1, specular1, alpha2, specular2 are needed; error, status, and diffuse1 with diffuse2 may be
+// missing; others are ignored. The specular of a side is named by `<side>_specular_column` where the columns
+// hold another coordinate than the model's own parameter (F0 for an index), else by `<side>_specular`. Throws
+// kInput with `name:line:column:` for a missing column, a bad number or status, a row of another length, text
+// without rows.
 Table parse_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map = {});
@@ -71,11 +76,11 @@ bool is_inside(const TableRow& row, const remap::Domain& domain);
 // Those of `rows` whose source parameters lie in `domain`.
 std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap::Domain& domain);
 
-// The CSV text of a table: comments, header row, rows. Reading it gives the same table back, number for
-// number.
+// The CSV text of a table: comments, header row, rows; diffuse columns only where it has them. Reading it
+// gives the same table back, number for number.
 std::string table_text(const Table& table);
 
 // One line without its end, as table_text writes it. A sweep that is under way keeps finished rows like that.
-std::string row_text(const TableRow& row);
+std::string row_text(const TableRow& row, bool has_diffuse);
 
 }  // namespace remapc

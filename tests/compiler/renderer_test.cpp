@@ -8,6 +8,7 @@
 
 #include "error.hpp"
 #include "sweep/brdf.hpp"
+#include "sweep/fresnel.hpp"
 
 using namespace remapc;
 using std::numbers::pi;
@@ -54,7 +55,151 @@ double directional_albedo(Brdf brdf, Fresnel fresnel, double alpha, double cos_l
   return sum * (0.5 * pi / kPolar) * (2.0 * pi / kAzimuth);
 }
 
+// The directions at one pixel that looks at the sphere off its middle, from vectors.
+struct PixelGeometry {
+  double cos_light, cos_view, cos_half, cos_light_half, distance_2;
+};
+
+constexpr int kSide = 65, kRow = 25, kColumn = 44;
+constexpr double kLightAngle = 50.0;
+
+PixelGeometry pixel_geometry() {
+  SurfacePoint n{};
+  REQUIRE(sphere_point(kSide, kColumn + 0.5, kRow + 0.5, &n));
+  const double angle = kLightAngle * pi / 180.0;
+  double l[3] = {3.0 * std::sin(angle) - n.x, -n.y, 3.0 * std::cos(angle) - n.z};
+  double v[3] = {-n.x, -n.y, 3.0 - n.z};
+  const double light_length = std::hypot(l[0], l[1], l[2]), view_length = std::hypot(v[0], v[1], v[2]);
+  double h[3];
+  for (int i = 0; i < 3; ++i) {
+    l[i] /= light_length;
+    v[i] /= view_length;
+    h[i] = l[i] + v[i];
+  }
+  const double half_length = std::hypot(h[0], h[1], h[2]);
+  const auto dot = [](const double* a, double x, double y, double z) {
+    return a[0] * x + a[1] * y + a[2] * z;
+  };
+  return {dot(l, n.x, n.y, n.z), dot(v, n.x, n.y, n.z), dot(h, n.x, n.y, n.z) / half_length,
+          dot(h, l[0], l[1], l[2]) / half_length, light_length * light_length};
+}
+
+// D G / (4 cos cos) as Walter et al. 2007 print them, in angles.
+double walter(const std::string& name, double alpha, const PixelGeometry& g) {
+  const double theta_h = std::acos(g.cos_half), tan_h = std::tan(theta_h);
+  const auto shadowing = [&](double cosine) {
+    const double tangent = std::tan(std::acos(cosine)), a = 1.0 / (alpha * tangent);
+    if (name == "ggx") return 2.0 / (1.0 + std::sqrt(1.0 + std::pow(alpha * tangent, 2)));
+    return a >= 1.6 ? 1.0 : (3.535 * a + 2.181 * a * a) / (1.0 + 2.276 * a + 2.577 * a * a);
+  };
+  double d = 0.0;
+  if (name == "ggx")
+    d = alpha * alpha / (pi * std::pow(g.cos_half, 4) * std::pow(alpha * alpha + tan_h * tan_h, 2));
+  else if (name == "beckmann")
+    d = std::exp(-std::pow(tan_h / alpha, 2)) / (pi * alpha * alpha * std::pow(g.cos_half, 4));
+  else
+    d = 1.0 / (pi * alpha * alpha) * std::pow(g.cos_half, 2.0 / (alpha * alpha) - 2.0);
+  return d * shadowing(g.cos_light) * shadowing(g.cos_view) / (4.0 * g.cos_light * g.cos_view);
+}
+
+double pixel_of(const Material& material) {
+  const auto renderer = make_builtin_renderer();
+  return renderer->render(material, {kSide, 1, {kLightAngle, 3.0}}).values[kRow * kSide + kColumn];
+}
+
 }  // namespace
+
+TEST_CASE("renderer: off the middle, microfacet models have Walter's closed forms with every Fresnel") {
+  const PixelGeometry g = pixel_geometry();
+  for (const std::string name : {"ggx", "beckmann", "as"})
+    for (const double alpha : {0.12, 0.4, 0.9}) {
+      const double shape = walter(name, alpha, g) * g.cos_light / g.distance_2;
+      const double weight = std::pow(1.0 - g.cos_light_half, 5);
+      const std::string model = "mitsuba/" + name;
+      const auto pixel = [&](const std::string& kind, std::map<std::string, std::vector<double>> values) {
+        values["alpha"] = {alpha};
+        values["diffuse"] = {0.0};
+        return pixel_of({model + kind, values});
+      };
+      CHECK(pixel("-plain", {{"specular", {0.7}}}) == Approx(0.7 * shape).epsilon(1e-6));
+      CHECK(pixel("", {{"f0", {0.2}}}) == Approx((0.2 + 0.8 * weight) * shape).epsilon(1e-6));
+      CHECK(pixel("-ior", {{"ior", {1.5}}}) == Approx((0.04 + 0.96 * weight) * shape).epsilon(1e-6));
+      CHECK(pixel("-dielectric", {{"ior", {1.5}}}) ==
+            Approx(fresnel_dielectric(g.cos_light_half, 1.5).mean() * shape).epsilon(1e-6));
+      CHECK(pixel("-conductor", {{"eta", {0.2}}, {"k", {3.1}}}) ==
+            Approx(fresnel_conductor(g.cos_light_half, 0.2, 3.1).mean() * shape).epsilon(1e-6));
+      CHECK(pixel("-conductor", {{"eta", {1.5}}, {"k", {0.0}}}) ==
+            Approx(pixel("-dielectric", {{"ior", {1.5}}})).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("renderer: off the middle, Ward and Phong have their closed forms") {
+  const PixelGeometry g = pixel_geometry();
+  const double alpha = 0.4, scale = 0.6 * g.cos_light / g.distance_2;
+  const double lobe =
+      std::exp(-std::pow(std::tan(std::acos(g.cos_half)) / alpha, 2)) / (4 * pi * alpha * alpha);
+  const auto pixel = [&](const std::string& model) {
+    return pixel_of({model, {{"alpha", {alpha}}, {"specular", {0.6}}, {"diffuse", {0.0}}}});
+  };
+  CHECK(pixel("mitsuba/ward") == Approx(scale * lobe / std::sqrt(g.cos_light * g.cos_view)).epsilon(1e-6));
+  CHECK(pixel("mitsuba/ward-duer") == Approx(scale * lobe / (g.cos_light * g.cos_view)).epsilon(1e-6));
+  // |light + view|^2 = 4 cos^2 of half the angle between them.
+  const double half_2 = 4.0 * g.cos_light_half * g.cos_light_half;
+  CHECK(pixel("mitsuba/ward-balanced") ==
+        Approx(scale * 4.0 * lobe / (half_2 * std::pow(g.cos_half, 4))).epsilon(1e-6));
+}
+
+TEST_CASE("renderer: the conserving Ward is Ward up to specular 1 and stays there") {
+  const auto pixel = [&](const std::string& model, double specular) {
+    return pixel_of({model, {{"alpha", {0.4}}, {"specular", {specular}}, {"diffuse", {0.2}}}});
+  };
+  for (const double specular : {0.0, 0.3, 1.0})
+    CHECK(pixel("mitsuba/ward-conserving", specular) == pixel("mitsuba/ward", specular));
+  for (const double specular : {1.0001, 1.5, 2.0})
+    CHECK(pixel("mitsuba/ward-conserving", specular) == pixel("mitsuba/ward", 1.0));
+}
+
+TEST_CASE("renderer: conductors take an index and an extinction for each channel, and are no sweep's") {
+  const auto renderer = make_builtin_renderer();
+  const Scene scene{24, 1, {30.0, 3.0}};
+  const double eta[] = {0.2, 0.9, 1.4}, k[] = {3.9, 2.4, 1.6};
+  const auto picture = [&](std::vector<double> index, std::vector<double> extinction) {
+    return renderer->render(
+        {"mitsuba/as-conductor", {{"alpha", {0.3}}, {"eta", index}, {"k", extinction}, {"diffuse", {0.0}}}},
+        scene);
+  };
+  const Image rgb = picture({eta[0], eta[1], eta[2]}, {k[0], k[1], k[2]});
+  REQUIRE(rgb.channels == 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Image grey = picture({eta[c]}, {k[c]});
+    for (std::size_t i = 0; i < grey.values.size(); ++i) REQUIRE(rgb.values[3 * i + c] == grey.values[i]);
+  }
+  CHECK_THROWS_WITH(grey_material(find_model(*renderer, "mitsuba/as-conductor"), 0.3, 0.5, 0.0),
+                    Catch::Contains("has no parameter for specular"));
+}
+
+TEST_CASE(
+    "brdf: with exact Fresnel microfacet models reflect no more than they receive, and less than white") {
+  for (const Brdf brdf : {Brdf::kBeckmann, Brdf::kGgx, Brdf::kAs})
+    for (const double cos_light : {0.95, 0.3}) {
+      constexpr int kSteps = 200;
+      double white = 0.0, silver = 0.0, glass = 0.0;
+      for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+          const double theta = (i + 0.5) * 0.5 * pi / kSteps;
+          const LocalGeometry g = geometry(cos_light, std::cos(theta), (j + 0.5) * pi / kSteps);
+          const double share = evaluate_shape(brdf, 0.4, g) * std::cos(theta) * std::sin(theta) *
+                               (0.5 * pi / kSteps) * (2.0 * pi / kSteps);
+          white += share;
+          silver += share * fresnel_conductor(g.cos_light_half, 0.05, 3.6).mean();
+          glass += share * fresnel_dielectric(g.cos_light_half, 1.5).mean();
+        }
+      CHECK(white <= 1.0 + 1e-3);
+      CHECK(silver < white);
+      CHECK(silver > 0.9 * white);
+      CHECK(glass < 0.5 * white);
+    }
+}
 
 TEST_CASE("renderer: radiance along the normal has the closed form of each model") {
   for (const double alpha : {0.1, 0.35, 0.8}) {
@@ -134,6 +279,8 @@ TEST_CASE("brdf: microfacet distributions have projected area 1") {
   }
 }
 
+// All of the hub's models, Phong as Mitsuba defines it included: cos^n of the mirrored angle without division
+// by the cosine of the light is symmetric.
 TEST_CASE("brdf: light and view can change places") {
   for (const Brdf brdf : kAllBrdfs) {
     const Lobe there = evaluate_lobe(brdf, Fresnel::kSchlick, 0.4, geometry(0.9, 0.35, 1.1));

@@ -1,5 +1,5 @@
-// The sweep against the published table, against the figures measured outside this project, against pictures
-// rendered at its own answers, and behind a renderer that it has never seen.
+// The sweep against the published table, against the figures measured outside this project, and against
+// pictures rendered at its own answers.
 #include "sweep/sweep.hpp"
 
 #include <cmath>
@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "compiler/sweep_session.hpp"
 #include "error.hpp"
 #include "files.hpp"
 #include "support/shared_data.hpp"
@@ -16,70 +17,6 @@
 #include "sweep/photographer.hpp"
 
 using namespace remapc;
-
-namespace {
-
-SweepOptions sweep_options(const std::string& source, const std::string& target, const std::string& objective,
-                           std::vector<SamplePoint> samples, int resolution = 512) {
-  return {source, target, objective_preset(objective), objective, resolution, 1, "test", std::move(samples)};
-}
-
-Table sweep(const Renderer& renderer, const SweepOptions& options, unsigned jobs = 0) {
-  const remap::TemporaryFolder folder;
-  SweepExecution execution;
-  execution.jobs = jobs;
-  return run_sweep(renderer, options, execution, folder.path() / "journal", false);
-}
-
-// A closed renderer: another name and scale for every parameter, light of unknown strength, an image that is
-// turned about an axis the sweep knows nothing of, noise-free but neither radially symmetric nor analytic to
-// the sweep.
-class DisguisedRenderer final : public Renderer {
- public:
-  std::string version() const override { return "disguised 1"; }
-  std::vector<ModelDescription> models() const override {
-    return {{"disguised/metal",
-             remap::RoughnessConvention::kGlossiness,
-             {1e-3, 1.0},
-             {{"gloss", ParameterRole::kRoughness, {0.0, 1.0}},
-              {"shine", ParameterRole::kSpecular, {0.0, 4.0}},
-              {"paint", ParameterRole::kDiffuse, {0.0, 1.0}}}}};
-  }
-  Image render(const Material& material, const Scene& scene) const override {
-    const double alpha =
-        remap::to_alpha(remap::RoughnessConvention::kGlossiness, material.parameters.at("gloss")[0]);
-    const double shine = material.parameters.at("shine")[0], paint = material.parameters.at("paint")[0];
-    Image image = inner_->render(
-        {"mitsuba/ward", {{"alpha", {alpha * 0.8}}, {"specular", {shine / 4.0}}, {"diffuse", {paint}}}},
-        scene);
-    for (float& value : image.values) value *= 0.5f;
-    return image;
-  }
-
- private:
-  std::unique_ptr<Renderer> inner_ = make_builtin_renderer();
-};
-
-// Both renderers under one roof, as a sweep between two renderers needs it.
-class BothRenderers final : public Renderer {
- public:
-  std::string version() const override { return "both"; }
-  std::vector<ModelDescription> models() const override {
-    auto all = builtin_->models();
-    for (const auto& model : disguised_.models()) all.push_back(model);
-    return all;
-  }
-  Image render(const Material& material, const Scene& scene) const override {
-    return material.model.starts_with("disguised/") ? disguised_.render(material, scene)
-                                                    : builtin_->render(material, scene);
-  }
-
- private:
-  std::unique_ptr<Renderer> builtin_ = make_builtin_renderer();
-  DisguisedRenderer disguised_;
-};
-
-}  // namespace
 
 TEST_CASE("sweep: objective paper gives the published table back at its own samples", "[slow]") {
   const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
@@ -168,82 +105,6 @@ TEST_CASE("sweep: the answer is the minimum of the loss as direct renders show i
                          loss(row.alpha2 + step, row.specular2), step)) < 2e-5);
   CHECK(std::fabs(vertex(loss(row.alpha2, row.specular2 - step), middle,
                          loss(row.alpha2, row.specular2 + step), step)) < 2e-5);
-}
-
-TEST_CASE("sweep: a renderer with other names, scales and light is matched through its pictures alone") {
-  const BothRenderers renderers;
-  const auto samples = grid_samples({0.1, 0.7}, 3, {0.0, 0.8}, 4);
-  // Its width is ward's alpha / 0.8, its specular ward's * 4, its light half as strong.
-  for (const TableRow& row :
-       sweep(renderers, sweep_options("mitsuba/ward", "disguised/metal", "natural", samples, 96)).rows) {
-    const bool reachable = row.specular1 * 8.0 < 4.0;
-    CHECK(row.status == (reachable ? RowStatus::kOk : RowStatus::kClamped));
-    CHECK(row.specular2 == Approx(reachable ? row.specular1 * 8.0 : 4.0).epsilon(1e-6));
-    if (reachable) CHECK(row.alpha2 == Approx(row.alpha1 / 0.8).epsilon(1e-6));
-  }
-}
-
-TEST_CASE("sweep: diffuse is matched apart from specular") {
-  const BothRenderers renderers;
-  const Photographer photographer(renderers, objective_preset("natural"), 64, 1);
-  const DiffuseMatch match = match_diffuse(photographer, find_model(renderers, "mitsuba/ggx"),
-                                           find_model(renderers, "disguised/metal"));
-  CHECK(match.scale == Approx(2.0).epsilon(1e-6));
-  CHECK(match.error < 1e-5);
-}
-
-TEST_CASE("probe: scale and Schlick are told apart by pictures") {
-  const auto renderer = make_builtin_renderer();
-  const Photographer photographer(*renderer, objective_preset("natural"), 64, 1);
-  const auto probe = [&](const std::string& model) {
-    return probe_specular(photographer, find_model(*renderer, model), {0.05, 1.0}, 1.0);
-  };
-  CHECK(probe("mitsuba/ward").proportional);
-  CHECK(probe("mitsuba/ggx").affine);
-  CHECK_FALSE(probe("mitsuba/ggx").proportional);
-}
-
-TEST_CASE("sweep: a target that is not affine in specular is refused with the deviation") {
-  class QuadraticRenderer final : public Renderer {
-   public:
-    std::string version() const override { return "quadratic 1"; }
-    std::vector<ModelDescription> models() const override { return inner_->models(); }
-    Image render(const Material& material, const Scene& scene) const override {
-      Material squared = material;
-      double& specular = squared.parameters.at("specular")[0];
-      specular *= specular;
-      return inner_->render(squared, scene);
-    }
-    std::unique_ptr<Renderer> inner_ = make_builtin_renderer();
-  };
-  CHECK_THROWS_WITH(
-      sweep(QuadraticRenderer(), sweep_options("mitsuba/ward", "mitsuba/ward", "natural", {{0.2, 0.5}}, 32)),
-      Catch::Contains("deviate by") && Catch::Contains("affine"));
-}
-
-TEST_CASE("sweep: a source that is not affine is rendered sample by sample") {
-  class QuadraticSource final : public Renderer {
-   public:
-    std::string version() const override { return "quadratic source 1"; }
-    std::vector<ModelDescription> models() const override { return inner_->models(); }
-    Image render(const Material& material, const Scene& scene) const override {
-      Material changed = material;
-      if (material.model == "mitsuba/ward")
-        changed.parameters.at("specular")[0] *= material.parameters.at("specular")[0];
-      return inner_->render(changed, scene);
-    }
-    std::unique_ptr<Renderer> inner_ = make_builtin_renderer();
-  };
-  const auto samples = grid_samples({0.2, 0.4}, 2, {0.0, 0.9}, 3);
-  for (const TableRow& row : sweep(QuadraticSource(), sweep_options("mitsuba/ward", "mitsuba/beckmann-plain",
-                                                                    "natural", samples, 64))
-                                 .rows) {
-    const auto same =
-        sweep(*make_builtin_renderer(), sweep_options("mitsuba/ward", "mitsuba/beckmann-plain", "natural",
-                                                      {{row.alpha1, row.specular1 * row.specular1}}, 64));
-    CHECK(row.alpha2 == Approx(same.rows.front().alpha2).epsilon(1e-5));
-    CHECK(row.specular2 == Approx(same.rows.front().specular2).epsilon(1e-5));
-  }
 }
 
 TEST_CASE("sweep: the table has the same bytes for any number of threads") {

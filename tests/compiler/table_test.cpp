@@ -41,6 +41,29 @@ TEST_CASE("table: what is written is read back number for number") {
   CHECK(back.target.roughness == remap::RoughnessConvention::kExponent);
 }
 
+TEST_CASE("table: diffuse is written where rows have it, and read back") {
+  Table table;
+  table.has_diffuse = true;
+  table.rows = {{0.1, 0.2, 0.3, 0.4, 0.5, RowStatus::kOk, 0, 1.0 / 7.0, 0.25}};
+  const std::string text = table_text(table);
+  CHECK(text.starts_with("alpha1,specular1,alpha2,specular2,diffuse1,diffuse2,error,status\n"));
+  const Table back = parse(text);
+  CHECK(back.has_diffuse);
+  CHECK(back.rows[0].diffuse1 == 1.0 / 7.0);
+  CHECK(back.rows[0].diffuse2 == 0.25);
+  CHECK(table_text(back) == text);
+  table.has_diffuse = false;
+  CHECK(table_text(table) == kHeader + "0.1,0.2,0.3,0.4,0.5,ok\n");
+  CHECK_THROWS_WITH(parse("alpha1,specular1,alpha2,specular2,diffuse2\n1,2,3,4,5\n"),
+                    Catch::Contains("has a column diffuse2 but no diffuse1; expected both or neither"));
+}
+
+TEST_CASE("table: a side is named by what its column holds") {
+  const Table table = parse("# source: a/b\n# source_specular: ior\n# source_specular_column: f0\n" +
+                            kHeader + "0.1,0.2,0.3,0.4,0,ok\n");
+  CHECK(table.source.specular == "f0");
+}
+
 TEST_CASE("table: comma, tab and semicolon are told apart, spaces, quotes, BOM and CRLF are no harm") {
   for (const char delimiter : {',', '\t', ';'}) {
     std::string text =

@@ -1,0 +1,303 @@
+#include "study/conductors_study.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <set>
+
+#include "files.hpp"
+#include "number_text.hpp"
+#include "parallel.hpp"
+#include "study/materials.hpp"
+#include "study/study_plot.hpp"
+#include "study/study_sweep.hpp"
+#include "sweep/fresnel.hpp"
+#include "sweep/match.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+const std::string kSource = "mitsuba/as", kTarget = "mitsuba/ward-conserving";
+constexpr double kBankRatio = 1.05;  // as in sweeps
+
+double reflectance(const Conductor& metal, std::size_t channel) {
+  return normal_reflectance({metal.eta[channel], metal.k[channel]});
+}
+
+// A straight line through points, least squares.
+struct Line {
+  double slope = 0.0, offset = 0.0;
+
+  static Line through(const std::vector<std::pair<double, double>>& points) {
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    const auto count = static_cast<double>(points.size());
+    for (const auto& [px, py] : points) x += px / count, y += py / count;
+    for (const auto& [px, py] : points) xx += (px - x) * (px - x), xy += (px - x) * (py - y);
+    const double slope = xx > 0.0 ? xy / xx : 0.0;
+    return {slope, y - slope * x};
+  }
+  double at(double x) const { return offset + slope * x; }
+};
+
+std::vector<SamplePoint> metal_samples(const StudyOptions& options) {
+  std::set<double> f0s;
+  for (const Conductor& metal : measured_conductors())
+    for (std::size_t c = 0; c < 3; ++c) f0s.insert(reflectance(metal, c));
+  std::vector<SamplePoint> samples;
+  for (const double alpha : options.alphas)
+    for (const double f0 : f0s) samples.push_back({alpha, f0});
+  return samples;
+}
+
+Material conductor(double alpha, double eta, double k) {
+  return {"mitsuba/as-conductor", {{"alpha", {alpha}}, {"eta", {eta}}, {"k", {k}}, {"diffuse", {0.0}}}};
+}
+
+// What exact Fresnel is compared with, and remapped to.
+struct ExactMatching {
+  const Photographer& photographer;
+  ModelDescription source;
+  TargetBank bank;
+
+  TableRow match(double alpha, double f0, const std::vector<float>& picture) const {
+    Matcher matcher(bank, {picture}, squared_weights(photographer.objective(), picture, {}));
+    std::vector<std::size_t> minima;
+    const Match found = matcher.match({1.0}, &minima);
+    return {alpha, f0, found.alpha, found.specular, found.error, found.status, 0};
+  }
+};
+
+double square_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::pow(static_cast<double>(a[i]) - b[i], 2);
+  return sum;
+}
+
+double square_sum(const std::vector<float>& a) {
+  double sum = 0.0;
+  for (const float value : a) sum += static_cast<double>(value) * value;
+  return sum;
+}
+
+// One metal at one width: its rows by index, and how far Schlick's picture is from the exact one.
+void match_metal(const ExactMatching& matching, const Conductor& metal, double alpha, ConductorRow* rows,
+                 FresnelDifference* fresnel) {
+  double difference = 0.0, power = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double f0 = reflectance(metal, c);
+    const auto exact = matching.photographer.take(conductor(alpha, metal.eta[c], metal.k[c]));
+    const auto schlick = matching.photographer.take(matching.source, Sitting{alpha, f0, 0.0});
+    difference += square_difference(exact, schlick);
+    power += square_sum(exact);
+    rows[c].material = metal.name;
+    rows[c].channel = c;
+    rows[c].f0 = f0;
+    rows[c].by_index = matching.match(alpha, f0, exact);
+  }
+  *fresnel = {metal.name, alpha, std::sqrt(difference / power)};
+}
+
+void match_exactly(const Renderer& renderer, const StudyOptions& options, ConductorsStudy* study) {
+  const SweepOptions setting = study_sweep_options(kSource, kTarget, {}, options.resolution);
+  const Photographer photographer(renderer, setting.objective, options.resolution, 1);
+  const ModelDescription target = find_model(renderer, kTarget);
+  const remap::Range alphas{options.alphas.front() / 4.0, target.alpha.max};
+  const Subject subject{target, probe_specular(photographer, target, alphas)};
+  const ExactMatching matching{photographer, find_model(renderer, kSource),
+                               TargetBank(photographer, subject, alphas, kBankRatio)};
+  const auto metals = measured_conductors();
+  const std::size_t tasks = metals.size() * options.alphas.size();
+  study->rows.resize(3 * tasks);
+  study->fresnel.resize(tasks);
+  std::atomic<std::size_t> done{0};
+  remap::run_parallel(tasks, options.jobs, [&](std::size_t task) {
+    const Conductor& metal = metals[task % metals.size()];
+    match_metal(matching, metal, options.alphas[task / metals.size()], &study->rows[3 * task],
+                &study->fresnel[task]);
+    if (options.progress)
+      options.progress(0.3 + 0.5 * static_cast<double>(++done) / static_cast<double>(tasks));
+  });
+}
+
+ConductorCurve curve_of(const std::vector<TableRow>& rows, double alpha) {
+  ConductorCurve curve;
+  curve.alpha = alpha;
+  std::vector<std::pair<double, double>> points;
+  for (const TableRow& row : rows) {
+    if (row.status == RowStatus::kOk) points.emplace_back(row.specular1, row.specular2);
+    if (row.status == RowStatus::kOk) curve.ok_alpha += row.alpha2;
+    ++(row.status == RowStatus::kOk        ? curve.ok
+       : row.status == RowStatus::kClamped ? curve.clamped
+                                           : curve.other);
+  }
+  if (points.size() < 2) return curve;
+  curve.ok_alpha /= static_cast<double>(curve.ok);
+  const Line line = Line::through(points);
+  curve.limit_f0 = (1.0 - line.offset) / line.slope;
+  for (const auto& [x, y] : points)
+    curve.line_deviation = std::max(curve.line_deviation, std::fabs(line.at(x) - y));
+  for (const TableRow& row : rows)
+    if (row.status == RowStatus::kClamped)
+      curve.clamped_alpha_shift =
+          std::max(curve.clamped_alpha_shift, std::fabs(row.alpha2 / curve.ok_alpha - 1.0));
+  return curve;
+}
+
+std::vector<TableRow> rows_of_alpha(const Table& table, double alpha) {
+  std::vector<TableRow> rows;
+  for (const TableRow& row : table.rows)
+    if (row.alpha1 == alpha) rows.push_back(row);
+  return rows;
+}
+
+// From Ward back, the rows that can be trusted.
+void travel_back(const Renderer& renderer, const StudyOptions& options, const SweepExecution& execution,
+                 const std::filesystem::path& scratch, ConductorsStudy* study) {
+  const std::vector<TableRow> there = usable_rows(study->there);
+  std::vector<SamplePoint> samples;
+  for (const TableRow& row : there) samples.push_back({row.alpha2, row.specular2});
+  study->back =
+      run_study_sweep(renderer, study_sweep_options(kTarget, kSource, std::move(samples), options.resolution),
+                      execution, scratch);
+  RoundTrip trip;
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    const TableRow& back = study->back.rows[i];
+    if (back.status != RowStatus::kOk) continue;
+    points.emplace_back(there[i].specular1, back.specular2);
+    trip.f0_deviation = std::max(trip.f0_deviation, std::fabs(back.specular2 - there[i].specular1));
+    trip.alpha_deviation = std::max(trip.alpha_deviation, std::fabs(back.alpha2 - there[i].alpha1));
+  }
+  const Line line = Line::through(points);
+  trip.rows = points.size();
+  trip.slope = line.slope;
+  trip.offset = line.offset;
+  study->round_trip = trip;
+}
+
+// Largest difference in alpha and specular, over the rows that are ok in both.
+double difference(const Table& a, const Table& b) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < a.rows.size(); ++i)
+    if (a.rows[i].status == RowStatus::kOk && b.rows[i].status == RowStatus::kOk)
+      worst = std::max({worst, std::fabs(a.rows[i].alpha2 - b.rows[i].alpha2),
+                        std::fabs(a.rows[i].specular2 - b.rows[i].specular2)});
+  return worst;
+}
+
+// Gives each row of a metal its row of the sweep by F0.
+void join_rows(ConductorsStudy* study) {
+  std::map<std::pair<double, double>, const TableRow*> by_sample;
+  for (const TableRow& row : study->there.rows) by_sample[{row.alpha1, row.specular1}] = &row;
+  for (ConductorRow& row : study->rows) {
+    row.by_f0 = *by_sample.at({row.by_index.alpha1, row.f0});
+    if (row.by_f0.status == RowStatus::kOk && row.by_index.status == RowStatus::kOk)
+      study->exact_specular_shift = std::max(study->exact_specular_shift,
+                                             std::fabs(row.by_index.specular2 / row.by_f0.specular2 - 1.0));
+  }
+}
+
+}  // namespace
+
+ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& options,
+                                 const std::filesystem::path& scratch) {
+  ConductorsStudy study;
+  SweepExecution execution;
+  execution.jobs = options.jobs;
+  SweepOptions there = study_sweep_options(kSource, kTarget, metal_samples(options), options.resolution);
+  study.there = run_study_sweep(renderer, there, execution, scratch);
+  if (options.progress) options.progress(0.2);
+  there.target = "mitsuba/ward";
+  study.plain_difference = difference(study.there, run_study_sweep(renderer, there, execution, scratch));
+  if (options.progress) options.progress(0.3);
+  for (const double alpha : options.alphas)
+    study.curves.push_back(curve_of(rows_of_alpha(study.there, alpha), alpha));
+  match_exactly(renderer, options, &study);
+  join_rows(&study);
+  travel_back(renderer, options, execution, scratch, &study);
+  if (options.progress) options.progress(1.0);
+  return study;
+}
+
+std::vector<std::string> conductors_words(const ConductorsStudy& study) {
+  std::vector<std::string> words;
+  words.push_back(std::to_string(measured_conductors().size()) + " metals, three channels each, " + kSource +
+                  " to " + kTarget + ", light at 45 degrees:");
+  double deviation = 0.0, shift = 0.0;
+  for (const ConductorCurve& curve : study.curves) {
+    words.push_back("alpha " + number_text(curve.alpha) + ": " + std::to_string(curve.ok) + " of " +
+                    std::to_string(curve.ok + curve.clamped + curve.other) +
+                    " rows ok and on a straight line within " + short_text(curve.line_deviation) +
+                    " in specular; specular of Ward passes 1 at F0 " + short_text(curve.limit_f0) +
+                    ", beyond it " + std::to_string(curve.clamped) + " rows are flagged as clamped" +
+                    (curve.other == 0 ? "" : ", " + std::to_string(curve.other) + " as unstable or flat") +
+                    (curve.clamped == 0 ? ""
+                                        : ", where target alpha drifts by up to " +
+                                              percent_text(curve.clamped_alpha_shift)));
+    deviation = std::max(deviation, curve.line_deviation);
+    shift = std::max(shift, curve.clamped_alpha_shift);
+  }
+  words.push_back("figure 6: smooth (largest distance from a line " + short_text(deviation) +
+                  ") except where specular of Ward passes 1; every such row is flagged");
+  words.push_back("mitsuba/ward, which ends at 1, gives the same ok rows within " +
+                  short_text(study.plain_difference));
+  const RoundTrip& trip = study.round_trip;
+  words.push_back("figure 7: the " + std::to_string(trip.rows) + " ok rows back to " + kSource + ": slope " +
+                  short_text(trip.slope, 6) + ", offset " + short_text(trip.offset) + ", F0 within " +
+                  short_text(trip.f0_deviation) + ", alpha within " + short_text(trip.alpha_deviation));
+  const auto worst = std::max_element(
+      study.fresnel.begin(), study.fresnel.end(),
+      [](const FresnelDifference& a, const FresnelDifference& b) { return a.error < b.error; });
+  double mean = 0.0;
+  for (const FresnelDifference& item : study.fresnel)
+    mean += item.error / static_cast<double>(study.fresnel.size());
+  words.push_back("Schlick from F0 against exact Fresnel: the pictures differ by " + percent_text(mean) +
+                  " on average, at most " + percent_text(worst->error) + " (" + worst->material + ", alpha " +
+                  number_text(worst->alpha) + "); Ward specular by at most " +
+                  percent_text(study.exact_specular_shift));
+  return words;
+}
+
+std::vector<std::string> write_conductors(const ConductorsStudy& study, const std::filesystem::path& folder) {
+  std::string rows =
+      "material,channel,f0,alpha1,alpha2_by_f0,specular2_by_f0,error_by_f0,status_by_f0,alpha2_by_index,"
+      "specular2_by_index,error_by_index,status_by_index\n";
+  for (const ConductorRow& row : study.rows) {
+    rows += row.material + "," + std::string(1, "rgb"[row.channel]) + "," + number_text(row.f0) + "," +
+            number_text(row.by_f0.alpha1);
+    for (const TableRow* side : {&row.by_f0, &row.by_index})
+      rows += "," + number_text(side->alpha2) + "," + number_text(side->specular2) + "," +
+              number_text(side->error) + "," + std::string(status_name(side->status));
+    rows += "\n";
+  }
+  std::string fresnel = "material,alpha,schlick_error\n";
+  for (const FresnelDifference& item : study.fresnel)
+    fresnel += item.material + "," + number_text(item.alpha) + "," + number_text(item.error) + "\n";
+  remap::write_file(folder / "conductors.csv", rows);
+  remap::write_file(folder / "fresnel.csv", fresnel);
+  remap::write_file(folder / "as_to_ward.csv", table_text(study.there));
+  remap::write_file(folder / "ward_to_as.csv", table_text(study.back));
+
+  StudyPlot there{
+      "Figure 6: metals, one curve a width; open: flagged", "F0 of " + kSource, "specular of " + kTarget, {}};
+  for (const ConductorCurve& curve : study.curves) {
+    StudyCurve ok{"alpha " + number_text(curve.alpha), {}, false}, flagged{"", {}, true};
+    for (const TableRow& row : rows_of_alpha(study.there, curve.alpha))
+      (row.status == RowStatus::kOk ? ok : flagged).points.emplace_back(row.specular1, row.specular2);
+    there.curves.push_back(ok);
+    there.curves.push_back(flagged);
+  }
+  StudyPlot trip{"Figure 7: there and back", "F0", "F0 that came back", {{"ok rows", {}, true}}};
+  const std::vector<TableRow> usable = usable_rows(study.there);
+  for (std::size_t i = 0; i < usable.size(); ++i)
+    trip.curves[0].points.emplace_back(usable[i].specular1, study.back.rows[i].specular2);
+  std::vector<std::string> files = {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"};
+  if (write_study_plot(folder / "figure6_7.svg", {there, trip})) files.push_back("figure6_7.svg");
+  return files;
+}
+
+}  // namespace remapc

@@ -1,0 +1,335 @@
+#include "study/dielectrics_study.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "files.hpp"
+#include "number_text.hpp"
+#include "parallel.hpp"
+#include "study/materials.hpp"
+#include "study/study_plot.hpp"
+#include "study/study_sweep.hpp"
+#include "sweep/joint_match.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+const std::string kSource = "mitsuba/as-dielectric", kTarget = "mitsuba/ward";
+constexpr remap::Range kIors{1.05, 2.5};
+constexpr std::size_t kIorCount = 30;  // 0.05 apart
+constexpr double kBankRatio = 1.05;    // as in sweeps
+constexpr double kLostError = 1.01;    // above the best error known: another minimum
+constexpr double kSameError = 1e-4;    // errors below this are rounding of pictures
+constexpr double kJumpStep = 5.0;      // times the median step
+
+// Guesses of every kind: narrow, middle and wide, without and with much specular, dark and bright.
+std::vector<Sitting> trial_guesses() {
+  std::vector<Sitting> guesses;
+  for (const double alpha : {0.02, 0.2, 0.5, 0.98})
+    for (const double specular : {0.0, 0.5, 1.0})
+      for (const double diffuse : {0.0, 0.5, 1.0}) guesses.push_back({alpha, specular, diffuse});
+  return guesses;
+}
+
+double grid_ior(std::size_t i) {
+  return std::round(1e6 * (kIors.min + (kIors.max - kIors.min) * static_cast<double>(i) /
+                                           static_cast<double>(kIorCount - 1))) /
+         1e6;
+}
+
+// The uniform grid of indices, and those of the measured materials.
+std::vector<SamplePoint> dielectric_samples(const StudyOptions& options) {
+  std::set<double> iors;
+  for (std::size_t i = 0; i < kIorCount; ++i) iors.insert(grid_ior(i));
+  for (const Dielectric& material : measured_dielectrics()) iors.insert(material.ior);
+  std::vector<SamplePoint> samples;
+  for (const double alpha : options.alphas)
+    for (const double ior : iors) samples.push_back({alpha, ior});
+  return samples;
+}
+
+std::map<std::pair<double, double>, const TableRow*> rows_by_sample(const Table& table) {
+  std::map<std::pair<double, double>, const TableRow*> rows;
+  for (const TableRow& row : table.rows) rows[{row.alpha1, row.specular1}] = &row;
+  return rows;
+}
+
+// The rows of the uniform grid at one width.
+std::vector<const TableRow*> grid_rows(const Table& table, double alpha) {
+  const auto rows = rows_by_sample(table);
+  std::vector<const TableRow*> grid;
+  for (std::size_t i = 0; i < kIorCount; ++i) grid.push_back(rows.at({alpha, grid_ior(i)}));
+  return grid;
+}
+
+double specular_range(const std::vector<const TableRow*>& rows) {
+  const auto [low, high] =
+      std::minmax_element(rows.begin(), rows.end(),
+                          [](const TableRow* a, const TableRow* b) { return a->specular2 < b->specular2; });
+  return (*high)->specular2 - (*low)->specular2;
+}
+
+DielectricCurve curve_of(const Table& table, int stages, double alpha) {
+  const std::vector<const TableRow*> rows = grid_rows(table, alpha);
+  DielectricCurve curve;
+  curve.stages = stages;
+  curve.alpha = alpha;
+  curve.rows = rows.size();
+  const double range = specular_range(rows);
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    curve.mean_error += rows[i]->error / static_cast<double>(rows.size());
+    curve.worst_error = std::max(curve.worst_error, rows[i]->error);
+    curve.unstable += rows[i]->status == RowStatus::kUnstable ? 1 : 0;
+    curve.clamped += rows[i]->status == RowStatus::kClamped ? 1 : 0;
+    if (i == 0) continue;
+    steps.push_back(std::fabs(rows[i]->specular2 - rows[i - 1]->specular2));
+    if (i + 1 == rows.size()) continue;
+    const double second = rows[i + 1]->specular2 - 2.0 * rows[i]->specular2 + rows[i - 1]->specular2;
+    curve.roughness = std::max(curve.roughness, std::fabs(second) / range);
+  }
+  const auto largest = std::max_element(steps.begin(), steps.end());
+  curve.step_ior = rows[static_cast<std::size_t>(largest - steps.begin()) + 1]->specular1;
+  curve.largest_step = *largest;
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  curve.largest_step /= steps[steps.size() / 2];
+  return curve;
+}
+
+// One row of trials: every guess, at one sample.
+using Errors = std::vector<double>;
+
+// The image errors that one-stage matches from every trial guess end with, for each width and grid index.
+std::map<std::pair<double, double>, Errors> try_guesses(const Renderer& renderer, const StudyOptions& options,
+                                                        double diffuse) {
+  const SweepOptions setting = study_sweep_options(kSource, kTarget, {}, options.resolution);
+  const Photographer photographer(renderer, setting.objective, options.resolution, 1);
+  const ModelDescription source = find_model(renderer, kSource), target = find_model(renderer, kTarget);
+  const remap::Range alphas{options.alphas.front() / 4.0, target.alpha.max};
+  const Subject subject{target, probe_specular(photographer, target, alphas)};
+  const TargetBank bank(photographer, subject, alphas, kBankRatio);
+  const BankPictures pictures(photographer, subject, bank);
+  const std::vector<Sitting> guesses = trial_guesses();
+  std::vector<Errors> found(options.alphas.size() * kIorCount);
+  std::atomic<std::size_t> done{0};
+  remap::run_parallel(found.size(), options.jobs, [&](std::size_t task) {
+    const Sitting sitting{options.alphas[task / kIorCount], grid_ior(task % kIorCount), diffuse};
+    auto picture = photographer.take(source, sitting);
+    auto weights = squared_weights(photographer.objective(), picture, {});
+    const JointMatcher matcher(pictures, std::move(picture), std::move(weights), {true, diffuse > 0.0});
+    for (const Sitting& guess : guesses)
+      found[task].push_back(matcher.best_match({matcher.point_of(guess)}).error);
+    if (options.progress)
+      options.progress(0.6 + 0.4 * static_cast<double>(++done) / static_cast<double>(found.size()));
+  });
+  std::map<std::pair<double, double>, Errors> by_sample;
+  for (std::size_t task = 0; task < found.size(); ++task)
+    by_sample[{options.alphas[task / kIorCount], grid_ior(task % kIorCount)}] = found[task];
+  return by_sample;
+}
+
+std::vector<GuessTrial> judge_guesses(const std::map<std::pair<double, double>, Errors>& errors,
+                                      const Table& three, const std::vector<double>& alphas) {
+  const std::vector<Sitting> guesses = trial_guesses();
+  std::vector<GuessTrial> trials;
+  for (const double alpha : alphas) {
+    const std::vector<const TableRow*> rows = grid_rows(three, alpha);
+    for (std::size_t g = 0; g < guesses.size(); ++g) {
+      GuessTrial trial{guesses[g], alpha, rows.size(), 0, 0.0, 0.0, 0};
+      bool before = false;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const bool lost =
+            errors.at({alpha, rows[i]->specular1})[g] > kLostError * rows[i]->error + kSameError;
+        trial.jumps += i > 0 && lost != before ? 1 : 0;
+        before = lost;
+        if (!lost) continue;
+        if (trial.lost++ == 0) trial.first_lost_ior = rows[i]->specular1;
+        trial.last_lost_ior = rows[i]->specular1;
+      }
+      trials.push_back(trial);
+    }
+  }
+  return trials;
+}
+
+void compare_stages(const std::vector<double>& alphas, DielectricsStudy* study) {
+  std::size_t rows = 0;
+  for (const double alpha : alphas) {
+    const auto two = grid_rows(study->stages[1], alpha), three = grid_rows(study->stages[2], alpha);
+    const double range = specular_range(two);
+    for (std::size_t i = 0; i < two.size(); ++i, ++rows) {
+      study->error_gain += 1.0 - three[i]->error / two[i]->error;
+      study->worst_difference =
+          std::max(study->worst_difference, std::fabs(three[i]->specular2 - two[i]->specular2) / range);
+    }
+  }
+  study->error_gain /= static_cast<double>(rows);
+}
+
+const char* stages_name(int stages) {
+  return stages == 1 ? "one stage" : stages == 2 ? "two stages" : "three stages";
+}
+
+std::string guess_text(const Sitting& guess) {
+  return "(" + number_text(guess.alpha) + ", " + number_text(guess.specular) + ", " +
+         number_text(guess.diffuse) + ")";
+}
+
+std::string curve_words(const DielectricCurve& curve) {
+  return std::string(stages_name(curve.stages)) + ", alpha " + number_text(curve.alpha) +
+         ": largest second difference " + percent_text(curve.roughness) +
+         " of the curve's range, largest step " + short_text(curve.largest_step) +
+         " times the median (at ior " + number_text(curve.step_ior) +
+         (curve.largest_step > kJumpStep ? ", a jump" : ", no jump") + "), image error " +
+         percent_text(curve.mean_error) + " mean, " + percent_text(curve.worst_error) + " largest; " +
+         std::to_string(curve.unstable) + " of " + std::to_string(curve.rows) + " rows unstable, " +
+         std::to_string(curve.clamped) + " clamped";
+}
+
+// What the one-stage match does from other guesses than its own.
+void add_guess_words(const DielectricsStudy& study, std::vector<std::string>* words) {
+  std::size_t losing = 0, jumping = 0;
+  const GuessTrial* example = nullptr;
+  for (const GuessTrial& trial : study.trials) {
+    losing += trial.lost > 0 ? 1 : 0;
+    jumping += trial.jumps > 0 ? 1 : 0;
+    if (trial.jumps > 0 && (example == nullptr || trial.jumps < example->jumps)) example = &trial;
+  }
+  words->push_back("one stage from " + std::to_string(trial_guesses().size()) +
+                   " other fixed guesses at each width: " + std::to_string(losing) + " of " +
+                   std::to_string(study.trials.size()) + " curves leave the best minimum somewhere, " +
+                   std::to_string(jumping) + " of them by a jump along the index");
+  if (example != nullptr)
+    words->push_back("such a jump: guess " + guess_text(example->guess) +
+                     " of the ranges of alpha, specular, diffuse at alpha " + number_text(example->alpha) +
+                     " misses the highlight at ior " + number_text(example->first_lost_ior) + " to " +
+                     number_text(example->last_lost_ior) + " (" + std::to_string(example->lost) + " of " +
+                     std::to_string(example->rows) + " rows)");
+}
+
+StudyPlot stage_plot(const Table& table, int stages) {
+  StudyPlot plot{std::string(stages == 1   ? "Figure 8"
+                             : stages == 2 ? "Figure 10a"
+                                           : "Figure 10b") +
+                     ": " + stages_name(stages) + "; open: flagged",
+                 "ior of " + kSource,
+                 "specular of " + kTarget,
+                 {}};
+  std::set<double> alphas;
+  for (const TableRow& row : table.rows) alphas.insert(row.alpha1);
+  for (const double alpha : alphas) {
+    StudyCurve ok{"alpha " + number_text(alpha), {}, false}, flagged{"", {}, true};
+    for (const TableRow* row : grid_rows(table, alpha))
+      (row->status == RowStatus::kOk ? ok : flagged).points.emplace_back(row->specular1, row->specular2);
+    plot.curves.push_back(ok);
+    plot.curves.push_back(flagged);
+  }
+  return plot;
+}
+
+std::string materials_text(const Table& two) {
+  const auto rows = rows_by_sample(two);
+  std::set<double> alphas;
+  for (const TableRow& row : two.rows) alphas.insert(row.alpha1);
+  std::string text = "material,ior,alpha1,alpha2,specular2,diffuse2,error,status\n";
+  for (const Dielectric& material : measured_dielectrics())
+    for (const double alpha : alphas) {
+      const TableRow& row = *rows.at({alpha, material.ior});
+      text += std::string(material.name);
+      for (const double value : {material.ior, alpha, row.alpha2, row.specular2, row.diffuse2, row.error})
+        text += "," + number_text(value);
+      text += "," + std::string(status_name(row.status)) + "\n";
+    }
+  return text;
+}
+
+std::string trials_text(const std::vector<GuessTrial>& trials) {
+  std::string text =
+      "alpha1,guess_alpha,guess_specular,guess_diffuse,rows,lost,jumps,first_lost_ior,last_lost_ior\n";
+  for (const GuessTrial& trial : trials) {
+    for (const double value : {trial.alpha, trial.guess.alpha, trial.guess.specular, trial.guess.diffuse})
+      text += number_text(value) + ",";
+    text += std::to_string(trial.rows) + "," + std::to_string(trial.lost) + "," +
+            std::to_string(trial.jumps) + "," + number_text(trial.first_lost_ior) + "," +
+            number_text(trial.last_lost_ior) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions& options, double diffuse,
+                                   const std::filesystem::path& scratch) {
+  DielectricsStudy study;
+  study.diffuse = diffuse;
+  for (const int stages : {1, 2, 3}) {
+    SweepOptions sweep =
+        study_sweep_options(kSource, kTarget, dielectric_samples(options), options.resolution);
+    sweep.stages = stages;
+    sweep.diffuse = diffuse;
+    SweepExecution execution;
+    execution.jobs = options.jobs;
+    if (options.progress)
+      execution.progress = [&](std::size_t done, std::size_t all) {
+        options.progress(0.2 * (stages - 1) + 0.2 * static_cast<double>(done) / static_cast<double>(all));
+      };
+    study.stages.push_back(run_study_sweep(renderer, sweep, execution, scratch));
+    for (const double alpha : options.alphas)
+      study.curves.push_back(curve_of(study.stages.back(), stages, alpha));
+  }
+  compare_stages(options.alphas, &study);
+  study.trials = judge_guesses(try_guesses(renderer, options, diffuse), study.stages[2], options.alphas);
+  return study;
+}
+
+std::vector<std::string> dielectrics_words(const DielectricsStudy& study) {
+  std::vector<std::string> words;
+  words.push_back(kSource + " to " + kTarget + ", ior " + number_text(kIors.min) + " to " +
+                  number_text(kIors.max) + ", diffuse " + number_text(study.diffuse) +
+                  ", light at 45 degrees:");
+  for (const DielectricCurve& curve : study.curves) words.push_back(curve_words(curve));
+  std::size_t jumps = 0;
+  std::array<std::size_t, 3> unstable{};
+  for (const DielectricCurve& curve : study.curves) {
+    jumps += curve.stages == 1 && curve.largest_step > kJumpStep ? 1 : 0;
+    unstable[static_cast<std::size_t>(curve.stages - 1)] += curve.unstable;
+  }
+  words.push_back(jumps == 0
+                      ? "figure 8 (a jump near ior 1.3 in one stage): not found from the guess in the middle "
+                        "of the ranges; the paper does not print its guess"
+                      : "figure 8 (a jump near ior 1.3 in one stage): found at " + std::to_string(jumps) +
+                            " widths, see above");
+  add_guess_words(study, &words);
+  words.push_back("figure 10: three stages lower the image error of two by " +
+                  percent_text(study.error_gain) + " on average, and move specular by up to " +
+                  percent_text(study.worst_difference) +
+                  " of the curve's range; unstable rows: " + std::to_string(unstable[0]) + " in one stage, " +
+                  std::to_string(unstable[1]) + " in two, " + std::to_string(unstable[2]) + " in three");
+  return words;
+}
+
+std::vector<std::string> write_dielectrics(const DielectricsStudy& study,
+                                           const std::filesystem::path& folder) {
+  std::vector<std::string> files;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    remap::write_file(folder / name, text);
+    files.push_back(name);
+  };
+  std::vector<StudyPlot> plots;
+  for (std::size_t i = 0; i < study.stages.size(); ++i) {
+    write("stages" + std::to_string(i + 1) + ".csv", table_text(study.stages[i]));
+    plots.push_back(stage_plot(study.stages[i], static_cast<int>(i + 1)));
+  }
+  write("guesses.csv", trials_text(study.trials));
+  write("dielectrics.csv", materials_text(study.stages[1]));
+  if (write_study_plot(folder / "figure8_10.svg", plots)) files.push_back("figure8_10.svg");
+  return files;
+}
+
+}  // namespace remapc

@@ -1,0 +1,26 @@
+// Sweeps as the studies of materials take them: light at 45 degrees and uniform weights, the setting of
+// section 4.1 of the paper.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sweep/sweep.hpp"
+
+namespace remapc {
+
+SweepOptions study_sweep_options(const std::string& source, const std::string& target,
+                                 std::vector<SamplePoint> samples, int resolution);
+
+// run_sweep with a journal in `scratch` that is removed.
+Table run_study_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution,
+                      const std::filesystem::path& scratch);
+
+// A percentage with three significant digits, rounded: `0.123 %`.
+std::string percent_text(double share);
+
+// A number with `digits` significant digits.
+std::string short_text(double value, int digits = 3);
+
+}  // namespace remapc

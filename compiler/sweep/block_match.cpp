@@ -1,0 +1,149 @@
+#include "sweep/block_match.hpp"
+
+#include <algorithm>
+
+#include "sweep/joint_match.hpp"
+#include "sweep/match.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Range;
+
+Range diffuse_range(const Subject& subject) { return subject.model.parameter(ParameterRole::kDiffuse).range; }
+
+TableRow flat_row(const SamplePoint& sample, const Subject& target) {
+  const double alpha = std::clamp(sample.alpha, target.model.alpha.min, target.model.alpha.max);
+  return {sample.alpha, sample.specular, alpha, 0.0, 0.0, RowStatus::kFlat, 0};
+}
+
+TableRow matched_row(const SamplePoint& sample, const Match& match) {
+  return {sample.alpha, sample.specular, match.alpha, match.specular, match.error, match.status, 0};
+}
+
+// A target without a linear coordinate: specular and alpha by non-linear least squares, from the best of a
+// grid of pictures.
+TableRow searched_row(const SweepSetup& setup, const SamplePoint& sample, std::vector<float> picture,
+                      std::vector<float> weights) {
+  const std::vector<Sitting> starts = setup.grid->minima(picture, weights);
+  const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights), {false, false});
+  const JointMatch match = matcher.best_match(starts);
+  return {
+      sample.alpha, sample.specular, match.point.alpha, match.point.specular, match.error, match.status, 0};
+}
+
+// Pictures of the source where nothing is known of how they depend on specular: one for each sample.
+std::vector<TableRow> match_each(const SweepSetup& setup, const SampleBlock& block) {
+  std::vector<TableRow> rows;
+  std::vector<std::size_t> minima;
+  for (const std::size_t index : block.samples) {
+    const SamplePoint& sample = setup.options.samples[index];
+    auto picture = setup.photographer.take(setup.source, {sample.alpha, sample.specular, 0.0});
+    if (sample.specular == 0.0 || *std::max_element(picture.begin(), picture.end()) <= 0.0f) {
+      rows.push_back(flat_row(sample, setup.target));
+      continue;
+    }
+    auto weights =
+        squared_weights(setup.photographer.objective(), picture, setup.photographer.view_cosines());
+    if (setup.bank == nullptr) {
+      rows.push_back(searched_row(setup, sample, std::move(picture), std::move(weights)));
+      continue;
+    }
+    Matcher matcher(*setup.bank, {std::move(picture)}, std::move(weights));
+    rows.push_back(matched_row(sample, matcher.match({1.0}, &minima)));
+  }
+  return rows;
+}
+
+// Pictures of an affine source are combinations of two. Where the weights do not depend on specular either
+// (uniform, or relative to a picture that only scales), one set of inner products serves the whole block.
+std::vector<TableRow> match_together(const SweepSetup& setup, const SampleBlock& block) {
+  AffinePictures pictures = take_affine(setup.photographer, setup.source, block.alpha);
+  auto weights =
+      squared_weights(setup.photographer.objective(), pictures.full, setup.photographer.view_cosines());
+  const bool proportional = setup.source.response.proportional();
+  std::vector<std::vector<float>> basis;
+  basis.push_back(std::move(pictures.slope));
+  if (!proportional) basis.push_back(std::move(pictures.base));
+  Matcher matcher(*setup.bank, std::move(basis), std::move(weights));
+
+  const double most = setup.source.linear_range().max;
+  std::vector<TableRow> rows;
+  for (const std::size_t index : block.samples) {
+    const SamplePoint& sample = setup.options.samples[index];
+    std::vector<std::size_t> minima;  // products are shared, so every material can search the whole bank
+    std::vector<double> coefficients = {std::min(sample.specular, most)};
+    if (!proportional) coefficients.push_back(1.0);
+    rows.push_back(sample.specular == 0.0 ? flat_row(sample, setup.target)
+                                          : matched_row(sample, matcher.match(coefficients, &minima)));
+  }
+  return rows;
+}
+
+// Specular and width from pictures without diffuse.
+std::vector<TableRow> match_specular(const SweepSetup& setup, const SampleBlock& block) {
+  const bool uniform = setup.options.objective.weighting == Weighting::kUniform;
+  const SpecularResponse& source = setup.source.response;
+  const bool shared = setup.bank != nullptr && (source.proportional() || (source.affine() && uniform));
+  return shared ? match_together(setup, block) : match_each(setup, block);
+}
+
+// Diffuse apart from the rest: in proportion.
+void match_diffuse_apart(const SweepSetup& setup, TableRow* row) {
+  const Range range = diffuse_range(setup.target);
+  const double wanted = setup.options.diffuse * setup.diffuse.scale;
+  row->diffuse1 = setup.options.diffuse;
+  row->diffuse2 = std::clamp(wanted, range.min, range.max);
+  if (row->diffuse2 != wanted && row->status == RowStatus::kOk) row->status = RowStatus::kClamped;
+}
+
+// The whole picture, diffuse and specular: its error where the stages were apart, the joint match where they
+// are not.
+void match_whole(const SweepSetup& setup, TableRow* row) {
+  const Sitting whole{row->alpha1, row->specular1, row->diffuse1};
+  if (row->status == RowStatus::kFlat) return;
+  auto picture = setup.photographer.take(setup.source, whole);
+  auto weights = squared_weights(setup.photographer.objective(), picture, setup.photographer.view_cosines());
+  const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights),
+                             {true, row->diffuse1 > 0.0});
+  const Sitting apart{row->alpha2, row->specular2, row->diffuse2};
+  if (setup.options.stages == 2) {
+    row->error = matcher.error_of(setup.photographer.take(setup.target, apart));
+    return;
+  }
+  const JointMatch match =
+      matcher.match_from(setup.options.stages == 1 ? matcher.point_of(kFixedGuess) : apart);
+  row->alpha2 = match.point.alpha;
+  row->specular2 = match.point.specular;
+  row->diffuse2 = match.point.diffuse;
+  row->error = match.error;
+  row->status = match.status;
+}
+
+// Rows of a one-stage match before it: no target yet.
+std::vector<TableRow> unmatched_rows(const SweepSetup& setup, const SampleBlock& block) {
+  std::vector<TableRow> rows;
+  for (const std::size_t index : block.samples) {
+    const SamplePoint& sample = setup.options.samples[index];
+    rows.push_back(flat_row(sample, setup.target));
+    if (sample.specular != 0.0) rows.back().status = RowStatus::kOk;
+  }
+  return rows;
+}
+
+}  // namespace
+
+bool has_diffuse(const SweepOptions& options) { return options.stages != 2 || options.diffuse > 0.0; }
+
+std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& block) {
+  std::vector<TableRow> rows =
+      setup.options.stages == 1 ? unmatched_rows(setup, block) : match_specular(setup, block);
+  if (!has_diffuse(setup.options)) return rows;
+  for (TableRow& row : rows) {
+    match_diffuse_apart(setup, &row);
+    match_whole(setup, &row);
+  }
+  return rows;
+}
+
+}  // namespace remapc

@@ -1,0 +1,63 @@
+// What a model does with its parameters, found from its pictures alone: the law of its specular parameter,
+// whether diffuse adds to the rest, and how strong its light is against another renderer's.
+#pragma once
+
+#include <string_view>
+
+#include "model/fit.hpp"
+
+namespace remapc {
+
+class Photographer;
+struct ModelDescription;
+struct Subject;
+
+// How pictures depend on the specular parameter of a model. All but kOther have a canonical coordinate in
+// which the picture is base + specular * slope.
+enum class SpecularLaw {
+  kProportional,  // specular * slope
+  kAffine,        // base + specular * slope: F0 with Schlick's Fresnel
+  kIor,           // affine in F0 = ((ior - 1) / (ior + 1))^2 (Sztrajman et al. 2019, equation 1)
+  kClamped,       // base + specular * slope up to a knee, constant beyond
+  kOther,         // none of these; the canonical coordinate is the parameter itself
+};
+
+// `proportional`, `affine`, `ior`, `clamped`, `other`.
+std::string_view law_name(SpecularLaw law);
+
+struct SpecularResponse {
+  SpecularLaw law = SpecularLaw::kOther;
+  bool black_base = false;  // the picture is black where the canonical specular is 0
+  double knee = 0.0;        // of kClamped, in the parameter's own unit
+  double residual = 0.0;    // largest deviation from the law (kOther: from affine), relative to the brightest
+
+  bool affine() const { return law != SpecularLaw::kOther; }
+  bool proportional() const { return affine() && black_base; }
+
+  // The parameter to the canonical coordinate and back: F0 for kIor, else the parameter as it is.
+  double canonical(double own) const;
+  double own(double canonical) const;
+};
+
+// Renders `model` at three widths within `alphas` and three values of specular over its whole range each; a
+// few more where it is not affine. Throws kInput where the picture at full specular is black.
+SpecularResponse probe_specular(const Photographer& photographer, const ModelDescription& model,
+                                const remap::Range& alphas);
+
+// Whether diffuse adds the same picture, in proportion, whatever the width and specular.
+bool probe_diffuse(const Photographer& photographer, const ModelDescription& model,
+                   const remap::Range& alphas);
+
+// The factor between the diffuse parameters of two models that gives the same diffuse light, in least
+// squares, and what is left then relative to the source (RMS). What the diffuse parameter adds to the picture
+// is taken as the difference of two pictures, so a Fresnel rim does not count as diffuse. First stage of the
+// two-stage match (section 3.1), and, as the ratio of diffuse-only pictures, what irradiance is matched by
+// (section 4). A scale that pictures of floats cannot tell from 1 is 1.
+struct DiffuseMatch {
+  double scale = 1.0;
+  double error = 0.0;
+};
+DiffuseMatch match_diffuse(const Photographer& photographer, const ModelDescription& source,
+                           const ModelDescription& target);
+
+}  // namespace remapc
