@@ -51,8 +51,9 @@ double subpixel_alpha(int resolution, int samples_per_axis);
 // written a block of rows at a time. Rows of one source width form a block.
 class SweepJournal {
  public:
-  // Continues the journal at `path` where `resume` is set and it exists; else starts one. Throws kInput where
-  // it was made with other options, kOutput where it cannot be written.
+  // Continues the journal at `path` where `resume` is set and it exists; else starts one. Nothing is kept
+  // where `path` is empty. Throws kInput where it was made with other options, kOutput where it cannot be
+  // written.
   SweepJournal(std::filesystem::path path, const Table& empty_table, std::size_t sample_count, bool resume);
 
   const std::optional<TableRow>& row(std::size_t sample) const { return rows_[sample]; }
@@ -64,10 +65,10 @@ class SweepJournal {
   std::vector<std::optional<TableRow>> rows_;
 };
 
-// Matches every sample. The same table for any number of jobs, and whether resumed or not. Throws kUsage for
-// unknown models, kNumeric where the target is not affine in its specular parameter, and what the renderer
-// throws.
+// Matches every sample; what is finished is kept at `journal` where that is not empty. The same table for any
+// number of jobs, and whether resumed or not. Throws kUsage for unknown models, kNumeric where the target is
+// not affine in its specular parameter, and what the renderer throws.
 Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution,
-                const std::filesystem::path& journal, bool resume);
+                const std::filesystem::path& journal = {}, bool resume = false);
 
 }  // namespace remapc
