@@ -5,4 +5,6 @@
 
 namespace remapc {
 
+void add_environments_study(CLI::App& study);
+
 }  // namespace remapc

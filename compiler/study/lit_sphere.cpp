@@ -227,6 +227,8 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
   const std::vector<std::uint32_t>& pixels = pictures.pixels();
   const auto side = static_cast<std::uint32_t>(sampling.resolution);
   remap::run_parallel(side, sampling.jobs, [&](std::size_t row) {
+    if (sampling.cancelled != nullptr && *sampling.cancelled)
+      throw Error(ErrorKind::kInterrupted, "study: interrupted; nothing was written");
     const auto begin = std::lower_bound(pixels.begin(), pixels.end(), row * side);
     const auto end = std::lower_bound(pixels.begin(), pixels.end(), (row + 1) * side);
     for (auto pixel = begin; pixel != end; ++pixel) {
@@ -235,7 +237,7 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
       render_pixel(rendering, PixelSampler(rendering.mixture, point, *pixel),
                    static_cast<std::size_t>(pixel - pixels.begin()), &pictures);
     }
-    if (sampling.progress) sampling.progress(1);
+    if (sampling.progress) sampling.progress();
   });
   return pictures;
 }

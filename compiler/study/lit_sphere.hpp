@@ -1,6 +1,7 @@
 // The sphere of the sweep scene, seen by its camera and lit by environments instead of a point light.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -20,10 +21,11 @@ struct SphereMaterial {
 };
 
 struct SphereSampling {
-  int resolution = 128;  // width and height of the pictures, pixels
-  int samples = 1024;    // directions a pixel
-  unsigned jobs = 0;     // threads; 0: one a core. The pictures do not depend on it
-  std::function<void(std::size_t count)> progress;  // `count` more pixel rows are done; from any thread
+  int resolution = 128;                          // width and height of the pictures, pixels
+  int samples = 1024;                            // directions a pixel
+  unsigned jobs = 0;                             // threads; 0: one a core. The pictures do not depend on it
+  std::function<void()> progress;                // one of `resolution` pixel rows is done; from any thread
+  const std::atomic<bool>* cancelled = nullptr;  // stops soon; throws kInterrupted
 };
 
 // Linear RGB pictures of `materials` under each environment, at the pixels that show the sphere. Two sets of
@@ -55,7 +57,7 @@ class SpherePictures {
 // Directions are drawn for all materials together, by a mixture of GGX half vectors of their least and
 // largest alpha and of a cosine lobe, weighted by the balance heuristic (Veach and Guibas 1995) and read from
 // the pyramid over the solid angle that each stands for. So the noise of two materials is alike and mostly
-// cancels in their difference. Throws kUsage for a resolution or sample count out of range.
+// cancels in their difference. Throws kUsage for a resolution or sample count out of range, kInterrupted.
 SpherePictures render_spheres(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
                               const SphereSampling& sampling);
 
