@@ -1,6 +1,7 @@
 #include "study/environments.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -28,11 +29,16 @@ struct Shown {
   std::vector<float> luma;     // of the whole picture
 };
 
+std::vector<float> displayed(const std::vector<float>& radiance) {
+  std::vector<float> values;
+  values.reserve(radiance.size());
+  for (const float value : radiance) values.push_back(display_value(static_cast<double>(value)));
+  return values;
+}
+
 Shown shown(const SpherePictures& pictures, const std::vector<float>& radiance) {
   const auto side = static_cast<std::size_t>(pictures.resolution());
-  Shown picture{{}, std::vector<float>(side * side, 0.0f)};
-  picture.colours.reserve(radiance.size());
-  for (const float value : radiance) picture.colours.push_back(display_value(static_cast<double>(value)));
+  Shown picture{displayed(radiance), std::vector<float>(side * side, 0.0f)};
   for (std::size_t i = 0; i < pictures.pixels().size(); ++i)
     picture.luma[pictures.pixels()[i]] = static_cast<float>(luminance(&picture.colours[3 * i]));
   return picture;
@@ -54,12 +60,16 @@ double sphere_similarity(const SpherePictures& pictures, const Shown& a, const S
 // A picture of one material under one environment, with what comparisons need of it.
 struct Picture {
   Shown display;
-  double mean = 0.0;  // linear luminance
+  double mean = 0.0;                           // linear luminance
+  std::array<std::vector<float>, 2> halves{};  // display colours by each half of the directions
 };
 
 Picture picture_of(const SpherePictures& pictures, std::size_t material, std::size_t environment) {
   const std::vector<float> radiance = pictures.radiance(material, environment);
-  return {shown(pictures, radiance), mean_radiance(radiance)};
+  Picture picture{shown(pictures, radiance), mean_radiance(radiance), {}};
+  for (std::size_t half = 0; half < picture.halves.size(); ++half)
+    picture.halves[half] = displayed(pictures.half_radiance(material, environment, half));
+  return picture;
 }
 
 // The materials of one alpha, each once: sources, and what they become.
@@ -78,21 +88,21 @@ struct Sitting {
   std::size_t source, target;  // places in Sitters::materials
 };
 
-// Squared display difference of the halves of the directions, a quarter of it, summed over the sources.
-struct Noise {
+// Mean square over the colours of half of what two differences of pictures differ by: each was made with one
+// half of the directions, so this is the sampling error of their mean.
+double squared_noise(const Picture& source, const Picture& target) {
   double sum = 0.0;
-  std::size_t count = 0;
-  void add(const SpherePictures& pictures, std::size_t material, std::size_t environment) {
-    const Shown a = shown(pictures, pictures.half_radiance(material, environment, 0));
-    const Shown b = shown(pictures, pictures.half_radiance(material, environment, 1));
-    const double error = 0.5 * rms_difference(a.colours, b.colours);
-    sum += error * error, ++count;
+  for (std::size_t i = 0; i < source.halves[0].size(); ++i) {
+    const double first = static_cast<double>(source.halves[0][i]) - static_cast<double>(target.halves[0][i]);
+    const double second = static_cast<double>(source.halves[1][i]) - static_cast<double>(target.halves[1][i]);
+    sum += 0.25 * (first - second) * (first - second);
   }
-};
+  return sum / static_cast<double>(source.halves[0].size());
+}
 
 // One alpha: renders all of its materials together and compares them.
 void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
-                   std::span<const Conversion> conversions, EnvironmentsResult* result, Noise* noise) {
+                   std::span<const Conversion> conversions, EnvironmentsResult* result) {
   Sitters sitters;
   std::vector<Sitting> sittings;
   for (const Conversion& c : conversions) {
@@ -115,12 +125,10 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
           sittings[i].conversion,
           e,
           {100.0 * rms_difference(source.display.colours, target.display.colours),
-           sphere_similarity(pictures, source.display, target.display), target.mean / source.mean - 1.0}};
+           sphere_similarity(pictures, source.display, target.display), target.mean / source.mean - 1.0},
+          squared_noise(source, target)};
     }
   });
-  for (std::size_t e = 0; e < environment_count; ++e)
-    for (const Sitting& sitting : sittings)
-      if (sitting.conversion.method == Method::kCopy) noise->add(pictures, sitting.source, e);
   result->comparisons.insert(result->comparisons.end(), comparisons.begin(), comparisons.end());
 }
 
@@ -179,14 +187,15 @@ EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
   EnvironmentsResult result;
   const std::vector<Conversion> conversions = conversions_of(options, &result.remarks);
   const RadiancePyramid pyramid(options.environments);
-  Noise noise;
   for (auto begin = conversions.begin(); begin != conversions.end();) {
     const auto end =
         std::find_if(begin, conversions.end(), [&](const Conversion& c) { return c.alpha != begin->alpha; });
-    compare_alpha(options, pyramid, {begin, end}, &result, &noise);
+    compare_alpha(options, pyramid, {begin, end}, &result);
     begin = end;
   }
-  result.noise = 100.0 * std::sqrt(noise.sum / static_cast<double>(noise.count));
+  double sum = 0.0;
+  for (const Comparison& comparison : result.comparisons) sum += comparison.squared_noise;
+  result.noise = 100.0 * std::sqrt(sum / static_cast<double>(result.comparisons.size()));
   return result;
 }
 

@@ -67,12 +67,15 @@ struct Comparison {
   Conversion conversion;
   std::size_t environment = 0;  // index into EnvironmentsOptions::environments
   PictureLikeness likeness;
+  double squared_noise = 0.0;  // mean square sampling error of the difference of the pictures, display values
 };
 
 struct EnvironmentsResult {
   std::vector<Comparison> comparisons;  // by alpha, pair, method, environment
   std::vector<std::string> remarks;     // what was left out, a sentence each
-  double noise = 0.0;  // RMS sampling error of the source pictures, percent of the display's range
+  // RMS sampling error of the difference of two pictures that are compared, percent of the display's range.
+  // What it adds to an RMSE, it adds in squares.
+  double noise = 0.0;
 };
 
 // Compares every pair, alpha, method and environment. Pairs without a fit have no comparisons of kShipped,

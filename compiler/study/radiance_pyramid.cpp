@@ -114,9 +114,10 @@ void RadiancePyramid::add_bilinear(const Level& level, const MapPosition& positi
 
 void RadiancePyramid::look_up(const Direction& direction, double solid_angle, float* radiance) const {
   const MapPosition position = map_position(direction);
-  // A texel at the horizon of the finest level; each level has four times its solid angle.
+  // A texel at the horizon of the finest level; each level has four times its solid angle. One level is
+  // added, so that neighbouring samples overlap (Krivanek and Colbert 2008).
   const double texel = pi / levels_.front().height;
-  const double level = std::clamp(0.5 * std::log2(solid_angle / (texel * texel)), 0.0,
+  const double level = std::clamp(1.0 + 0.5 * std::log2(solid_angle / (texel * texel)), 0.0,
                                   static_cast<double>(levels_.size() - 1));
   const auto fine = static_cast<std::size_t>(level);
   const auto coarse_share = static_cast<float>(level - static_cast<double>(fine));

@@ -1,6 +1,7 @@
 // Spheres under environments: the maps, the light that they give, and the study that compares by them.
 #include "study/environment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -15,6 +16,7 @@
 #include "study/lit_sphere.hpp"
 #include "support/temporary_folder.hpp"
 #include "sweep/image_file.hpp"
+#include "sweep/scene.hpp"
 
 using namespace remapc;
 using std::numbers::pi;
