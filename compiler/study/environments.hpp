@@ -34,7 +34,7 @@ struct EnvironmentsOptions {
   std::vector<Environment> environments;
   std::vector<remap::Fit> fits;                  // what kShipped may use
   int resolution = 128;                          // of the pictures, pixels
-  int samples = 512;                             // directions a pixel
+  int samples = 1024;                            // directions a pixel
   int match_resolution = 512;                    // of the pictures that paper and natural are matched by
   unsigned jobs = 0;                             // threads; 0: one a core
   std::function<void()> progress;                // one of progress_steps() is done; from any thread

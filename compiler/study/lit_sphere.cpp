@@ -56,7 +56,7 @@ double radical_inverse(std::uint32_t i) {
   return i * 0x1p-32;
 }
 
-enum Technique { kNarrowLobe, kWideLobe, kCosineLobe, kTechniqueCount };
+enum Technique { kNarrowLobe, kWideLobe, kHemisphere, kTechniqueCount };
 constexpr std::array<double, kTechniqueCount> kTechniqueShare = {0.4, 0.4, 0.2};
 constexpr std::size_t kHalves = 2;
 
@@ -68,10 +68,10 @@ struct Mixture {
 
   // Expected density of samples of one half about a direction, a steradian.
   double density(const LocalGeometry& g) const {
-    double sum = counts[kCosineLobe] * g.cos_light / pi;
+    double sum = counts[kHemisphere] / (2.0 * pi);
     for (std::size_t lobe = 0; lobe < alphas.size(); ++lobe)
-      sum += counts[lobe] * microfacet_distribution(Brdf::kGgx, alphas[lobe], g.cos_half) * g.cos_half /
-             (4.0 * g.cos_light_half);
+      sum += counts[lobe] * microfacet_distribution(Brdf::kGgx, alphas[lobe], g.cos_half) *
+             smith_shadowing(Brdf::kGgx, alphas[lobe], g.cos_view) / (4.0 * g.cos_view);
     return sum;
   }
 };
@@ -127,18 +127,26 @@ class PixelSampler {
     double v = radical_inverse(i) + hashed(key + 1);
     u -= std::floor(u), v -= std::floor(v);
     const double azimuth = 2.0 * pi * v;
-    if (technique == kCosineLobe) {
-      const double sine = std::sqrt(u);
-      return frame_.to_world(sine * std::cos(azimuth), sine * std::sin(azimuth), std::sqrt(1.0 - u));
+    if (technique == kHemisphere) {
+      const double sine = std::sqrt(1.0 - u * u);
+      return frame_.to_world(sine * std::cos(azimuth), sine * std::sin(azimuth), u);
     }
-    const double alpha = mixture_.alphas[technique];
-    const double tangent_2 = alpha * alpha * u / (1.0 - u);  // Walter et al. 2007, equation (35)
-    const double cosine = 1.0 / std::sqrt(1.0 + tangent_2), sine = cosine * std::sqrt(tangent_2);
-    const Direction half_vector = frame_.to_world(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
+    const Direction half_vector = visible_normal(mixture_.alphas[technique], u, azimuth);
     return 2.0 * dot(view_, half_vector) * half_vector + (-1.0) * view_;
   }
 
  private:
+  // A normal of GGX facets that the view sees (Dupuy and Benyoub 2023: a cap of the sphere, stretched).
+  Direction visible_normal(double alpha, double u, double azimuth) const {
+    const Direction stretched = normalised({alpha * dot(view_, frame_.tangent),
+                                            alpha * dot(view_, frame_.bitangent), dot(view_, frame_.normal)});
+    const double z = (1.0 - u) * (1.0 + stretched.z) - stretched.z;
+    const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
+    const Direction h = normalised({alpha * (sine * std::cos(azimuth) + stretched.x),
+                                    alpha * (sine * std::sin(azimuth) + stretched.y), z + stretched.z});
+    return frame_.to_world(h.x, h.y, h.z);
+  }
+
   const Mixture& mixture_;
   Frame frame_;
   Direction view_;
@@ -152,11 +160,32 @@ struct Rendering {
   Mixture mixture;
 };
 
-void render_pixel(const Rendering& rendering, const PixelSampler& sampler, std::size_t pixel,
-                  SpherePictures* pictures) {
+// Radiance towards the camera for light of radiance 1 from a solid angle of 1.
+double reflected(const SphereMaterial& material, const LocalGeometry& geometry) {
+  const Lobe lobe = evaluate_lobe(material.model.brdf, material.model.fresnel, material.alpha, geometry);
+  return (lobe.base + material.specular * lobe.slope) * geometry.cos_light;
+}
+
+void add_lamps(const Rendering& rendering, const PixelSampler& sampler, std::size_t pixel,
+               SpherePictures* pictures) {
+  for (std::size_t e = 0; 3 * e < rendering.environments.channel_count(); ++e)
+    for (const Lamp& lamp : rendering.environments.lamps(e)) {
+      LocalGeometry geometry;
+      if (!local_geometry(sampler.normal(), sampler.view(), lamp.direction, &geometry)) continue;
+      for (std::size_t m = 0; m < rendering.materials.size(); ++m) {
+        const double factor = reflected(rendering.materials[m], geometry);
+        for (std::size_t half = 0; half < kHalves; ++half)
+          for (std::size_t c = 0; c < 3; ++c)
+            pictures->values(m, half, pixel)[3 * e + c] += static_cast<float>(factor * lamp.flux[c]);
+      }
+    }
+}
+
+void add_samples(const Rendering& rendering, const PixelSampler& sampler, std::size_t pixel,
+                 SpherePictures* pictures) {
   std::vector<float> radiance(rendering.environments.channel_count());
   for (std::size_t half = 0; half < kHalves; ++half)
-    for (const Technique technique : {kNarrowLobe, kWideLobe, kCosineLobe})
+    for (const Technique technique : {kNarrowLobe, kWideLobe, kHemisphere})
       for (std::uint32_t i = 0; i < rendering.mixture.counts[technique]; ++i) {
         const Direction light = sampler.direction(technique, half, i);
         LocalGeometry geometry;
@@ -164,11 +193,7 @@ void render_pixel(const Rendering& rendering, const PixelSampler& sampler, std::
         const double solid_angle = 1.0 / rendering.mixture.density(geometry);
         rendering.environments.look_up(light, solid_angle / kHalves, radiance.data());
         for (std::size_t m = 0; m < rendering.materials.size(); ++m) {
-          const SphereMaterial& material = rendering.materials[m];
-          const Lobe lobe =
-              evaluate_lobe(material.model.brdf, material.model.fresnel, material.alpha, geometry);
-          const auto factor = static_cast<float>((lobe.base + material.specular * lobe.slope) *
-                                                 geometry.cos_light * solid_angle);
+          const auto factor = static_cast<float>(reflected(rendering.materials[m], geometry) * solid_angle);
           float* values = pictures->values(m, half, pixel);
           for (std::size_t c = 0; c < radiance.size(); ++c) values[c] += factor * radiance[c];
         }
@@ -234,8 +259,10 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
     for (auto pixel = begin; pixel != end; ++pixel) {
       SurfacePoint point;
       sphere_point(sampling.resolution, *pixel % side + 0.5, static_cast<double>(row) + 0.5, &point);
-      render_pixel(rendering, PixelSampler(rendering.mixture, point, *pixel),
-                   static_cast<std::size_t>(pixel - pixels.begin()), &pictures);
+      const PixelSampler sampler(rendering.mixture, point, *pixel);
+      const auto place = static_cast<std::size_t>(pixel - pixels.begin());
+      add_lamps(rendering, sampler, place, &pictures);
+      add_samples(rendering, sampler, place, &pictures);
     }
     if (sampling.progress) sampling.progress();
   });

@@ -67,6 +67,67 @@ std::vector<float> resampled(const float* from, std::size_t width, std::size_t c
   return texels;
 }
 
+constexpr double kLampThreshold = 4.0;  // of the mean luminance
+constexpr std::size_t kMostLamps = 128;
+constexpr int kLampTexels = 2;  // width and height of a spot
+
+// What a spot of a map has above a luminance, and from where.
+struct Spot {
+  int row, column;  // of its first texel
+  Lamp lamp;
+  double luminance;
+};
+
+double share_above(const float* rgb, double threshold) {
+  const double value = luminance(rgb);
+  return value > threshold ? 1.0 - threshold / value : 0.0;
+}
+
+Spot spot_at(const Image& map, int row, int column, double threshold) {
+  Spot spot{row, column, {}, 0.0};
+  Direction middle;
+  for (int r = row; r < row + kLampTexels; ++r)
+    for (int c = column; c < column + kLampTexels; ++c) {
+      const float* texel = &map.values[3 * static_cast<std::size_t>(r * map.width + c)];
+      const double solid_angle =
+          2.0 * pi / map.width * (std::cos(pi * r / map.height) - std::cos(pi * (r + 1) / map.height));
+      const double share = share_above(texel, threshold) * solid_angle;
+      const double weight = share * luminance(texel);
+      const Direction w = map_direction({(c + 0.5) / map.width, (r + 0.5) / map.height});
+      middle = {middle.x + weight * w.x, middle.y + weight * w.y, middle.z + weight * w.z};
+      for (std::size_t k = 0; k < 3; ++k) spot.lamp.flux[k] += share * static_cast<double>(texel[k]);
+      spot.luminance += weight;
+    }
+  const double length = std::sqrt(middle.x * middle.x + middle.y * middle.y + middle.z * middle.z);
+  if (length > 0.0) spot.lamp.direction = {middle.x / length, middle.y / length, middle.z / length};
+  return spot;
+}
+
+// Takes the brightest spots out of a map.
+std::vector<Lamp> take_lamps(Image* map, double mean) {
+  const double threshold = kLampThreshold * mean;
+  std::vector<Spot> spots;
+  for (int row = 0; row < map->height; row += kLampTexels)
+    for (int column = 0; column < map->width; column += kLampTexels) {
+      const Spot spot = spot_at(*map, row, column, threshold);
+      if (spot.luminance > 0.0) spots.push_back(spot);
+    }
+  std::stable_sort(spots.begin(), spots.end(),
+                   [](const Spot& a, const Spot& b) { return a.luminance > b.luminance; });
+  if (spots.size() > kMostLamps) spots.resize(kMostLamps);
+  std::vector<Lamp> lamps;
+  for (const Spot& spot : spots) {
+    lamps.push_back(spot.lamp);
+    for (int r = spot.row; r < spot.row + kLampTexels; ++r)
+      for (int c = spot.column; c < spot.column + kLampTexels; ++c) {
+        float* texel = &map->values[3 * static_cast<std::size_t>(r * map->width + c)];
+        const auto kept = static_cast<float>(1.0 - share_above(texel, threshold));
+        for (std::size_t k = 0; k < 3; ++k) texel[k] *= kept;
+      }
+  }
+  return lamps;
+}
+
 }  // namespace
 
 RadiancePyramid::RadiancePyramid(std::span<const Environment> environments, int height)
@@ -79,11 +140,12 @@ RadiancePyramid::RadiancePyramid(std::span<const Environment> environments, int 
   finest.texels.resize(static_cast<std::size_t>(2 * height * height) * channel_count_);
   for (std::size_t e = 0; e < environments.size(); ++e) {
     const Image& map = environments[e].map;
-    const std::vector<float> grid =
-        resampled(map.values.data(), static_cast<std::size_t>(map.width), 3, row_shares(map.height, height),
-                  column_shares(map.width, 2 * height));
-    for (std::size_t i = 0; i < grid.size(); ++i)
-      finest.texels[i / 3 * channel_count_ + 3 * e + i % 3] = grid[i];
+    Image grid{2 * height, height, 3, {}};
+    grid.values = resampled(map.values.data(), static_cast<std::size_t>(map.width), 3,
+                            row_shares(map.height, height), column_shares(map.width, 2 * height));
+    lamps_.push_back(take_lamps(&grid, mean_luminance(environments[e])));
+    for (std::size_t i = 0; i < grid.values.size(); ++i)
+      finest.texels[i / 3 * channel_count_ + 3 * e + i % 3] = grid.values[i];
   }
   levels_.push_back(std::move(finest));
   while (levels_.back().height > kCoarsestHeight) {
@@ -114,10 +176,11 @@ void RadiancePyramid::add_bilinear(const Level& level, const MapPosition& positi
 
 void RadiancePyramid::look_up(const Direction& direction, double solid_angle, float* radiance) const {
   const MapPosition position = map_position(direction);
-  // A texel at the horizon of the finest level; each level has four times its solid angle. One level is
-  // added, so that neighbouring samples overlap (Krivanek and Colbert 2008).
+  // A texel at the horizon of the finest level; each level has four times its solid angle. No further level
+  // is added for overlap, as Krivanek and Colbert do for few samples: without lamps the maps are tame, and
+  // blur makes pictures look more alike than they are.
   const double texel = pi / levels_.front().height;
-  const double level = std::clamp(1.0 + 0.5 * std::log2(solid_angle / (texel * texel)), 0.0,
+  const double level = std::clamp(0.5 * std::log2(solid_angle / (texel * texel)), 0.0,
                                   static_cast<double>(levels_.size() - 1));
   const auto fine = static_cast<std::size_t>(level);
   const auto coarse_share = static_cast<float>(level - static_cast<double>(fine));
