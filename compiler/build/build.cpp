@@ -183,17 +183,11 @@ class Builder {
     options.objective = objective_preset(recipe.objective);
     options.objective_name = recipe.objective;
     options.resolution = recipe.resolution;
-    const remap::Range speculars{0.0,
-                                 find_model(renderer_, source).parameter(ParameterRole::kSpecular).range.max};
+    const remap::Range speculars = canonical_speculars(renderer_, find_model(renderer_, source));
     options.samples =
         grid_samples(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
     options.sampling = grid_text(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
-    const fs::path journal = paths.table.string() + ".partial";
-    remap::create_parent(journal);
-    fs::remove(journal);
-    const Table table = run_sweep(renderer_, options, {1, {}, execution_.cancelled}, journal, false);
-    fs::remove(journal);
-    return table;
+    return run_sweep(renderer_, options, {1, {}, execution_.cancelled});
   }
 
   remap::Fit fit_of(const ManifestItem& item, const ItemPaths& paths) const {

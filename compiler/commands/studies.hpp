@@ -5,7 +5,8 @@
 
 namespace remapc {
 
-void add_conductors_study(CLI::App& app);
-void add_dielectrics_study(CLI::App& app);
+void add_environments_study(CLI::App& study);
+void add_conductors_study(CLI::App& study);
+void add_dielectrics_study(CLI::App& study);
 
 }  // namespace remapc

@@ -253,8 +253,7 @@ std::string provenance(const Fit& fit, const MappingCode& code) {
   };
   std::string text;
   for (const std::string& remark : fit.remarks) text += "// " + remark + "\n";
-  if (!fit.table.name.empty())
-    text += "// Table " + fit.table.name + ", sha256 " + fit.table.sha256 + ";\n";
+  if (!fit.table.name.empty()) text += "// Table " + fit.table.name + ", sha256 " + fit.table.sha256 + ";\n";
   if (!comment("objective").empty())
     text += "// objective " + comment("objective") + " (lights " + comment("lights") + ", weighting " +
             comment("weighting") + "), " + comment("resolution") + " pixels squared, by " +
@@ -265,7 +264,8 @@ std::string provenance(const Fit& fit, const MappingCode& code) {
             " rows trained, " + std::to_string(fit.split.held_out_rows) + " held out";
   text += ".\n";
   if (fit.has_errors()) {
-    text += std::string("// Error ") + (fit.split.held_out_rows != 0 ? "on the rows held out: " : "of its steps together: ") +
+    text += std::string("// Error ") +
+            (fit.split.held_out_rows != 0 ? "on the rows held out: " : "of its steps together: ") +
             error_text("alpha", fit.roughness_error) + ";\n";
     text += "// " + error_text(fit.target.specular, fit.specular_error) + ".\n";
   } else {

@@ -2,8 +2,7 @@
 // reflectance per steradian without the cosine of the light.
 #pragma once
 
-#include <span>
-#include <string_view>
+#include <string>
 
 namespace remapc {
 
@@ -26,6 +25,17 @@ struct Lobe {
 
 enum class Brdf { kWard, kWardDuer, kWardBalanced, kPhong, kBeckmann, kGgx, kAs };
 enum class Fresnel { kNone, kSchlick };
+
+// What a model of the built-in renderer is made of.
+struct BrdfModel {
+  Brdf brdf = Brdf::kGgx;
+  Fresnel fresnel = Fresnel::kSchlick;
+  bool operator==(const BrdfModel&) const = default;
+};
+
+// The built-in model of this name, for those who light it otherwise than by the lights of a Scene. Throws
+// kUsage with the nearest known name.
+BrdfModel builtin_brdf(const std::string& name);
 
 // The lobe of a mirror-white surface: reflectance without Fresnel.
 double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& geometry);

@@ -105,6 +105,13 @@ ModelDescription describe(const BuiltinModel& model) {
   return description;
 }
 
+// None where the name is unknown.
+const BuiltinModel* find_builtin(const std::string& name) {
+  const auto model = std::find_if(kModels.begin(), kModels.end(),
+                                  [&](const BuiltinModel& candidate) { return name == candidate.name; });
+  return model == kModels.end() ? nullptr : &*model;
+}
+
 // One lit sample of the picture: its pixel, its directions, and cos_light / distance^2 over the samples a
 // pixel.
 struct LitSample {
@@ -271,9 +278,7 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
   require_scene(scene);
   const ModelDescription description = find_model(*this, material.model);
   require_known_parameters(material, description);
-  const auto model = std::find_if(kModels.begin(), kModels.end(), [&](const BuiltinModel& candidate) {
-    return material.model == candidate.name;
-  });
+  const BuiltinModel* model = find_builtin(material.model);
   const auto roughness = parameter_values(material, description.parameter(ParameterRole::kRoughness));
   if (roughness.size() != 1)
     throw Error(ErrorKind::kUsage, material.model + ": roughness has 3 values; expected 1");
@@ -299,6 +304,12 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
 }
 
 }  // namespace
+
+BrdfModel builtin_brdf(const std::string& name) {
+  find_model(BuiltinRenderer(), name);
+  const BuiltinModel* model = find_builtin(name);
+  return {model->brdf, model->fresnel};
+}
 
 std::unique_ptr<Renderer> make_builtin_renderer() { return std::make_unique<BuiltinRenderer>(); }
 

@@ -9,6 +9,11 @@
 
 namespace remapc {
 
+// The R, G and B of a picture (EXR, HDR, any that OpenImageIO reads) as linear floats, whatever else it
+// holds; one channel three times where it has only one. Throws kInput where it cannot be read or has two
+// channels.
+Image read_rgb(const std::filesystem::path& path);
+
 // Writes a linear float32 EXR (zip), Y for one channel and R, G, B for three, with `attributes` as metadata.
 // Appears under its final name whole or not at all. Throws kOutput.
 void write_exr(const std::filesystem::path& path, const Image& image,

@@ -61,6 +61,7 @@ void read_blocks(std::string_view text, const std::string& header,
 SweepJournal::SweepJournal(std::filesystem::path path, const Table& empty_table, std::size_t sample_count,
                            bool resume)
     : path_(std::move(path)), has_diffuse_(empty_table.has_diffuse), rows_(sample_count) {
+  if (path_.empty()) return;
   const std::string header = table_text(empty_table);
   const std::string opening = header + std::string(kBlockEnd);
   if (resume && std::filesystem::exists(path_)) {
@@ -79,6 +80,7 @@ SweepJournal::SweepJournal(std::filesystem::path path, const Table& empty_table,
 }
 
 void SweepJournal::append(const std::vector<std::size_t>& samples, const std::vector<TableRow>& rows) {
+  if (path_.empty()) return;
   std::string block;
   for (std::size_t i = 0; i < samples.size(); ++i)
     block += std::to_string(samples[i]) + "," + row_text(rows[i], has_diffuse_) + "\n";

@@ -61,8 +61,9 @@ double subpixel_alpha(int resolution, int samples_per_axis);
 // written a block of rows at a time. Rows of one source width form a block.
 class SweepJournal {
  public:
-  // Continues the journal at `path` where `resume` is set and it exists; else starts one. Throws kInput where
-  // it was made with other options, kOutput where it cannot be written.
+  // Continues the journal at `path` where `resume` is set and it exists; else starts one. Nothing is kept
+  // where `path` is empty. Throws kInput where it was made with other options, kOutput where it cannot be
+  // written.
   SweepJournal(std::filesystem::path path, const Table& empty_table, std::size_t sample_count, bool resume);
 
   const std::optional<TableRow>& row(std::size_t sample) const { return rows_[sample]; }
@@ -79,8 +80,9 @@ class SweepJournal {
 // Stages 1: width, specular and diffuse at once from kFixedGuess (joint_match.hpp); 3: the same from the
 // result of 2. Where the two models' light differs by a factor, the source's pictures are multiplied by it
 // first (section 4). The same table for any number of jobs, and whether resumed or not. Throws kUsage for
-// unknown models and samples out of range, kNumeric where a search breaks, and what the renderer throws.
+// unknown models and samples out of range, kNumeric where a search breaks, and what the renderer throws. What
+// is finished is kept at `journal` where that is not empty.
 Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution,
-                const std::filesystem::path& journal, bool resume);
+                const std::filesystem::path& journal = {}, bool resume = false);
 
 }  // namespace remapc

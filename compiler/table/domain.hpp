@@ -6,8 +6,8 @@
 namespace remapc {
 
 // The box with alpha1 in a range and specular1 from 0 to a bound, in which every width has usable rows up to
-// the bound and no row is clamped (covered_box.hpp chooses among those that there are). Rows of other statuses
-// are gaps and bound nothing. Throws kInput for a table without such a box.
+// the bound and no row is clamped (covered_box.hpp chooses among those that there are). Rows of other
+// statuses are gaps and bound nothing. Throws kInput for a table without such a box.
 remap::Domain table_domain(const Table& table);
 
 // The table with the roles of source and target reversed: its usable rows with parameters exchanged

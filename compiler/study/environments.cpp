@@ -1,0 +1,222 @@
+#include "study/environments.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "error.hpp"
+#include "number_text.hpp"
+#include "parallel.hpp"
+#include "study/colour.hpp"
+#include "study/conversions.hpp"
+#include "study/likeness.hpp"
+#include "study/lit_sphere.hpp"
+#include "sweep/renderer.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+// Parts of a study that report progress for each pair, besides the pictures.
+constexpr std::size_t kMethodCount = 4;
+
+// What the display shows of a picture of linear RGB, and its luma on a black square.
+struct Shown {
+  std::vector<float> colours;  // RGB of the pixels that show the sphere
+  std::vector<float> luma;     // of the whole picture
+};
+
+std::vector<float> displayed(const std::vector<float>& radiance) {
+  std::vector<float> values;
+  values.reserve(radiance.size());
+  for (const float value : radiance) values.push_back(display_value(static_cast<double>(value)));
+  return values;
+}
+
+Shown shown(const SpherePictures& pictures, const std::vector<float>& radiance) {
+  const auto side = static_cast<std::size_t>(pictures.resolution());
+  Shown picture{displayed(radiance), std::vector<float>(side * side, 0.0f)};
+  for (std::size_t i = 0; i < pictures.pixels().size(); ++i)
+    picture.luma[pictures.pixels()[i]] = static_cast<float>(luminance(&picture.colours[3 * i]));
+  return picture;
+}
+
+double mean_radiance(const std::vector<float>& radiance) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < radiance.size(); i += 3) sum += luminance(&radiance[i]);
+  return sum / (static_cast<double>(radiance.size()) / 3.0);
+}
+
+double sphere_similarity(const SpherePictures& pictures, const Shown& a, const Shown& b) {
+  const std::vector<float> map = similarity_map(a.luma, b.luma, pictures.resolution(), pictures.resolution());
+  double sum = 0.0;
+  for (const std::uint32_t pixel : pictures.pixels()) sum += static_cast<double>(map[pixel]);
+  return sum / static_cast<double>(pictures.pixels().size());
+}
+
+// A picture of one material under one environment, with what comparisons need of it.
+struct Picture {
+  Shown display;
+  double mean = 0.0;                           // linear luminance
+  std::array<std::vector<float>, 2> halves{};  // display colours by each half of the directions
+};
+
+Picture picture_of(const SpherePictures& pictures, std::size_t material, std::size_t environment) {
+  const std::vector<float> radiance = pictures.radiance(material, environment);
+  Picture picture{shown(pictures, radiance), mean_radiance(radiance), {}};
+  for (std::size_t half = 0; half < picture.halves.size(); ++half)
+    picture.halves[half] = displayed(pictures.half_radiance(material, environment, half));
+  return picture;
+}
+
+// The materials of one alpha, each once: sources, and what they become.
+struct Sitters {
+  std::vector<SphereMaterial> materials;
+  std::size_t place(const SphereMaterial& material) {
+    const auto found = std::find(materials.begin(), materials.end(), material);
+    if (found != materials.end()) return static_cast<std::size_t>(found - materials.begin());
+    materials.push_back(material);
+    return materials.size() - 1;
+  }
+};
+
+struct Sitting {
+  Conversion conversion;
+  std::size_t source, target;  // places in Sitters::materials
+};
+
+// Mean square over the colours of half of what two differences of pictures differ by: each was made with one
+// half of the directions, so this is the sampling error of their mean.
+double squared_noise(const Picture& source, const Picture& target) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < source.halves[0].size(); ++i) {
+    const double first = static_cast<double>(source.halves[0][i]) - static_cast<double>(target.halves[0][i]);
+    const double second = static_cast<double>(source.halves[1][i]) - static_cast<double>(target.halves[1][i]);
+    sum += 0.25 * (first - second) * (first - second);
+  }
+  return sum / static_cast<double>(source.halves[0].size());
+}
+
+// One alpha: renders all of its materials together and compares them.
+void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
+                   std::span<const Conversion> conversions, EnvironmentsResult* result) {
+  Sitters sitters;
+  std::vector<Sitting> sittings;
+  for (const Conversion& c : conversions) {
+    const ModelPair& pair = options.pairs[c.pair];
+    sittings.push_back({c, sitters.place({builtin_brdf(pair.source), c.alpha, options.specular}),
+                        sitters.place({builtin_brdf(pair.target), c.target_alpha, c.target_specular})});
+  }
+  SphereSampling sampling{options.resolution, options.samples, options.jobs, options.progress};
+  sampling.cancelled = options.cancelled;
+  const SpherePictures pictures = render_spheres(pyramid, sitters.materials, sampling);
+
+  const std::size_t environment_count = options.environments.size();
+  std::vector<Comparison> comparisons(sittings.size() * environment_count);
+  remap::run_parallel(environment_count, options.jobs, [&](std::size_t e) {
+    std::vector<Picture> shots;
+    for (std::size_t m = 0; m < sitters.materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
+    for (std::size_t i = 0; i < sittings.size(); ++i) {
+      const Picture &source = shots[sittings[i].source], &target = shots[sittings[i].target];
+      comparisons[i * environment_count + e] = {
+          sittings[i].conversion,
+          e,
+          {100.0 * rms_difference(source.display.colours, target.display.colours),
+           sphere_similarity(pictures, source.display, target.display), target.mean / source.mean - 1.0},
+          squared_noise(source, target)};
+    }
+  });
+  result->comparisons.insert(result->comparisons.end(), comparisons.begin(), comparisons.end());
+}
+
+void require_options(const EnvironmentsOptions& options) {
+  if (options.pairs.empty() || options.alphas.empty() || options.environments.empty())
+    throw Error(ErrorKind::kUsage,
+                "environments: no pair, alpha or environment; expected one at least of each");
+  const auto renderer = make_builtin_renderer();
+  for (const ModelPair& pair : options.pairs)
+    for (const std::string& name : {pair.source, pair.target}) {
+      const ModelDescription model = find_model(*renderer, name);
+      for (const double alpha : options.alphas)
+        if (!model.alpha.contains(alpha))
+          throw Error(ErrorKind::kUsage, "alpha: " + remap::number_text(alpha) + "; expected " +
+                                             remap::number_text(model.alpha.min) + " to " +
+                                             remap::number_text(model.alpha.max));
+    }
+  if (!(options.specular > 0.0 && options.specular <= 1.0))
+    throw Error(ErrorKind::kUsage,
+                "specular: " + remap::number_text(options.specular) + "; expected more than 0, 1 at most");
+}
+
+}  // namespace
+
+std::string pair_name(const ModelPair& pair) { return pair.source + " -> " + pair.target; }
+
+std::string method_name(Method method) {
+  switch (method) {
+    case Method::kCopy:
+      return "copy";
+    case Method::kPaper:
+      return "paper";
+    case Method::kNatural:
+      return "natural";
+    case Method::kShipped:
+      break;
+  }
+  return "shipped";
+}
+
+std::vector<ModelPair> default_pairs() {
+  return {{"mitsuba/ward", "mitsuba/ggx"},     {"mitsuba/beckmann", "mitsuba/ggx"},
+          {"mitsuba/ggx", "mitsuba/beckmann"}, {"mitsuba/ward", "mitsuba/as"},
+          {"mitsuba/as", "mitsuba/ggx"},       {"mitsuba/ward-balanced", "mitsuba/beckmann"}};
+}
+
+std::vector<double> default_alphas() { return {0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.75}; }
+
+std::size_t progress_steps(const EnvironmentsOptions& options) {
+  return options.pairs.size() * kMethodCount +
+         options.alphas.size() * static_cast<std::size_t>(std::max(0, options.resolution));
+}
+
+EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
+  require_options(options);
+  EnvironmentsResult result;
+  const std::vector<Conversion> conversions = conversions_of(options, &result.remarks);
+  const RadiancePyramid pyramid(options.environments);
+  for (auto begin = conversions.begin(); begin != conversions.end();) {
+    const auto end =
+        std::find_if(begin, conversions.end(), [&](const Conversion& c) { return c.alpha != begin->alpha; });
+    compare_alpha(options, pyramid, {begin, end}, &result);
+    begin = end;
+  }
+  double sum = 0.0;
+  for (const Comparison& comparison : result.comparisons) sum += comparison.squared_noise;
+  result.noise = 100.0 * std::sqrt(sum / static_cast<double>(result.comparisons.size()));
+  return result;
+}
+
+std::vector<const Comparison*> comparisons_of(const EnvironmentsResult& result, Method method,
+                                              std::size_t pair) {
+  std::vector<const Comparison*> chosen;
+  for (const Comparison& comparison : result.comparisons)
+    if (comparison.conversion.method == method && (pair == kAllPairs || comparison.conversion.pair == pair))
+      chosen.push_back(&comparison);
+  return chosen;
+}
+
+PictureLikeness mean_likeness(const std::vector<const Comparison*>& comparisons) {
+  PictureLikeness mean;
+  const auto count = static_cast<double>(comparisons.size());
+  for (const Comparison* comparison : comparisons) {
+    mean.rmse += comparison->likeness.rmse / count;
+    mean.ssim += comparison->likeness.ssim / count;
+    mean.energy += std::fabs(comparison->likeness.energy) / count;
+  }
+  return mean;
+}
+
+}  // namespace remapc

@@ -1,0 +1,203 @@
+#include "study/environments_report.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "number_text.hpp"
+#include "version.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+constexpr std::array kMethods = {Method::kCopy, Method::kPaper, Method::kNatural, Method::kShipped};
+constexpr double kRmseStep = 0.01, kSsimStep = 0.001;  // of the figures in the text
+
+std::string fixed(double value, int decimals, int width) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%*.*f", width, decimals, value);
+  return text.data();
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size(), width), ' ');
+  return text;
+}
+
+std::string figures_text(const PictureLikeness& likeness) {
+  return fixed(likeness.rmse, 2, 8) + fixed(likeness.ssim, 3, 8) + fixed(100.0 * likeness.energy, 1, 8);
+}
+
+// What the figures depend on besides the rows themselves.
+std::vector<std::pair<std::string, std::string>> circumstances(const EnvironmentsOptions& options,
+                                                               const EnvironmentsResult& result) {
+  return {{"tool", std::string("remapc ") + remap::kVersion},
+          {"resolution", std::to_string(options.resolution)},
+          {"samples", std::to_string(options.samples)},
+          {"mean_luminance", number_text(mean_luminance(options.environments.front()))},
+          {"noise_percent", number_text(remap::rounded_up(result.noise, 2))}};
+}
+
+std::string comments_of(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  std::string text;
+  for (const auto& [key, value] : circumstances(options, result)) text += "# " + key + ": " + value + "\n";
+  return text;
+}
+
+std::string listed(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + number_text(value);
+  return text;
+}
+
+std::vector<const Comparison*> at_alpha(const std::vector<const Comparison*>& comparisons, double alpha) {
+  std::vector<const Comparison*> chosen;
+  for (const Comparison* comparison : comparisons)
+    if (comparison->conversion.alpha == alpha) chosen.push_back(comparison);
+  return chosen;
+}
+
+std::string counted_pairs(const EnvironmentsOptions& options, const EnvironmentsResult& result,
+                          Method method) {
+  std::size_t count = 0;
+  for (std::size_t p = 0; p < options.pairs.size(); ++p)
+    count += comparisons_of(result, method, p).empty() ? 0 : 1;
+  return count == options.pairs.size()
+             ? ""
+             : " (" + std::to_string(count) + " of " + std::to_string(options.pairs.size()) + " pairs)";
+}
+
+std::string heading(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  std::string names;
+  for (const Environment& environment : options.environments)
+    names += (names.empty() ? "" : ", ") + environment.name;
+  return "Spheres under " + names + "; alpha " + listed(options.alphas) + ", specular " +
+         number_text(options.specular) + ", " + std::to_string(options.resolution) + " x " +
+         std::to_string(options.resolution) + " pixels, sampling noise " +
+         number_text(remap::rounded_up(result.noise, 2)) +
+         " %\nRMSE in % of the display's range, SSIM of luma, energy: error of mean radiance in %\n";
+}
+
+std::string verdict_text(const EnvironmentsOptions& options, const EnvironmentsResult& result,
+                         Method method) {
+  std::string text;
+  for (const WorsePair& worse : worse_than_copy(options, result)) {
+    if (worse.method != method) continue;
+    text += (text.empty() ? " is worse than copying for " : ", ") + pair_name(options.pairs[worse.pair]) +
+            " (RMSE" + fixed(worse.likeness.rmse, 2, 5) + " against" + fixed(worse.copy.rmse, 2, 5) +
+            ", SSIM" + fixed(worse.likeness.ssim, 3, 6) + " against" + fixed(worse.copy.ssim, 3, 6) + ")";
+  }
+  return method_name(method) + (text.empty() ? " is worse than copying for no pair" : text) + ".\n";
+}
+
+}  // namespace
+
+std::vector<Method> methods_of(const EnvironmentsResult& result) {
+  std::vector<Method> methods;
+  for (const Method method : kMethods)
+    if (!comparisons_of(result, method).empty()) methods.push_back(method);
+  return methods;
+}
+
+std::string comparisons_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  std::string text = comments_of(options, result) +
+                     "source,target,alpha,specular,environment,method,target_alpha,target_specular,"
+                     "rmse_percent,ssim,energy_error\n";
+  for (const Comparison& comparison : result.comparisons) {
+    const Conversion& c = comparison.conversion;
+    text += options.pairs[c.pair].source + "," + options.pairs[c.pair].target + "," + number_text(c.alpha) +
+            "," + number_text(options.specular) + "," + options.environments[comparison.environment].name +
+            "," + method_name(c.method) + "," + number_text(c.target_alpha) + "," +
+            number_text(c.target_specular) + "," + number_text(comparison.likeness.rmse) + "," +
+            number_text(comparison.likeness.ssim) + "," + number_text(comparison.likeness.energy) + "\n";
+  }
+  return text;
+}
+
+std::string summary_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  std::string text = comments_of(options, result) + "source,target,method,rmse_percent,ssim,energy_error\n";
+  const auto add = [&](const std::string& models, Method method, std::size_t pair) {
+    const auto chosen = comparisons_of(result, method, pair);
+    if (chosen.empty()) return;
+    const PictureLikeness mean = mean_likeness(chosen);
+    text += models + "," + method_name(method) + "," + number_text(mean.rmse) + "," + number_text(mean.ssim) +
+            "," + number_text(mean.energy) + "\n";
+  };
+  for (const Method method : kMethods) add("all,all", method, kAllPairs);
+  for (std::size_t p = 0; p < options.pairs.size(); ++p)
+    for (const Method method : kMethods)
+      add(options.pairs[p].source + "," + options.pairs[p].target, method, p);
+  return text;
+}
+
+std::vector<WorsePair> worse_than_copy(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  std::vector<WorsePair> worse;
+  for (const Method method : kMethods)
+    for (std::size_t p = 0; p < options.pairs.size(); ++p) {
+      const auto chosen = comparisons_of(result, method, p);
+      if (chosen.empty()) continue;
+      const PictureLikeness mean = mean_likeness(chosen);
+      const PictureLikeness copy = mean_likeness(comparisons_of(result, Method::kCopy, p));
+      if (mean.rmse > copy.rmse + 0.5 * kRmseStep || mean.ssim < copy.ssim - 0.5 * kSsimStep)
+        worse.push_back({method, p, mean, copy});
+    }
+  return worse;
+}
+
+std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  std::size_t width = 0;
+  for (const ModelPair& pair : options.pairs) width = std::max(width, pair_name(pair).size() + 12);
+  std::string text = heading(options, result) + padded("", width) + "    RMSE    SSIM  energy\n";
+  for (const Method method : methods_of(result))
+    text += padded(method_name(method) + counted_pairs(options, result, method), width) +
+            figures_text(mean_likeness(comparisons_of(result, method))) + "\n";
+  for (std::size_t p = 0; p < options.pairs.size(); ++p)
+    for (const Method method : methods_of(result)) {
+      const auto chosen = comparisons_of(result, method, p);
+      if (!chosen.empty())
+        text += padded(pair_name(options.pairs[p]) + "  " + method_name(method), width) +
+                figures_text(mean_likeness(chosen)) + "\n";
+    }
+  for (const Method method : methods_of(result))
+    if (method != Method::kCopy) text += verdict_text(options, result, method);
+  for (const std::string& remark : result.remarks) text += remark + ".\n";
+  return text;
+}
+
+std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  // Colours that differ for colour-blind eyes too (Okabe and Ito 2008), in the order of Method.
+  static constexpr std::array<const char*, kMethods.size()> kColours = {"#000000", "#D55E00", "#0072B2",
+                                                                        "#009E73"};
+  std::ostringstream out;
+  std::array<std::string, 2> curves;
+  for (const Method method : methods_of(result)) {
+    const std::string name = method_name(method);
+    out << "$" << name << " << EOD\n";
+    for (const double alpha : options.alphas) {
+      const PictureLikeness mean = mean_likeness(at_alpha(comparisons_of(result, method), alpha));
+      out << number_text(alpha) << ' ' << number_text(mean.rmse) << ' ' << number_text(mean.ssim) << '\n';
+    }
+    out << "EOD\n";
+    for (std::size_t panel = 0; panel < curves.size(); ++panel)
+      curves[panel] += (curves[panel].empty() ? "plot $" : ", $") + name +
+                       " using 1:" + std::to_string(panel + 2) +
+                       " with linespoints linewidth 2 pointtype 7 pointsize 0.5 " + "linecolor rgb '" +
+                       kColours[static_cast<std::size_t>(method)] + "' title '" + name +
+                       counted_pairs(options, result, method) + "'";
+  }
+  out << "set terminal svg size 1200,480 enhanced font 'Helvetica,13' background rgb 'white'\n"
+      << "set multiplot layout 1,2 margins 0.07,0.98,0.13,0.85 spacing 0.09,0.1 title 'Spheres under "
+      << options.environments.size() << " environments, mean of " << options.pairs.size()
+      << " pairs of models' font ',16'\n"
+      << "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
+      << "set tics textcolor rgb 'black'\nset xlabel 'alpha of the source'\n"
+      << "set title 'RMSE, % of the display''s range (less is more alike)'\nset yrange [0:*]\n"
+      << curves[0] << "\nset title 'SSIM of luma (1 is equal)'\nset yrange [*:1]\nset key bottom right\n"
+      << curves[1] << "\nunset multiplot\n";
+  return out.str();
+}
+
+}  // namespace remapc
