@@ -24,6 +24,14 @@ double rounded_up(double value, int digits) {
                        value);
 }
 
+double rounded(double value, int digits) {
+  std::array<char, 40> text;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, digits - 1)
+          .ptr;
+  return parse_number(std::string_view(text.data(), end)).value_or(value);
+}
+
 double decimal_value(float value) {
   std::array<char, 64> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;

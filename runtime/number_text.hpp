@@ -14,6 +14,9 @@ std::string number_text(double value);
 // for 0.
 double rounded_up(double value, int digits);
 
+// `value` rounded to nearest at `digits` significant decimal digits.
+double rounded(double value, int digits);
+
 // The double that a person would write for `value`: 0.01, not 0.00999999977.
 double decimal_value(float value);
 

@@ -152,7 +152,7 @@ class Builder {
   void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record) const {
     const ItemPaths paths = paths_of(folders_, item.id);
     if (has_table(item) && !fresh.table) {
-      const std::string text = table_text(table_of(item, paths));
+      const std::string text = table_text(table_of(item));
       remap::write_file(paths.table, text);
       record->table = sha256(text);
     }
@@ -171,7 +171,7 @@ class Builder {
     record->specular_bound = lowered.specular.bound;
   }
 
-  Table table_of(const ManifestItem& item, const ItemPaths& paths) const {
+  Table table_of(const ManifestItem& item) const {
     if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
       const std::string bytes = remap::read_file(paths_of(folders_, inverse->of).fit);
       return inverse_table(remap::fit_from_json(bytes, inverse->of), bytes);

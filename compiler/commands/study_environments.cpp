@@ -7,7 +7,7 @@
 
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
-#include "commands/fit_folder.hpp"
+#include "build/fit_folder.hpp"
 #include "commands/studies.hpp"
 #include "error.hpp"
 #include "files.hpp"

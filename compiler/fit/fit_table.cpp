@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include <openssl/evp.h>
 
@@ -10,6 +11,7 @@
 #include "fit/comparison.hpp"
 #include "fit/split.hpp"
 #include "model/interpreter.hpp"
+#include "number_text.hpp"
 #include "table/check.hpp"
 #include "table/domain.hpp"
 #include "version.hpp"
@@ -36,13 +38,30 @@ void require_models(const Table& table) {
   }
 }
 
-// How alike the pictures are at the best parameters; none where the table does not say.
-std::optional<remap::Likeness> likeness(const std::vector<TableRow>& rows) {
+// The pairs of numbers of kSpheresComment; those that are none are left out.
+std::vector<remap::SphereSimilarity> spheres_of(const Table& table) {
+  std::vector<remap::SphereSimilarity> spheres;
+  for (const auto& [key, value] : table.comments) {
+    if (key != kSpheresComment) continue;
+    std::istringstream pairs(value);
+    for (std::string pair; std::getline(pairs >> std::ws, pair, ',');) {
+      const std::size_t space = pair.find(' ');
+      const auto alpha = remap::parse_number(pair.substr(0, space));
+      const auto ssim =
+          space == std::string::npos ? std::nullopt : remap::parse_number(pair.substr(space + 1));
+      if (alpha && ssim) spheres.push_back({*alpha, *ssim});
+    }
+  }
+  return spheres;
+}
+
+// How alike the pictures are at the best parameters over `rows`; none where the table does not say.
+std::optional<remap::Likeness> likeness(const Table& table, const std::vector<TableRow>& rows) {
   std::vector<double> errors;
   for (const TableRow& row : rows)
     if (!std::isnan(row.error)) errors.push_back(row.error);
-  if (errors.size() != rows.size()) return std::nullopt;
-  return remap::Likeness{error_figures(std::move(errors)), {}};
+  if (errors.empty() || errors.size() != rows.size()) return std::nullopt;
+  return remap::Likeness{error_figures(std::move(errors)), spheres_of(table)};
 }
 
 }  // namespace
@@ -86,7 +105,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   fit.table.name = std::filesystem::path(table.name).filename().string();
   fit.table.sha256 = sha256(bytes);
   for (const auto& [key, value] : table.comments) fit.table.comments[key] = value;
-  fit.likeness = likeness(rows_inside(usable_rows(table), fit.domain));
+  fit.likeness = likeness(table, rows_inside(usable_rows(table), fit.domain));
   fit.tool_version = remap::kVersion;
 
   const RowSplit split = split_rows(table, fit.domain, options.regression.seed, options.held_out_fraction);

@@ -10,8 +10,8 @@
 #include "parallel.hpp"
 #include "study/colour.hpp"
 #include "study/conversions.hpp"
-#include "study/likeness.hpp"
 #include "study/lit_sphere.hpp"
+#include "sweep/likeness.hpp"
 #include "sweep/renderer.hpp"
 
 namespace remapc {

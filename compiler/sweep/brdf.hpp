@@ -34,7 +34,7 @@ struct BrdfModel {
 };
 
 // The built-in model of this name, for those who light it otherwise than by the lights of a Scene. Throws
-// kUsage with the nearest known name.
+// kUsage with the nearest known name, and for a model that is neither scaled nor given by F0.
 BrdfModel builtin_brdf(const std::string& name);
 
 // The lobe of a mirror-white surface: reflectance without Fresnel.

@@ -308,7 +308,11 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
 BrdfModel builtin_brdf(const std::string& name) {
   find_model(BuiltinRenderer(), name);
   const BuiltinModel* model = find_builtin(name);
-  return {model->brdf, model->fresnel};
+  if (model->reflectance == Reflectance::kScale) return {model->brdf, Fresnel::kNone};
+  if (model->reflectance == Reflectance::kSchlick) return {model->brdf, Fresnel::kSchlick};
+  throw Error(ErrorKind::kUsage, name +
+                                     ": is given by an index of refraction or trimmed; expected a model of a "
+                                     "plain scale or F0");
 }
 
 std::unique_ptr<Renderer> make_builtin_renderer() { return std::make_unique<BuiltinRenderer>(); }

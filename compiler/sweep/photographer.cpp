@@ -64,6 +64,13 @@ std::vector<float> Photographer::take(const Material& material) const {
   return row;
 }
 
+std::vector<float> Photographer::square_picture(const std::vector<float>& row) const {
+  const auto side = static_cast<std::size_t>(resolution_);
+  std::vector<float> square(side * side, 0.0f);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) square[pixels_[i]] = row[i];
+  return square;
+}
+
 std::vector<float> Photographer::take(const ModelDescription& model, const Sitting& sitting) const {
   return take(grey_material(model, sitting.alpha, sitting.specular, sitting.diffuse));
 }

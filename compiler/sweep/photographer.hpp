@@ -44,6 +44,9 @@ class Photographer {
   // The same for any grey material.
   std::vector<float> take(const Material& material) const;
 
+  // The picture under the first light as a square, row 0 at the top, 0 beside the sphere.
+  std::vector<float> square_picture(const std::vector<float>& row) const;
+
   // Pixels of one picture that show the sphere, and their view cosines.
   std::size_t pixel_count() const { return cosines_.size(); }
   const std::vector<float>& view_cosines() const { return cosines_; }

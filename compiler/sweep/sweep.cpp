@@ -11,6 +11,7 @@
 #include "sweep/block_match.hpp"
 #include "sweep/joint_match.hpp"
 #include "sweep/photographer.hpp"
+#include "sweep/spheres.hpp"
 #include "sweep/target_bank.hpp"
 #include "version.hpp"
 
@@ -26,6 +27,8 @@ using remap::Range;
 constexpr double kBankRatio = 1.05;
 // The search reaches this far below the narrowest source width; no pair of the hub differs by more than 2.
 constexpr double kNarrowing = 4.0;
+// Samples are numbers that a person can type.
+constexpr int kSampleDigits = 9;
 // Laws show in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
 
@@ -76,6 +79,17 @@ void require_speculars(const SweepOptions& options, const Subject& source) {
 
 // Pictures are floats: digits beyond the ninth are noise.
 double rounded_ratio(double ratio) { return ratio >= 1e-3 ? std::round(ratio * 1e9) / 1e9 : ratio; }
+
+// Matching is good to some 1e-7: more digits would only make tables larger.
+std::vector<TableRow> rounded(std::vector<TableRow> rows) {
+  constexpr int kDigits = 10, kErrorDigits = 6;
+  for (TableRow& row : rows) {
+    for (double* value : {&row.alpha2, &row.specular2, &row.diffuse2})
+      *value = remap::rounded(*value, kDigits);
+    row.error = remap::rounded(row.error, kErrorDigits);
+  }
+  return rows;
+}
 
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 
@@ -190,7 +204,8 @@ std::vector<SamplePoint> grid_samples(const Range& alphas, std::size_t alpha_cou
   for (std::size_t i = 0; i < alpha_count; ++i)
     for (std::size_t j = 0; j < specular_count; ++j)
       samples.push_back(
-          {value(alphas, i, alpha_count, false), value(speculars, j, specular_count, speculars.min == 0.0)});
+          {remap::rounded(value(alphas, i, alpha_count, false), kSampleDigits),
+           remap::rounded(value(speculars, j, specular_count, speculars.min == 0.0), kSampleDigits)});
   return samples;
 }
 
@@ -237,7 +252,7 @@ Table run_sweep(const Renderer& renderer, const SweepOptions& options, const Swe
     if (!known && execution.cancelled != nullptr && *execution.cancelled)
       throw Error(ErrorKind::kInterrupted, "sweep: interrupted; continue it with --resume");
     std::vector<TableRow> rows;
-    if (!known) rows = match_block(setup, block);
+    if (!known) rows = rounded(match_block(setup, block));
     const std::lock_guard lock(mutex);
     if (!known) journal.append(block.samples, rows);
     for (std::size_t i = 0; i < block.samples.size(); ++i)
@@ -245,6 +260,7 @@ Table run_sweep(const Renderer& renderer, const SweepOptions& options, const Swe
     done += block.samples.size();
     if (execution.progress) execution.progress(done, options.samples.size());
   });
+  table.comments.emplace_back(kSpheresComment, spheres_text(compare_spheres(setup, table.rows)));
   return table;
 }
 

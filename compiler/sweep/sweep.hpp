@@ -42,7 +42,8 @@ struct SweepExecution {
 };
 
 // Uniform samples: `alpha_count` widths over `alphas`, both ends included, and `specular_count` values over
-// `speculars`, the lower end excluded where it is 0 (nothing to match there). Section 5.2 takes 30 x 30.
+// `speculars`, the lower end excluded where it is 0 (nothing to match there), rounded to nine digits.
+// Section 5.2 takes 30 x 30.
 std::vector<SamplePoint> grid_samples(const remap::Range& alphas, std::size_t alpha_count,
                                       const remap::Range& speculars, std::size_t specular_count);
 

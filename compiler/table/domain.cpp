@@ -77,6 +77,7 @@ remap::Domain table_domain(const Table& table) {
 
 Table swapped(const Table& table) {
   Table result = table;
+  std::erase_if(result.comments, [](const auto& comment) { return comment.first == kSpheresComment; });
   result.comments.emplace_back("roles", "swapped");
   std::swap(result.source, result.target);
   result.rows = usable_rows(table);

@@ -12,7 +12,7 @@ remap::Domain table_domain(const Table& table);
 
 // The table with the roles of source and target reversed: its usable rows with parameters exchanged
 // (Sztrajman et al. 2019, section 5). Comments stay as they are, since they say how the table was made, with
-// `roles: swapped` after them.
+// `roles: swapped` after them and without the spheres, whose widths are those of the other side.
 Table swapped(const Table& table);
 
 }  // namespace remapc

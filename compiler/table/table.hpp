@@ -45,6 +45,9 @@ struct Table {
   std::vector<TableRow> rows;
 };
 
+// The comment that holds similarities of spheres: `alpha1 ssim, alpha1 ssim, ...`.
+inline constexpr const char* kSpheresComment = "sphere_ssim";
+
 // Which column of a foreign table holds what, and what its models are.
 struct ColumnMap {
   std::map<std::string, std::string> columns;  // own name -> name in the file; missing: the same

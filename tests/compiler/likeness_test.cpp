@@ -1,5 +1,5 @@
 // Likeness of pictures against scikit-image and closed forms.
-#include "study/likeness.hpp"
+#include "sweep/likeness.hpp"
 
 #include <cmath>
 #include <limits>

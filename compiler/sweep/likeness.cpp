@@ -1,4 +1,4 @@
-#include "study/likeness.hpp"
+#include "sweep/likeness.hpp"
 
 #include <array>
 #include <cmath>
