@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "error.hpp"
@@ -11,9 +11,9 @@
 namespace remap {
 namespace {
 
-// Texels converted by all steps before the next: two copies of a block, 16 KB each with three channels, and
-// its source and target rows stay in the second-level cache.
-constexpr std::size_t kBlock = 1024;
+// Texels converted by all steps before the next: two copies of a block, 8 KB each with three channels, and
+// its source and target rows fit the first-level cache.
+constexpr std::size_t kBlock = 512;
 constexpr std::size_t kMostChannels = 3;
 
 using Row = std::array<float, kBlock>;
@@ -51,20 +51,28 @@ class OutsideTexels {
     add_row(step.roughness, count, given.roughness);
     for (std::size_t c = 0; c < channels; ++c) add_row(step.specular, count, given.specular[c]);
   }
+  bool any() const noexcept { return any_; }
   std::size_t count() const {
-    return any_ ? std::accumulate(outside_.begin(), outside_.end(), std::size_t{0}) : 0;
+    std::size_t texels = 0;
+    if (any_)
+      for (const std::uint32_t outside : outside_) texels += outside >> 31;
+    return texels;
   }
 
  private:
-  // A NaN is outside of every range.
+  // Floats that are not negative, as the ends of ranges, compare as integers do, which vectorises; a negative
+  // float has the sign bit already, and a NaN is above every end.
   void add_row(const Range& range, std::size_t count, const float* values) {
-    const float low = static_cast<float>(range.min), high = static_cast<float>(range.max);
-    for (std::size_t i = 0; i < count; ++i)
-      outside_[i] |= static_cast<std::uint8_t>(!(values[i] >= low && values[i] <= high));
+    const auto low = std::bit_cast<std::uint32_t>(static_cast<float>(range.min));
+    const auto high = std::bit_cast<std::uint32_t>(static_cast<float>(range.max));
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto value = std::bit_cast<std::uint32_t>(values[i] + 0.0f);  // -0 becomes 0
+      outside_[i] |= value | (value - low) | (high - value);
+    }
   }
 
   bool any_ = false;
-  std::array<std::uint8_t, kBlock> outside_;
+  std::array<std::uint32_t, kBlock> outside_;  // the sign bit
 };
 
 void require_joined(const std::vector<const Converter*>& steps) {
@@ -133,7 +141,7 @@ class ChainedConverter final : public Converter {
 
  private:
   // Steps write to two copies by turns, so that what a step was given is still there after it: the texels of
-  // it that are out of domain are looked for only where the step counts some.
+  // it that are out of domain are looked for only where the step counts some, and has others to be told from.
   std::size_t convert_block(std::size_t count, std::size_t channels, const ReadRows& given,
                             const WrittenRows& result) const {
     std::array<Between, 2> between;
@@ -145,8 +153,10 @@ class ChainedConverter final : public Converter {
       const std::size_t outside_count =
           steps_[k]->convert(count, from.roughness, {from.specular.data(), channels}, to.roughness,
                              {to.specular.data(), channels});
-      if (steps_.size() == 1) return outside_count;  // its rows may be written over
-      if (outside_count > 0) outside.add(steps_[k]->info(), count, from, channels);
+      if (outside_count > 0) {
+        if (last && !outside.any()) return outside_count;
+        outside.add(steps_[k]->info(), count, from, channels);
+      }
       from = read(to);
     }
     return outside.count();
