@@ -9,6 +9,7 @@
 #include "number_text.hpp"
 #include "parallel.hpp"
 #include "study/colour.hpp"
+#include "study/contact_sheet.hpp"
 #include "study/conversions.hpp"
 #include "study/likeness.hpp"
 #include "study/lit_sphere.hpp"
@@ -20,8 +21,7 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-// Parts of a study that report progress for each pair, besides the pictures.
-constexpr std::size_t kMethodCount = 4;
+constexpr std::size_t kMethodCount = 4;  // alternatives of Method
 
 // What the display shows of a picture of linear RGB, and its luma on a black square.
 struct Shown {
@@ -100,6 +100,21 @@ double squared_noise(const Picture& source, const Picture& target) {
   return sum / static_cast<double>(source.halves[0].size());
 }
 
+// Shows the comparisons of one environment on its sheet.
+void fill_sheet(const std::vector<Sitting>& sittings, const std::vector<Picture>& shots,
+                const SpherePictures& pictures, Image* sheet) {
+  for (const Sitting& sitting : sittings) {
+    const std::size_t row = sitting.conversion.pair;
+    const std::size_t column = 1 + static_cast<std::size_t>(sitting.conversion.method);
+    const auto place = [&](std::size_t material, std::size_t at) {
+      place_picture(sheet, pictures.resolution(), row, at, pictures.pixels(),
+                    shots[material].display.colours);
+    };
+    place(sitting.source, 0);
+    place(sitting.target, column);
+  }
+}
+
 // One alpha: renders all of its materials together and compares them.
 void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                    std::span<const Conversion> conversions, EnvironmentsResult* result) {
@@ -116,9 +131,14 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
 
   const std::size_t environment_count = options.environments.size();
   std::vector<Comparison> comparisons(sittings.size() * environment_count);
+  const bool on_sheet = options.sheet_alpha == conversions.front().alpha;
+  if (on_sheet)
+    result->sheets.assign(environment_count,
+                          contact_sheet(options.pairs.size(), 1 + kMethodCount, options.resolution));
   remap::run_parallel(environment_count, options.jobs, [&](std::size_t e) {
     std::vector<Picture> shots;
     for (std::size_t m = 0; m < sitters.materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
+    if (on_sheet) fill_sheet(sittings, shots, pictures, &result->sheets[e]);
     for (std::size_t i = 0; i < sittings.size(); ++i) {
       const Picture &source = shots[sittings[i].source], &target = shots[sittings[i].target];
       comparisons[i * environment_count + e] = {

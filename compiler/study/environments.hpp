@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,12 +33,13 @@ struct EnvironmentsOptions {
   std::vector<double> alphas;    // of the source
   double specular = 0.5;         // of the source, linear
   std::vector<Environment> environments;
-  std::vector<remap::Fit> fits;                  // what kShipped may use
-  int resolution = 128;                          // of the pictures, pixels
-  int samples = 1024;                            // directions a pixel
-  int match_resolution = 512;                    // of the pictures that paper and natural are matched by
-  unsigned jobs = 0;                             // threads; 0: one a core
-  std::function<void()> progress;                // one of progress_steps() is done; from any thread
+  std::vector<remap::Fit> fits;       // what kShipped may use
+  int resolution = 128;               // of the pictures, pixels
+  int samples = 1024;                 // directions a pixel
+  int match_resolution = 512;         // of the pictures that paper and natural are matched by
+  unsigned jobs = 0;                  // threads; 0: one a core
+  std::optional<double> sheet_alpha;  // of `alphas`: spheres of this width are kept for contact sheets
+  std::function<void()> progress;     // one of progress_steps() is done; from any thread
   const std::atomic<bool>* cancelled = nullptr;  // stops soon; throws kInterrupted
 };
 
@@ -73,6 +75,9 @@ struct Comparison {
 struct EnvironmentsResult {
   std::vector<Comparison> comparisons;  // by alpha, pair, method, environment
   std::vector<std::string> remarks;     // what was left out, a sentence each
+  // For each environment where `sheet_alpha` is given, in display values: a row a pair; the source, then what
+  // it becomes by each method. Dark where a pair has no such method.
+  std::vector<Image> sheets;
   // RMS sampling error of the difference of two pictures that are compared, percent of the display's range.
   // What it adds to an RMSE, it adds in squares.
   double noise = 0.0;
