@@ -169,7 +169,7 @@ void add_options(CLI::App& app, EnvironmentsCommand& command) {
   app.add_flag(
       "--pictures", command.pictures,
       "Write spheres_<environment>.png too: the middle alpha, a row a pair; the source, then copy, paper, "
-      "natural, shipped");
+      "natural, shipped, best");
   app.add_option("--jobs", study.jobs, "Threads; 0: one a core. The figures do not depend on it")
       ->capture_default_str();
   app.add_flag("--json", command.json, "Means as JSON on standard output");

@@ -11,6 +11,7 @@
 #include "study/colour.hpp"
 #include "study/contact_sheet.hpp"
 #include "study/conversions.hpp"
+#include "study/floor.hpp"
 #include "study/likeness.hpp"
 #include "study/lit_sphere.hpp"
 #include "sweep/renderer.hpp"
@@ -21,7 +22,7 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-constexpr std::size_t kMethodCount = 4;  // alternatives of Method
+constexpr std::size_t kMethodCount = 4;  // of Method, without kBest
 
 // What the display shows of a picture of linear RGB, and its luma on a black square.
 struct Shown {
@@ -133,8 +134,9 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
   std::vector<Comparison> comparisons(sittings.size() * environment_count);
   const bool on_sheet = options.sheet_alpha == conversions.front().alpha;
   if (on_sheet)
-    result->sheets.assign(environment_count,
-                          contact_sheet(options.pairs.size(), 1 + kMethodCount, options.resolution));
+    result->sheets.assign(
+        environment_count,
+        contact_sheet(options.pairs.size(), 1 + kMethodCount + (options.floor ? 1 : 0), options.resolution));
   remap::run_parallel(environment_count, options.jobs, [&](std::size_t e) {
     std::vector<Picture> shots;
     for (std::size_t m = 0; m < sitters.materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
@@ -150,6 +152,16 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
     }
   });
   result->comparisons.insert(result->comparisons.end(), comparisons.begin(), comparisons.end());
+}
+
+// The search for the best starts from what the objective `natural` finds.
+void add_best(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
+              std::vector<Conversion>* conversions) {
+  std::vector<Conversion> starts;
+  for (const Conversion& conversion : *conversions)
+    if (conversion.method == Method::kNatural) starts.push_back(conversion);
+  const std::vector<Conversion> best = best_conversions(options, pyramid, starts);
+  conversions->insert(conversions->end(), best.begin(), best.end());
 }
 
 void require_options(const EnvironmentsOptions& options) {
@@ -184,9 +196,11 @@ std::string method_name(Method method) {
     case Method::kNatural:
       return "natural";
     case Method::kShipped:
+      return "shipped";
+    case Method::kBest:
       break;
   }
-  return "shipped";
+  return "best";
 }
 
 std::vector<ModelPair> default_pairs() {
@@ -199,7 +213,8 @@ std::vector<double> default_alphas() { return {0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0
 
 std::size_t progress_steps(const EnvironmentsOptions& options) {
   return options.pairs.size() * kMethodCount +
-         options.alphas.size() * static_cast<std::size_t>(std::max(0, options.resolution));
+         options.alphas.size() * static_cast<std::size_t>(std::max(0, options.resolution) +
+                                                          (options.floor ? kFloorResolution : 0));
 }
 
 EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
@@ -210,7 +225,9 @@ EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
   for (auto begin = conversions.begin(); begin != conversions.end();) {
     const auto end =
         std::find_if(begin, conversions.end(), [&](const Conversion& c) { return c.alpha != begin->alpha; });
-    compare_alpha(options, pyramid, {begin, end}, &result);
+    std::vector<Conversion> at_alpha(begin, end);
+    if (options.floor) add_best(options, pyramid, &at_alpha);
+    compare_alpha(options, pyramid, at_alpha, &result);
     begin = end;
   }
   double sum = 0.0;

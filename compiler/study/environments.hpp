@@ -25,6 +25,7 @@ enum class Method {
   kPaper,    // matched by the objective `paper`
   kNatural,  // matched by the objective `natural`
   kShipped,  // a fit, lowered to the polynomials in floats that a header and texremap evaluate
+  kBest,     // of least mean RMSE over the given environments: what no conversion can do better
 };
 std::string method_name(Method method);
 
@@ -38,6 +39,7 @@ struct EnvironmentsOptions {
   int samples = 1024;                 // directions a pixel
   int match_resolution = 512;         // of the pictures that paper and natural are matched by
   unsigned jobs = 0;                  // threads; 0: one a core
+  bool floor = false;                 // compare kBest too
   std::optional<double> sheet_alpha;  // of `alphas`: spheres of this width are kept for contact sheets
   std::function<void()> progress;     // one of progress_steps() is done; from any thread
   const std::atomic<bool>* cancelled = nullptr;  // stops soon; throws kInterrupted

@@ -13,7 +13,8 @@ namespace {
 
 using remap::number_text;
 
-constexpr std::array kMethods = {Method::kCopy, Method::kPaper, Method::kNatural, Method::kShipped};
+constexpr std::array kMethods = {Method::kCopy, Method::kPaper, Method::kNatural, Method::kShipped,
+                                 Method::kBest};
 constexpr double kRmseStep = 0.01, kSsimStep = 0.001;  // of the figures in the text
 
 std::string fixed(double value, int decimals, int width) {

@@ -310,6 +310,24 @@ TEST_CASE(
   CHECK(comparisons_csv(options, study_environments(options)) == comparisons_csv(options, result));
 }
 
+TEST_CASE("study environments: nothing beats the floor, and copies of a model reach it") {
+  EnvironmentsOptions options = small_study();
+  options.alphas = {0.3};
+  options.resolution = 48;  // that of the search
+  options.samples = 256;
+  options.floor = true;
+  const EnvironmentsResult result = study_environments(options);
+  const PictureLikeness best = mean_likeness(comparisons_of(result, Method::kBest));
+  for (const Method method : {Method::kCopy, Method::kPaper, Method::kNatural})
+    CHECK(best.rmse < mean_likeness(comparisons_of(result, method)).rmse);
+
+  options.pairs = {{"mitsuba/as", "mitsuba/as"}};
+  const EnvironmentsResult same = study_environments(options);
+  const Conversion found = comparisons_of(same, Method::kBest).front()->conversion;
+  CHECK(found.target_alpha == Approx(0.3).epsilon(0.01));
+  CHECK(found.target_specular == Approx(0.5).epsilon(0.01));
+}
+
 TEST_CASE("study environments: a fit converts as it is shipped") {
   EnvironmentsOptions options = small_study();
   options.pairs = {{"mitsuba/ward", "mitsuba/as"}};
