@@ -170,6 +170,8 @@ void add_options(CLI::App& app, EnvironmentsCommand& command) {
       "--pictures", command.pictures,
       "Write spheres_<environment>.png too: the middle alpha, a row a pair; the source, then copy, paper, "
       "natural, shipped, best");
+  app.add_flag("--floor", study.floor,
+               "Search the parameters of least mean RMSE over these environments too (`best`)");
   app.add_option("--jobs", study.jobs, "Threads; 0: one a core. The figures do not depend on it")
       ->capture_default_str();
   app.add_flag("--json", command.json, "Means as JSON on standard output");
