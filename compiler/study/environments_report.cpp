@@ -175,7 +175,7 @@ std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsR
 std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
   // Colours that differ for colour-blind eyes too (Okabe and Ito 2008), in the order of Method.
   static constexpr std::array<const char*, kMethods.size()> kColours = {"#000000", "#D55E00", "#0072B2",
-                                                                        "#009E73"};
+                                                                        "#009E73", "#999999"};
   std::ostringstream out;
   std::array<std::string, 2> curves;
   for (const Method method : methods_of(result)) {
