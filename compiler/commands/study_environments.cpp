@@ -14,6 +14,7 @@
 #include "fit/gnuplot.hpp"
 #include "number_text.hpp"
 #include "study/environments_report.hpp"
+#include "sweep/image_file.hpp"
 
 namespace remapc {
 namespace {
@@ -29,7 +30,7 @@ struct EnvironmentsCommand {
   double exposure = 1.0;
   std::filesystem::path fit_folder = "fits";
   std::filesystem::path output;
-  bool json = false, quiet = false;
+  bool pictures = false, json = false, quiet = false;
 };
 
 ModelPair parse_pair(const std::string& text) {
@@ -74,6 +75,10 @@ EnvironmentsOptions study_options(const EnvironmentsCommand& command) {
   options.alphas.erase(std::unique(options.alphas.begin(), options.alphas.end()), options.alphas.end());
   options.environments = chosen_environments(command);
   options.fits = load_fits(command.fit_folder);
+  if (command.pictures && command.output.empty())
+    throw Error(ErrorKind::kUsage, "--pictures: there is no folder for them; expected -o FOLDER");
+  if (command.pictures && !options.alphas.empty())
+    options.sheet_alpha = options.alphas[options.alphas.size() / 2];
   return options;
 }
 
@@ -110,6 +115,8 @@ void write_results(const EnvironmentsCommand& command, const EnvironmentsOptions
                    const EnvironmentsResult& result) {
   remap::write_file(command.output / "environments.csv", comparisons_csv(options, result));
   remap::write_file(command.output / "environments_summary.csv", summary_csv(options, result));
+  for (std::size_t e = 0; e < result.sheets.size(); ++e)
+    write_png(command.output / ("spheres_" + options.environments[e].name + ".png"), result.sheets[e]);
   try {
     remap::write_file(command.output / "environments.svg", run_gnuplot(plot_script(options, result)));
   } catch (const Error& error) {
@@ -159,6 +166,12 @@ void add_options(CLI::App& app, EnvironmentsCommand& command) {
   app.add_option(
       "-o,--output", command.output,
       "Folder for environments.csv, environments_summary.csv and environments.svg (needs gnuplot)");
+  app.add_flag(
+      "--pictures", command.pictures,
+      "Write spheres_<environment>.png too: the middle alpha, a row a pair; the source, then copy, paper, "
+      "natural, shipped, best");
+  app.add_flag("--floor", study.floor,
+               "Search the parameters of least mean RMSE over these environments too (`best`)");
   app.add_option("--jobs", study.jobs, "Threads; 0: one a core. The figures do not depend on it")
       ->capture_default_str();
   app.add_flag("--json", command.json, "Means as JSON on standard output");

@@ -9,7 +9,9 @@
 #include "number_text.hpp"
 #include "parallel.hpp"
 #include "study/colour.hpp"
+#include "study/contact_sheet.hpp"
 #include "study/conversions.hpp"
+#include "study/floor.hpp"
 #include "study/lit_sphere.hpp"
 #include "sweep/likeness.hpp"
 #include "sweep/renderer.hpp"
@@ -20,8 +22,7 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-// Parts of a study that report progress for each pair, besides the pictures.
-constexpr std::size_t kMethodCount = 4;
+constexpr std::size_t kMethodCount = 4;  // of Method, without kBest
 
 // What the display shows of a picture of linear RGB, and its luma on a black square.
 struct Shown {
@@ -100,6 +101,21 @@ double squared_noise(const Picture& source, const Picture& target) {
   return sum / static_cast<double>(source.halves[0].size());
 }
 
+// Shows the comparisons of one environment on its sheet.
+void fill_sheet(const std::vector<Sitting>& sittings, const std::vector<Picture>& shots,
+                const SpherePictures& pictures, Image* sheet) {
+  for (const Sitting& sitting : sittings) {
+    const std::size_t row = sitting.conversion.pair;
+    const std::size_t column = 1 + static_cast<std::size_t>(sitting.conversion.method);
+    const auto place = [&](std::size_t material, std::size_t at) {
+      place_picture(sheet, pictures.resolution(), row, at, pictures.pixels(),
+                    shots[material].display.colours);
+    };
+    place(sitting.source, 0);
+    place(sitting.target, column);
+  }
+}
+
 // One alpha: renders all of its materials together and compares them.
 void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                    std::span<const Conversion> conversions, EnvironmentsResult* result) {
@@ -116,9 +132,15 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
 
   const std::size_t environment_count = options.environments.size();
   std::vector<Comparison> comparisons(sittings.size() * environment_count);
+  const bool on_sheet = options.sheet_alpha == conversions.front().alpha;
+  if (on_sheet)
+    result->sheets.assign(
+        environment_count,
+        contact_sheet(options.pairs.size(), 1 + kMethodCount + (options.floor ? 1 : 0), options.resolution));
   remap::run_parallel(environment_count, options.jobs, [&](std::size_t e) {
     std::vector<Picture> shots;
     for (std::size_t m = 0; m < sitters.materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
+    if (on_sheet) fill_sheet(sittings, shots, pictures, &result->sheets[e]);
     for (std::size_t i = 0; i < sittings.size(); ++i) {
       const Picture &source = shots[sittings[i].source], &target = shots[sittings[i].target];
       comparisons[i * environment_count + e] = {
@@ -130,6 +152,16 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
     }
   });
   result->comparisons.insert(result->comparisons.end(), comparisons.begin(), comparisons.end());
+}
+
+// The search for the best starts from what the objective `natural` finds.
+void add_best(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
+              std::vector<Conversion>* conversions) {
+  std::vector<Conversion> starts;
+  for (const Conversion& conversion : *conversions)
+    if (conversion.method == Method::kNatural) starts.push_back(conversion);
+  const std::vector<Conversion> best = best_conversions(options, pyramid, starts);
+  conversions->insert(conversions->end(), best.begin(), best.end());
 }
 
 void require_options(const EnvironmentsOptions& options) {
@@ -164,9 +196,11 @@ std::string method_name(Method method) {
     case Method::kNatural:
       return "natural";
     case Method::kShipped:
+      return "shipped";
+    case Method::kBest:
       break;
   }
-  return "shipped";
+  return "best";
 }
 
 std::vector<ModelPair> default_pairs() {
@@ -179,7 +213,8 @@ std::vector<double> default_alphas() { return {0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0
 
 std::size_t progress_steps(const EnvironmentsOptions& options) {
   return options.pairs.size() * kMethodCount +
-         options.alphas.size() * static_cast<std::size_t>(std::max(0, options.resolution));
+         options.alphas.size() * static_cast<std::size_t>(std::max(0, options.resolution) +
+                                                          (options.floor ? kFloorResolution : 0));
 }
 
 EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
@@ -190,7 +225,9 @@ EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
   for (auto begin = conversions.begin(); begin != conversions.end();) {
     const auto end =
         std::find_if(begin, conversions.end(), [&](const Conversion& c) { return c.alpha != begin->alpha; });
-    compare_alpha(options, pyramid, {begin, end}, &result);
+    std::vector<Conversion> at_alpha(begin, end);
+    if (options.floor) add_best(options, pyramid, &at_alpha);
+    compare_alpha(options, pyramid, at_alpha, &result);
     begin = end;
   }
   double sum = 0.0;

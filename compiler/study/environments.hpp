@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ enum class Method {
   kPaper,    // matched by the objective `paper`
   kNatural,  // matched by the objective `natural`
   kShipped,  // a fit, lowered to the polynomials in floats that a header and texremap evaluate
+  kBest,     // of least mean RMSE over the given environments: what no conversion can do better
 };
 std::string method_name(Method method);
 
@@ -32,12 +34,14 @@ struct EnvironmentsOptions {
   std::vector<double> alphas;    // of the source
   double specular = 0.5;         // of the source, linear
   std::vector<Environment> environments;
-  std::vector<remap::Fit> fits;                  // what kShipped may use
-  int resolution = 128;                          // of the pictures, pixels
-  int samples = 1024;                            // directions a pixel
-  int match_resolution = 512;                    // of the pictures that paper and natural are matched by
-  unsigned jobs = 0;                             // threads; 0: one a core
-  std::function<void()> progress;                // one of progress_steps() is done; from any thread
+  std::vector<remap::Fit> fits;       // what kShipped may use
+  int resolution = 128;               // of the pictures, pixels
+  int samples = 1024;                 // directions a pixel
+  int match_resolution = 512;         // of the pictures that paper and natural are matched by
+  unsigned jobs = 0;                  // threads; 0: one a core
+  bool floor = false;                 // compare kBest too
+  std::optional<double> sheet_alpha;  // of `alphas`: spheres of this width are kept for contact sheets
+  std::function<void()> progress;     // one of progress_steps() is done; from any thread
   const std::atomic<bool>* cancelled = nullptr;  // stops soon; throws kInterrupted
 };
 
@@ -73,6 +77,9 @@ struct Comparison {
 struct EnvironmentsResult {
   std::vector<Comparison> comparisons;  // by alpha, pair, method, environment
   std::vector<std::string> remarks;     // what was left out, a sentence each
+  // For each environment where `sheet_alpha` is given, in display values: a row a pair; the source, then what
+  // it becomes by each method. Dark where a pair has no such method.
+  std::vector<Image> sheets;
   // RMS sampling error of the difference of two pictures that are compared, percent of the display's range.
   // What it adds to an RMSE, it adds in squares.
   double noise = 0.0;

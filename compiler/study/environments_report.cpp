@@ -13,7 +13,8 @@ namespace {
 
 using remap::number_text;
 
-constexpr std::array kMethods = {Method::kCopy, Method::kPaper, Method::kNatural, Method::kShipped};
+constexpr std::array kMethods = {Method::kCopy, Method::kPaper, Method::kNatural, Method::kShipped,
+                                 Method::kBest};
 constexpr double kRmseStep = 0.01, kSsimStep = 0.001;  // of the figures in the text
 
 std::string fixed(double value, int decimals, int width) {
@@ -60,14 +61,18 @@ std::vector<const Comparison*> at_alpha(const std::vector<const Comparison*>& co
   return chosen;
 }
 
-std::string counted_pairs(const EnvironmentsOptions& options, const EnvironmentsResult& result,
-                          Method method) {
+std::size_t pair_count(const EnvironmentsOptions& options, const EnvironmentsResult& result, Method method) {
   std::size_t count = 0;
   for (std::size_t p = 0; p < options.pairs.size(); ++p)
     count += comparisons_of(result, method, p).empty() ? 0 : 1;
-  return count == options.pairs.size()
-             ? ""
-             : " (" + std::to_string(count) + " of " + std::to_string(options.pairs.size()) + " pairs)";
+  return count;
+}
+
+std::string counted_pairs(const EnvironmentsOptions& options, const EnvironmentsResult& result,
+                          Method method) {
+  const std::size_t count = pair_count(options, result, method);
+  if (count == options.pairs.size()) return "";
+  return " (" + std::to_string(count) + " of " + std::to_string(options.pairs.size()) + " pairs)";
 }
 
 std::string heading(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
@@ -170,11 +175,13 @@ std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsR
 std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
   // Colours that differ for colour-blind eyes too (Okabe and Ito 2008), in the order of Method.
   static constexpr std::array<const char*, kMethods.size()> kColours = {"#000000", "#D55E00", "#0072B2",
-                                                                        "#009E73"};
+                                                                        "#009E73", "#999999"};
   std::ostringstream out;
   std::array<std::string, 2> curves;
   for (const Method method : methods_of(result)) {
     const std::string name = method_name(method);
+    if (pair_count(options, result, method) != options.pairs.size())
+      continue;  // means of other pairs mislead
     out << "$" << name << " << EOD\n";
     for (const double alpha : options.alphas) {
       const PictureLikeness mean = mean_likeness(at_alpha(comparisons_of(result, method), alpha));
@@ -185,8 +192,7 @@ std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsRe
       curves[panel] += (curves[panel].empty() ? "plot $" : ", $") + name +
                        " using 1:" + std::to_string(panel + 2) +
                        " with linespoints linewidth 2 pointtype 7 pointsize 0.5 " + "linecolor rgb '" +
-                       kColours[static_cast<std::size_t>(method)] + "' title '" + name +
-                       counted_pairs(options, result, method) + "'";
+                       kColours[static_cast<std::size_t>(method)] + "' title '" + name + "'";
   }
   out << "set terminal svg size 1200,480 enhanced font 'Helvetica,13' background rgb 'white'\n"
       << "set multiplot layout 1,2 margins 0.07,0.98,0.13,0.85 spacing 0.09,0.1 title 'Spheres under "
@@ -194,7 +200,8 @@ std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsRe
       << " pairs of models' font ',16'\n"
       << "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
       << "set tics textcolor rgb 'black'\nset xlabel 'alpha of the source'\n"
-      << "set title 'RMSE, % of the display''s range (less is more alike)'\nset yrange [0:*]\n"
+      << "set title 'RMSE, % of the display''s range (less is more alike)'\nset yrange [0:*]\nset key bottom "
+         "left\n"
       << curves[0] << "\nset title 'SSIM of luma (1 is equal)'\nset yrange [*:1]\nset key bottom right\n"
       << curves[1] << "\nunset multiplot\n";
   return out.str();

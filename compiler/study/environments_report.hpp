@@ -29,8 +29,8 @@ struct WorsePair {
 };
 std::vector<WorsePair> worse_than_copy(const EnvironmentsOptions& options, const EnvironmentsResult& result);
 
-// A script for gnuplot that draws RMSE and SSIM of each method over alpha as SVG, means over pairs and
-// environments.
+// A script for gnuplot that draws RMSE and SSIM over alpha as SVG, means over pairs and environments, of each
+// method that has all pairs.
 std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsResult& result);
 
 }  // namespace remapc

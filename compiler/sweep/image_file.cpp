@@ -1,6 +1,7 @@
 #include "sweep/image_file.hpp"
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
@@ -21,6 +22,31 @@ std::array<int, 3> colour_channels(const OIIO::ImageSpec& spec, const std::files
   if (named[0] >= 0 && named[1] >= 0 && named[2] >= 0) return named;
   if (spec.nchannels >= 3) return {0, 1, 2};
   throw Error(ErrorKind::kInput, path.string() + ": has 2 channels; expected R, G, B or one");
+}
+
+void require_extension(const std::filesystem::path& path, const std::string& extension,
+                       const std::string& expected) {
+  if (path.extension() != extension)
+    throw Error(ErrorKind::kUsage,
+                path.string() + ": has not the extension " + extension + "; expected " + expected);
+}
+
+// Writes under an unfinished name, asks `is_whole` about that file, renames.
+void write_picture(const std::filesystem::path& path, const Image& image, const OIIO::ImageSpec& spec,
+                   const std::function<bool(const std::filesystem::path&)>& is_whole) {
+  remap::create_parent(path);
+  const std::filesystem::path unfinished = remap::unfinished_name(path);
+  const auto output = OIIO::ImageOutput::create(unfinished.string());
+  const bool written = output && output->open(unfinished.string(), spec) &&
+                       output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) && output->close();
+  if (!written || !is_whole(unfinished)) {
+    std::string reason = output ? output->geterror() : OIIO::geterror();
+    if (reason.empty()) reason = "the file is not whole";
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw Error(ErrorKind::kOutput, path.string() + ": cannot be written: " + reason);
+  }
+  remap::commit_file(unfinished, path);
 }
 
 }  // namespace
@@ -50,26 +76,26 @@ Image read_rgb(const std::filesystem::path& path) {
 
 void write_exr(const std::filesystem::path& path, const Image& image,
                const std::map<std::string, std::string>& attributes) {
-  if (path.extension() != ".exr")
-    throw Error(ErrorKind::kUsage, path.string() + ": has not the extension .exr; expected an OpenEXR file");
-  remap::create_parent(path);
+  require_extension(path, ".exr", "an OpenEXR file");
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   if (image.channels == 1) spec.channelnames = {"Y"};
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   for (const auto& [key, value] : attributes) spec.attribute(key, value);
+  write_picture(path, image, spec, [](const std::filesystem::path&) { return true; });
+}
 
-  const std::filesystem::path unfinished = remap::unfinished_name(path);
-  const auto output = OIIO::ImageOutput::create(unfinished.string());
-  const bool written = output && output->open(unfinished.string(), spec) &&
-                       output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) && output->close();
-  if (!written) {
-    const std::string reason = output ? output->geterror() : OIIO::geterror();
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw Error(ErrorKind::kOutput, path.string() + ": cannot be written: " + reason);
-  }
-  remap::commit_file(unfinished, path);
+void write_png(const std::filesystem::path& path, const Image& image) {
+  require_extension(path, ".png", "a PNG file");
+  const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+  // OpenImageIO's PNG writer does not notice a full disk: the file is read back before it gets its name.
+  write_picture(path, image, spec, [&](const std::filesystem::path& unfinished) {
+    const auto input = OIIO::ImageInput::open(unfinished.string());
+    std::vector<unsigned char> bytes(image.values.size());
+    return input && input->spec().image_bytes() == bytes.size() &&
+           input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, bytes.data()) &&
+           !input->has_error();
+  });
 }
 
 }  // namespace remapc

@@ -19,4 +19,8 @@ Image read_rgb(const std::filesystem::path& path);
 void write_exr(const std::filesystem::path& path, const Image& image,
                const std::map<std::string, std::string>& attributes);
 
+// Writes display values, 0 to 1, as an 8-bit PNG. Appears under its final name whole or not at all. Throws
+// kOutput.
+void write_png(const std::filesystem::path& path, const Image& image);
+
 }  // namespace remapc

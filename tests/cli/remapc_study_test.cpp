@@ -1,0 +1,79 @@
+// `remapc study` as a person meets it.
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "cli/remapc_session.hpp"
+
+using namespace remap;
+
+namespace {
+
+// A study of two pairs that takes a second.
+std::vector<std::string> small_study(const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"study",        "environments",
+                                        "--pair",       "mitsuba/ward:mitsuba/as",
+                                        "--pair",       "mitsuba/beckmann:mitsuba/ggx",
+                                        "--alphas",     "0.2,0.5",
+                                        "--resolution", "16",
+                                        "--samples",    "64",
+                                        "--fits",       REMAP_SOURCE_DIR "/fits"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+std::size_t line_count(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+TEST_CASE("remapc study environments: writes tables and says what was found") {
+  const Session session;
+  const ProcessResult result =
+      session.remapc(small_study({"-o", session.path("study"), "--pictures", "--floor"}));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.output.find("Spheres under sky, overcast, studio; alpha 0.2, 0.5, specular 0.5") == 0);
+  CHECK(result.output.find("shipped (1 of 2 pairs)") != std::string::npos);
+  CHECK(result.output.find("natural is worse than copying for no pair.") != std::string::npos);
+  CHECK(result.output.find("mitsuba/beckmann -> mitsuba/ggx has no fit") != std::string::npos);
+  // 5 comments, the header; 9 pairs of models and methods, 2 alphas, 3 environments.
+  CHECK(line_count(read_file(session.path("study/environments.csv"))) == 6 + 9 * 2 * 3);
+  // Means of 5 methods over all pairs, and of the 9.
+  CHECK(line_count(read_file(session.path("study/environments_summary.csv"))) == 6 + 5 + 9);
+  // gnuplot may be missing; where it is there it draws.
+  CHECK((result.errors.find("environments.svg is not drawn") != std::string::npos ||
+         read_file(session.path("study/environments.svg")).find("</svg>") != std::string::npos));
+  for (const std::string name : {"sky", "overcast", "studio"})
+    CHECK(read_file(session.path("study/spheres_" + name + ".png")).size() > 1000);
+}
+
+TEST_CASE("remapc study environments: --json has the means of each method and pair") {
+  const Session session;
+  const ProcessResult result = session.remapc(small_study({"--json"}));
+  REQUIRE(result.exit_code == 0);
+  for (const std::string key : {"\"noise_percent\": ", "\"copy\": {", "\"shipped\": {",
+                                "\"rmse_percent\": ", "\"worse_than_copy\": [", "\"target\": \"mitsuba/as\""})
+    CHECK(result.output.find(key) != std::string::npos);
+  CHECK(session.file_count() == 0);
+}
+
+TEST_CASE("remapc study environments: wrong usage is exit code 2, files that are no maps are 1") {
+  const Session session;
+  check_failure(session.remapc({"study"}), 2, "is missing");
+  check_failure(session.remapc(small_study({"--pair", "mitsuba/ward"})), 2, "expected SOURCE:TARGET");
+  check_failure(session.remapc(small_study({"--pair", "mitsuba/wart:mitsuba/as"})), 2,
+                "did you mean mitsuba/ward?");
+  check_failure(session.remapc(small_study({"--exposure", "0"})), 2, "--exposure: 0; expected more than 0");
+  check_failure(session.remapc(small_study({"--pictures"})), 2, "expected -o FOLDER");
+  check_failure(session.remapc(small_study({"--environment", session.path("none.exr")})), 1,
+                "none.exr: cannot be read");
+  CHECK(session.file_count() == 0);
+}
+
+TEST_CASE("remapc study environments: has help with an example") {
+  const ProcessResult result = Session().remapc({"study", "environments", "--help"});
+  CHECK(result.exit_code == 0);
+  CHECK(result.output.find("Example:\n  remapc study environments") != std::string::npos);
+}
