@@ -45,6 +45,7 @@ void add_scaled(double factor, const float* values, std::size_t count, Block* su
 
 BankPictures::BankPictures(const Photographer& photographer, const Subject& target, const TargetBank& bank)
     : bank_(bank),
+      black_base_(target.response.proportional()),
       alphas_{bank.alpha(0), bank.alpha(bank.size() - 1)},
       speculars_(target.linear_range()),
       diffuses_(diffuse_range(target)) {
@@ -66,10 +67,11 @@ PictureTangents BankPictures::at(const Sitting& point, bool with_diffuse) const 
     const std::size_t count = std::min(kBlockPixels, pixels - start);
     Block base{}, slope{}, base_rise{}, slope_rise{};
     for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
-      add_scaled(window.basis.value[i], &entries[i]->base[start], count, &base);
       add_scaled(window.basis.value[i], &entries[i]->slope[start], count, &slope);
-      add_scaled(window.basis.derivative[i], &entries[i]->base[start], count, &base_rise);
       add_scaled(window.basis.derivative[i], &entries[i]->slope[start], count, &slope_rise);
+      if (black_base_) continue;
+      add_scaled(window.basis.value[i], &entries[i]->base[start], count, &base);
+      add_scaled(window.basis.derivative[i], &entries[i]->base[start], count, &base_rise);
     }
     for (std::size_t i = 0; i < count; ++i) {
       result.picture[start + i] =
