@@ -23,7 +23,6 @@ using remap::number_text;
 const std::string kSource = "mitsuba/as-dielectric", kTarget = "mitsuba/ward";
 constexpr remap::Range kIors{1.05, 2.5};
 constexpr std::size_t kIorCount = 30;  // 0.05 apart
-constexpr double kBankRatio = 1.05;    // as in sweeps
 constexpr double kLostError = 1.01;    // above the best error known: another minimum
 constexpr double kNoHighlight = 1e-5;  // share of the curve's range that counts as specular 0
 constexpr double kSameError = 1e-4;    // errors below this are rounding of pictures

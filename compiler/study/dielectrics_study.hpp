@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "study/conductors_study.hpp"
+#include "study/study_sweep.hpp"
 #include "sweep/photographer.hpp"
 #include "table/table.hpp"
 
