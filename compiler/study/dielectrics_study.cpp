@@ -24,7 +24,6 @@ const std::string kSource = "mitsuba/as-dielectric", kTarget = "mitsuba/ward";
 constexpr remap::Range kIors{1.05, 2.5};
 constexpr std::size_t kIorCount = 30;  // 0.05 apart
 constexpr double kLostError = 1.01;    // above the best error known: another minimum
-constexpr double kNoHighlight = 1e-5;  // share of the curve's range that counts as specular 0
 constexpr double kSameError = 1e-4;    // errors below this are rounding of pictures
 
 // Guesses of every kind: narrow, middle and wide, without and with all specular, dark and bright.
@@ -76,7 +75,8 @@ double specular_range(const std::vector<const TableRow*>& rows) {
 
 DielectricCurve curve_of(const std::vector<Table>& stages, int stage_count, double alpha) {
   const auto rows = grid_rows(stages[static_cast<std::size_t>(stage_count - 1)], alpha);
-  const double range = specular_range(grid_rows(stages[1], alpha));
+  const auto two = grid_rows(stages[1], alpha);
+  const double range = specular_range(two);
   DielectricCurve curve;
   curve.stages = stage_count;
   curve.alpha = alpha;
@@ -86,7 +86,7 @@ DielectricCurve curve_of(const std::vector<Table>& stages, int stage_count, doub
     curve.worst_error = std::max(curve.worst_error, rows[i]->error);
     curve.unstable += rows[i]->status == RowStatus::kUnstable ? 1 : 0;
     curve.clamped += rows[i]->status == RowStatus::kClamped ? 1 : 0;
-    curve.without_highlight += rows[i]->specular2 <= kNoHighlight * range ? 1 : 0;
+    curve.least_highlight = std::min(curve.least_highlight, rows[i]->specular2 / two[i]->specular2);
     if (i == 0) continue;
     const double step = std::fabs(rows[i]->specular2 - rows[i - 1]->specular2) / range;
     if (step > curve.largest_step) curve.step_ior = rows[i]->specular1;
@@ -179,15 +179,15 @@ std::string guess_text(const Sitting& guess) {
 
 std::string curve_words(const DielectricCurve& curve) {
   return std::string(stages_name(curve.stages)) + ", alpha " + number_text(curve.alpha) + ": " +
-         (curve.jumps()                           ? "jumps"
-          : curve.without_highlight == curve.rows ? "no highlight"
-                                                  : "smooth") +
+         (curve.loses_highlight() ? "loses the highlight"
+          : curve.jumps()         ? "jumps"
+                                  : "smooth") +
          "; largest second difference " + percent_text(curve.roughness) + " and largest step " +
          percent_text(curve.largest_step) + " (at ior " + number_text(curve.step_ior) +
-         ") of the range of two stages; image error " + percent_text(curve.mean_error) + " mean, " +
+         ") of the range of two stages, specular at least " + percent_text(curve.least_highlight) +
+         " of theirs; image error " + percent_text(curve.mean_error) + " mean, " +
          percent_text(curve.worst_error) + " largest; of " + std::to_string(curve.rows) + " rows " +
-         std::to_string(curve.unstable) + " unstable, " + std::to_string(curve.clamped) + " clamped, " +
-         std::to_string(curve.without_highlight) + " without highlight";
+         std::to_string(curve.unstable) + " unstable, " + std::to_string(curve.clamped) + " clamped";
 }
 
 // What the one-stage match does from other guesses than its own.
@@ -206,7 +206,7 @@ void add_guess_words(const DielectricsStudy& study, std::vector<std::string>* wo
   if (example != nullptr)
     words->push_back("such a jump: guess " + guess_text(example->guess) +
                      " of the ranges of alpha, specular, diffuse at alpha " + number_text(example->alpha) +
-                     " misses the highlight at ior " + number_text(example->first_lost_ior) + " to " +
+                     " ends in a worse minimum at ior " + number_text(example->first_lost_ior) + " to " +
                      number_text(example->last_lost_ior) + " (" + std::to_string(example->lost) + " of " +
                      std::to_string(example->rows) + " rows)");
 }
@@ -294,16 +294,15 @@ std::vector<std::string> dielectrics_words(const DielectricsStudy& study) {
                   ", light at 45 degrees:");
   for (const DielectricCurve& curve : study.curves) words.push_back(curve_words(curve));
   std::string jumps, losing;
-  std::array<std::size_t, 3> unstable{}, lost{};
+  std::array<std::size_t, 3> unstable{};
   for (const DielectricCurve& curve : study.curves) {
     const auto stage = static_cast<std::size_t>(curve.stages - 1);
     if (curve.stages == 1 && curve.jumps())
       jumps += (jumps.empty() ? "alpha " : ", alpha ") + number_text(curve.alpha) + " (ior " +
                number_text(curve.step_ior) + ")";
     if (curve.stages == 1 && curve.loses_highlight())
-      losing += (losing.empty() ? "; without highlight at alpha " : ", ") + number_text(curve.alpha);
+      losing += (losing.empty() ? "; it loses the highlight at alpha " : ", ") + number_text(curve.alpha);
     unstable[stage] += curve.unstable;
-    lost[stage] += curve.without_highlight;
   }
   words.push_back(
       "figure 8 (a jump in one stage; near ior 1.3 in the paper, which prints neither width nor "
@@ -314,11 +313,8 @@ std::vector<std::string> dielectrics_words(const DielectricsStudy& study) {
   words.push_back("figure 10: three stages lower the image error of two by " +
                   percent_text(study.error_gain) + " on average, and move specular by up to " +
                   percent_text(study.worst_difference) + " of the curve's range");
-  const auto counts = [](const std::array<std::size_t, 3>& count) {
-    return std::to_string(count[0]) + " in one stage, " + std::to_string(count[1]) + " in two, " +
-           std::to_string(count[2]) + " in three";
-  };
-  words.push_back("unstable rows: " + counts(unstable) + "; rows without highlight: " + counts(lost));
+  words.push_back("unstable rows: " + std::to_string(unstable[0]) + " in one stage, " +
+                  std::to_string(unstable[1]) + " in two, " + std::to_string(unstable[2]) + " in three");
   return words;
 }
 

@@ -22,11 +22,11 @@ struct DielectricCurve {
   double step_ior = 0.0;      // where it is: the upper of the two
   double mean_error = 0.0, worst_error = 0.0;  // image error of the whole picture
   std::size_t rows = 0, unstable = 0, clamped = 0;
-  std::size_t without_highlight = 0;  // rows with specular 0
+  double least_highlight = 1.0;  // smallest specular of a row, relative to that of two stages
 
   // Smooth curves have a second difference of half a per cent.
   bool jumps() const { return roughness > 0.05; }
-  bool loses_highlight() const { return 2 * without_highlight > rows; }
+  bool loses_highlight() const { return least_highlight < 0.1; }
 };
 
 // The one-stage match from another fixed guess (shares of the target's ranges): where it ends elsewhere than
