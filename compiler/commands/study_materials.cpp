@@ -169,7 +169,7 @@ void add_dielectrics_study(CLI::App& app) {
       "Diffuse and specular together in one, two and three stages (figures 8 and 10 of the paper)");
   auto options = std::make_shared<MaterialsCommand>();
   options->study.alphas = {0.1, 0.3, 0.725, 0.75};
-  options->study.resolution = 96;
+  options->study.resolution = 128;
   add_options(*command, *options);
   command->add_option("--diffuse", options->diffuse, "Of the source")->capture_default_str();
   command->footer("Example:\n  remapc study dielectrics -o dielectrics");
