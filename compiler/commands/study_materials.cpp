@@ -100,7 +100,9 @@ nlohmann::ordered_json dielectrics_json(const DielectricsStudy& study) {
                       {"mean_error", curve.mean_error},
                       {"max_error", curve.worst_error},
                       {"unstable", curve.unstable},
-                      {"clamped", curve.clamped}});
+                      {"clamped", curve.clamped},
+                      {"least_highlight", curve.least_highlight},
+                      {"jumps", curve.jumps()}});
   std::size_t lost = 0, jumping = 0;
   for (const GuessTrial& trial : study.trials) {
     lost += trial.lost > 0 ? 1 : 0;
@@ -166,7 +168,7 @@ void add_dielectrics_study(CLI::App& app) {
       "dielectrics",
       "Diffuse and specular together in one, two and three stages (figures 8 and 10 of the paper)");
   auto options = std::make_shared<MaterialsCommand>();
-  options->study.alphas = {0.1, 0.2, 0.3};
+  options->study.alphas = {0.1, 0.3, 0.725, 0.75};
   options->study.resolution = 128;
   add_options(*command, *options);
   command->add_option("--diffuse", options->diffuse, "Of the source")->capture_default_str();

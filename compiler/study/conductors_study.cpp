@@ -22,7 +22,6 @@ namespace {
 using remap::number_text;
 
 const std::string kSource = "mitsuba/as", kTarget = "mitsuba/ward-conserving";
-constexpr double kBankRatio = 1.05;  // as in sweeps
 
 double reflectance(const Conductor& metal, std::size_t channel) {
   return normal_reflectance({metal.eta[channel], metal.k[channel]});

@@ -1,23 +1,15 @@
 // Metals from Ashikhmin-Shirley to Ward and back (Sztrajman et al. 2019, section 4.1.1, figures 6 and 7).
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "study/study_sweep.hpp"
 #include "sweep/renderer.hpp"
 #include "table/table.hpp"
 
 namespace remapc {
-
-struct StudyOptions {
-  int resolution = 256;
-  std::vector<double> alphas;                  // rising
-  unsigned jobs = 0;                           // 0: one a core
-  std::function<void(double share)> progress;  // 0 to 1, called from any thread
-};
 
 // One channel of one metal at one width, remapped to Ward that trims, by its F0 (Schlick's Fresnel) and by
 // its index (exact Fresnel).

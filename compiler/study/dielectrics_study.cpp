@@ -23,17 +23,15 @@ using remap::number_text;
 const std::string kSource = "mitsuba/as-dielectric", kTarget = "mitsuba/ward";
 constexpr remap::Range kIors{1.05, 2.5};
 constexpr std::size_t kIorCount = 30;  // 0.05 apart
-constexpr double kBankRatio = 1.05;    // as in sweeps
 constexpr double kLostError = 1.01;    // above the best error known: another minimum
 constexpr double kSameError = 1e-4;    // errors below this are rounding of pictures
-constexpr double kJumpStep = 5.0;      // times the median step
 
-// Guesses of every kind: narrow, middle and wide, without and with much specular, dark and bright.
+// Guesses of every kind: narrow, middle and wide, without and with all specular, dark and bright.
 std::vector<Sitting> trial_guesses() {
   std::vector<Sitting> guesses;
-  for (const double alpha : {0.02, 0.2, 0.5, 0.98})
-    for (const double specular : {0.0, 0.5, 1.0})
-      for (const double diffuse : {0.0, 0.5, 1.0}) guesses.push_back({alpha, specular, diffuse});
+  for (const double alpha : {0.02, 0.3, 0.98})
+    for (const double specular : {0.0, 1.0})
+      for (const double diffuse : {0.0, 1.0}) guesses.push_back({alpha, specular, diffuse});
   return guesses;
 }
 
@@ -75,30 +73,28 @@ double specular_range(const std::vector<const TableRow*>& rows) {
   return (*high)->specular2 - (*low)->specular2;
 }
 
-DielectricCurve curve_of(const Table& table, int stages, double alpha) {
-  const std::vector<const TableRow*> rows = grid_rows(table, alpha);
+DielectricCurve curve_of(const std::vector<Table>& stages, int stage_count, double alpha) {
+  const auto rows = grid_rows(stages[static_cast<std::size_t>(stage_count - 1)], alpha);
+  const auto two = grid_rows(stages[1], alpha);
+  const double range = specular_range(two);
   DielectricCurve curve;
-  curve.stages = stages;
+  curve.stages = stage_count;
   curve.alpha = alpha;
   curve.rows = rows.size();
-  const double range = specular_range(rows);
-  std::vector<double> steps;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     curve.mean_error += rows[i]->error / static_cast<double>(rows.size());
     curve.worst_error = std::max(curve.worst_error, rows[i]->error);
     curve.unstable += rows[i]->status == RowStatus::kUnstable ? 1 : 0;
     curve.clamped += rows[i]->status == RowStatus::kClamped ? 1 : 0;
+    curve.least_highlight = std::min(curve.least_highlight, rows[i]->specular2 / two[i]->specular2);
     if (i == 0) continue;
-    steps.push_back(std::fabs(rows[i]->specular2 - rows[i - 1]->specular2));
+    const double step = std::fabs(rows[i]->specular2 - rows[i - 1]->specular2) / range;
+    if (step > curve.largest_step) curve.step_ior = rows[i]->specular1;
+    curve.largest_step = std::max(curve.largest_step, step);
     if (i + 1 == rows.size()) continue;
     const double second = rows[i + 1]->specular2 - 2.0 * rows[i]->specular2 + rows[i - 1]->specular2;
     curve.roughness = std::max(curve.roughness, std::fabs(second) / range);
   }
-  const auto largest = std::max_element(steps.begin(), steps.end());
-  curve.step_ior = rows[static_cast<std::size_t>(largest - steps.begin()) + 1]->specular1;
-  curve.largest_step = *largest;
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
-  curve.largest_step /= steps[steps.size() / 2];
   return curve;
 }
 
@@ -182,14 +178,16 @@ std::string guess_text(const Sitting& guess) {
 }
 
 std::string curve_words(const DielectricCurve& curve) {
-  return std::string(stages_name(curve.stages)) + ", alpha " + number_text(curve.alpha) +
-         ": largest second difference " + percent_text(curve.roughness) +
-         " of the curve's range, largest step " + short_text(curve.largest_step) +
-         " times the median (at ior " + number_text(curve.step_ior) +
-         (curve.largest_step > kJumpStep ? ", a jump" : ", no jump") + "), image error " +
-         percent_text(curve.mean_error) + " mean, " + percent_text(curve.worst_error) + " largest; " +
-         std::to_string(curve.unstable) + " of " + std::to_string(curve.rows) + " rows unstable, " +
-         std::to_string(curve.clamped) + " clamped";
+  return std::string(stages_name(curve.stages)) + ", alpha " + number_text(curve.alpha) + ": " +
+         (curve.loses_highlight() ? "loses the highlight"
+          : curve.jumps()         ? "jumps"
+                                  : "smooth") +
+         "; largest second difference " + percent_text(curve.roughness) + " and largest step " +
+         percent_text(curve.largest_step) + " (at ior " + number_text(curve.step_ior) +
+         ") of the range of two stages, specular at least " + percent_text(curve.least_highlight) +
+         " of theirs; image error " + percent_text(curve.mean_error) + " mean, " +
+         percent_text(curve.worst_error) + " largest; of " + std::to_string(curve.rows) + " rows " +
+         std::to_string(curve.unstable) + " unstable, " + std::to_string(curve.clamped) + " clamped";
 }
 
 // What the one-stage match does from other guesses than its own.
@@ -208,7 +206,7 @@ void add_guess_words(const DielectricsStudy& study, std::vector<std::string>* wo
   if (example != nullptr)
     words->push_back("such a jump: guess " + guess_text(example->guess) +
                      " of the ranges of alpha, specular, diffuse at alpha " + number_text(example->alpha) +
-                     " misses the highlight at ior " + number_text(example->first_lost_ior) + " to " +
+                     " ends in a worse minimum at ior " + number_text(example->first_lost_ior) + " to " +
                      number_text(example->last_lost_ior) + " (" + std::to_string(example->lost) + " of " +
                      std::to_string(example->rows) + " rows)");
 }
@@ -227,6 +225,7 @@ StudyPlot stage_plot(const Table& table, int stages) {
     StudyCurve ok{"alpha " + number_text(alpha), {}, false}, flagged{"", {}, true};
     for (const TableRow* row : grid_rows(table, alpha))
       (row->status == RowStatus::kOk ? ok : flagged).points.emplace_back(row->specular1, row->specular2);
+    if (ok.points.empty()) flagged.label = ok.label;
     plot.curves.push_back(ok);
     plot.curves.push_back(flagged);
   }
@@ -280,9 +279,9 @@ DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions&
         options.progress(0.2 * (stages - 1) + 0.2 * static_cast<double>(done) / static_cast<double>(all));
       };
     study.stages.push_back(run_study_sweep(renderer, sweep, execution, scratch));
-    for (const double alpha : options.alphas)
-      study.curves.push_back(curve_of(study.stages.back(), stages, alpha));
   }
+  for (const int stages : {1, 2, 3})
+    for (const double alpha : options.alphas) study.curves.push_back(curve_of(study.stages, stages, alpha));
   compare_stages(options.alphas, &study);
   study.trials = judge_guesses(try_guesses(renderer, options, diffuse), study.stages[2], options.alphas);
   return study;
@@ -294,22 +293,27 @@ std::vector<std::string> dielectrics_words(const DielectricsStudy& study) {
                   number_text(kIors.max) + ", diffuse " + number_text(study.diffuse) +
                   ", light at 45 degrees:");
   for (const DielectricCurve& curve : study.curves) words.push_back(curve_words(curve));
-  std::size_t jumps = 0;
+  std::string jumps, losing;
   std::array<std::size_t, 3> unstable{};
   for (const DielectricCurve& curve : study.curves) {
-    jumps += curve.stages == 1 && curve.largest_step > kJumpStep ? 1 : 0;
-    unstable[static_cast<std::size_t>(curve.stages - 1)] += curve.unstable;
+    const auto stage = static_cast<std::size_t>(curve.stages - 1);
+    if (curve.stages == 1 && curve.jumps())
+      jumps += (jumps.empty() ? "alpha " : ", alpha ") + number_text(curve.alpha) + " (ior " +
+               number_text(curve.step_ior) + ")";
+    if (curve.stages == 1 && curve.loses_highlight())
+      losing += (losing.empty() ? "; it loses the highlight at alpha " : ", ") + number_text(curve.alpha);
+    unstable[stage] += curve.unstable;
   }
-  words.push_back(jumps == 0
-                      ? "figure 8 (a jump near ior 1.3 in one stage): not found from the guess in the middle "
-                        "of the ranges; the paper does not print its guess"
-                      : "figure 8 (a jump near ior 1.3 in one stage): found at " + std::to_string(jumps) +
-                            " widths, see above");
+  words.push_back(
+      "figure 8 (a jump in one stage; near ior 1.3 in the paper, which prints neither width nor "
+      "guess): " +
+      (jumps.empty() ? std::string("not found") : "found at " + jumps) +
+      ", from the guess in the middle of the ranges" + losing);
   add_guess_words(study, &words);
   words.push_back("figure 10: three stages lower the image error of two by " +
                   percent_text(study.error_gain) + " on average, and move specular by up to " +
-                  percent_text(study.worst_difference) +
-                  " of the curve's range; unstable rows: " + std::to_string(unstable[0]) + " in one stage, " +
+                  percent_text(study.worst_difference) + " of the curve's range");
+  words.push_back("unstable rows: " + std::to_string(unstable[0]) + " in one stage, " +
                   std::to_string(unstable[1]) + " in two, " + std::to_string(unstable[2]) + " in three");
   return words;
 }

@@ -6,21 +6,27 @@
 #include <string>
 #include <vector>
 
-#include "study/conductors_study.hpp"
+#include "study/study_sweep.hpp"
 #include "sweep/photographer.hpp"
 #include "table/table.hpp"
 
 namespace remapc {
 
-// Ward specular over the index of refraction, at one width by one strategy.
+// Ward specular over the index of refraction, at one width by one strategy. Differences are relative to the
+// range of the two-stage curve at that width.
 struct DielectricCurve {
   int stages = 0;
   double alpha = 0.0;
-  double roughness = 0.0;     // largest second difference between neighbours, relative to the curve's range
-  double largest_step = 0.0;  // largest change of specular between neighbours, relative to the median change
+  double roughness = 0.0;     // largest second difference between neighbours 0.05 apart in the index
+  double largest_step = 0.0;  // largest change of specular between neighbours
   double step_ior = 0.0;      // where it is: the upper of the two
   double mean_error = 0.0, worst_error = 0.0;  // image error of the whole picture
   std::size_t rows = 0, unstable = 0, clamped = 0;
+  double least_highlight = 1.0;  // smallest specular of a row, relative to that of two stages
+
+  // Smooth curves have a second difference of half a per cent.
+  bool jumps() const { return roughness > 0.05; }
+  bool loses_highlight() const { return least_highlight < 0.1; }
 };
 
 // The one-stage match from another fixed guess (shares of the target's ranges): where it ends elsewhere than

@@ -3,12 +3,20 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "sweep/sweep.hpp"
 
 namespace remapc {
+
+struct StudyOptions {
+  int resolution = 256;
+  std::vector<double> alphas;                  // rising
+  unsigned jobs = 0;                           // 0: one a core
+  std::function<void(double share)> progress;  // 0 to 1, called from any thread
+};
 
 SweepOptions study_sweep_options(const std::string& source, const std::string& target,
                                  std::vector<SamplePoint> samples, int resolution);

@@ -10,8 +10,6 @@ namespace {
 
 using remap::Range;
 
-Range diffuse_range(const Subject& subject) { return subject.model.parameter(ParameterRole::kDiffuse).range; }
-
 TableRow flat_row(const SamplePoint& sample, const Subject& target) {
   const double alpha = std::clamp(sample.alpha, target.model.alpha.min, target.model.alpha.max);
   return {sample.alpha, sample.specular, alpha, 0.0, 0.0, RowStatus::kFlat, 0};
@@ -90,7 +88,7 @@ std::vector<TableRow> match_specular(const SweepSetup& setup, const SampleBlock&
 
 // Diffuse apart from the rest: in proportion.
 void match_diffuse_apart(const SweepSetup& setup, TableRow* row) {
-  const Range range = diffuse_range(setup.target);
+  const Range range = setup.target.diffuse_range();
   const double wanted = setup.options.diffuse * setup.diffuse.scale;
   row->diffuse1 = setup.options.diffuse;
   row->diffuse2 = std::clamp(wanted, range.min, range.max);
@@ -103,6 +101,10 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
   const Sitting whole{row->alpha1, row->specular1, row->diffuse1};
   if (row->status == RowStatus::kFlat) return;
   auto picture = setup.photographer.take(setup.source, whole);
+  if (*std::max_element(picture.begin(), picture.end()) <= 0.0f) {
+    row->status = RowStatus::kFlat;
+    return;
+  }
   auto weights = squared_weights(setup.photographer.objective(), picture, setup.photographer.view_cosines());
   const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights),
                              {true, row->diffuse1 > 0.0});

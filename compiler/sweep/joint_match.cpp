@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <ceres/ceres.h>
 
@@ -20,8 +21,12 @@ using remap::Range;
 // match_from; they tell whether it is the only one.
 constexpr std::array<Sitting, 4> kOtherGuesses = {Sitting{0.05, 0.1, 0.9}, Sitting{0.15, 0.9, 0.1},
                                                   Sitting{0.9, 0.1, 0.1}, Sitting{0.3, 0.3, 0.7}};
-constexpr double kRivalError = 1.01;      // as for the two-stage match
-constexpr double kRivalDistance = 0.1;    // relative, in a parameter
+constexpr double kRivalError = 1.01;    // as for the two-stage match
+constexpr double kRivalDistance = 0.1;  // relative, in a parameter
+// Relative change of the squared error at which a search ends: of one that gives the answer, and of one that
+// is only compared with it to 1 %.
+constexpr double kAnswerTolerance = 1e-10;
+constexpr double kRivalTolerance = 1e-7;
 constexpr double kSameError = 1e-4;       // errors below this are rounding of pictures
 constexpr double kBoundTolerance = 1e-6;  // share of the range
 
@@ -66,8 +71,7 @@ class PictureCost final : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
-    const Sitting point = sitting_of(values[0], parameters_, diffuse_);
-    const Triangle r = cholesky(gram(point), parameters_ + 1);
+    const Triangle& r = triangle(sitting_of(values[0], parameters_, diffuse_));
     for (std::size_t row = 0; row <= parameters_; ++row) {
       residuals[row] = r[row][parameters_];
       if (!std::isfinite(residuals[row])) return false;
@@ -79,6 +83,15 @@ class PictureCost final : public ceres::CostFunction {
   }
 
  private:
+  // Ceres asks for residuals where it tries a step, and for the Jacobian at the same point where it takes it.
+  const Triangle& triangle(const Sitting& point) const {
+    const bool known = last_point_ && last_point_->alpha == point.alpha &&
+                       last_point_->specular == point.specular && last_point_->diffuse == point.diffuse;
+    if (!known) last_triangle_ = cholesky(gram(point), parameters_ + 1);
+    last_point_ = point;
+    return last_triangle_;
+  }
+
   // Inner products of the tangents and, last, of picture - source, relative to the power of the source.
   Triangle gram(const Sitting& point) const {
     PictureTangents tangents = target_.at(point, parameters_ == kMostParameters);
@@ -99,22 +112,24 @@ class PictureCost final : public ceres::CostFunction {
   double power_;
   std::size_t parameters_;
   double diffuse_;
+  mutable std::optional<Sitting> last_point_;
+  mutable Triangle last_triangle_{};
 };
 
-ceres::Solver::Options solver_options() {
+ceres::Solver::Options solver_options(double tolerance) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 100;
-  options.function_tolerance = 1e-10;
+  options.function_tolerance = tolerance;
   options.gradient_tolerance = 1e-12;
   options.parameter_tolerance = 1e-8;
   return options;
 }
 
-ceres::Solver::Summary solve(ceres::Problem* problem) {
+ceres::Solver::Summary solve(ceres::Problem* problem, double tolerance) {
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(), problem, &summary);
+  ceres::Solve(solver_options(tolerance), problem, &summary);
   if (!summary.IsSolutionUsable())
     throw Error(ErrorKind::kNumeric, "joint match: Ceres gave up: " + summary.message);
   return summary;
@@ -148,7 +163,7 @@ double JointMatcher::error_of(std::span<const float> picture) const {
                    power_);
 }
 
-JointMatch JointMatcher::search(const Sitting& guess) const {
+JointMatch JointMatcher::search(const Sitting& guess, double tolerance) const {
   const std::size_t count = options_.free_diffuse ? kMostParameters : kMostParameters - 1;
   const std::array<Range, kMostParameters> ranges = {target_.alphas(), target_.speculars(),
                                                      target_.diffuses()};
@@ -161,7 +176,7 @@ JointMatch JointMatcher::search(const Sitting& guess) const {
     problem.SetParameterLowerBound(values.data(), static_cast<int>(i), ranges[i].min);
     problem.SetParameterUpperBound(values.data(), static_cast<int>(i), ranges[i].max);
   }
-  ceres::Solver::Summary summary = solve(&problem);
+  ceres::Solver::Summary summary = solve(&problem, tolerance);
   // Ceres projects steps into the bounds and creeps along them. Parameters that have reached one stay there
   // while the others are searched once more.
   std::vector<int> fixed;
@@ -170,7 +185,7 @@ JointMatch JointMatcher::search(const Sitting& guess) const {
       fixed.push_back(static_cast<int>(i));
   if (!fixed.empty() && fixed.size() < count) {
     problem.SetManifold(values.data(), new ceres::SubsetManifold(static_cast<int>(count), fixed));
-    summary = solve(&problem);
+    summary = solve(&problem, tolerance);
   }
   return {sitting_of(values.data(), count, guess.diffuse), std::sqrt(2.0 * summary.final_cost),
           summary.termination_type == ceres::CONVERGENCE, RowStatus::kOk};
@@ -205,16 +220,16 @@ RowStatus JointMatcher::judge(const JointMatch& match, const std::vector<JointMa
 }
 
 JointMatch JointMatcher::match_from(const Sitting& guess) const {
-  JointMatch match = search(guess);
+  JointMatch match = search(guess, kAnswerTolerance);
   std::vector<JointMatch> rivals;
-  for (const Sitting& shares : kOtherGuesses) rivals.push_back(search(point_of(shares)));
+  for (const Sitting& shares : kOtherGuesses) rivals.push_back(search(point_of(shares), kRivalTolerance));
   match.status = judge(match, rivals);
   return match;
 }
 
 JointMatch JointMatcher::best_match(const std::vector<Sitting>& guesses) const {
   std::vector<JointMatch> found;
-  for (const Sitting& guess : guesses) found.push_back(search(guess));
+  for (const Sitting& guess : guesses) found.push_back(search(guess, kAnswerTolerance));
   JointMatch best = *std::min_element(
       found.begin(), found.end(), [](const JointMatch& a, const JointMatch& b) { return a.error < b.error; });
   best.status = judge(best, found);

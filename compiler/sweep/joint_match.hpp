@@ -48,7 +48,7 @@ class JointMatcher {
   Sitting point_of(const Sitting& shares) const;
 
  private:
-  JointMatch search(const Sitting& guess) const;
+  JointMatch search(const Sitting& guess, double tolerance) const;
   RowStatus judge(const JointMatch& match, const std::vector<JointMatch>& rivals) const;
   bool apart(const Sitting& a, const Sitting& b) const;
   bool at_bound(const Sitting& point) const;

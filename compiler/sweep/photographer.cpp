@@ -94,6 +94,8 @@ remap::Range Subject::linear_range() const {
   return {whole.min, response.law == SpecularLaw::kClamped ? response.knee : whole.max};
 }
 
+const remap::Range& Subject::diffuse_range() const { return model.parameter(ParameterRole::kDiffuse).range; }
+
 AffinePictures take_affine(const Photographer& photographer, const Subject& subject, double alpha) {
   const remap::Range range = subject.linear_range();
   AffinePictures pictures;

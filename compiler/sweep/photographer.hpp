@@ -27,6 +27,7 @@ struct Subject {
   // Canonical speculars that the model takes, and those in which its picture is linear: they end at a knee.
   remap::Range specular_range() const;
   remap::Range linear_range() const;
+  const remap::Range& diffuse_range() const;
 };
 
 class Photographer {

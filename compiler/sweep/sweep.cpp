@@ -23,8 +23,6 @@ using remap::ErrorKind;
 using remap::number_text;
 using remap::Range;
 
-// Neighbouring widths of the bank. Interpolating the loss over twelve of them is good to 1e-7 in alpha.
-constexpr double kBankRatio = 1.05;
 // The search reaches this far below the narrowest source width; no pair of the hub differs by more than 2.
 constexpr double kNarrowing = 4.0;
 // Samples are numbers that a person can type.

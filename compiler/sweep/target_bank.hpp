@@ -16,6 +16,10 @@ struct BankEntry {
   std::vector<float> slope;
 };
 
+// Neighbouring widths of a bank, at most. Interpolating the loss over twelve of them is good to 1e-7 in
+// alpha.
+inline constexpr double kBankRatio = 1.05;
+
 class TargetBank {
  public:
   // A bank for widths in `alphas`, neighbours at most `ratio` apart, and closer at the upper end, where

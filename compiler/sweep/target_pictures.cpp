@@ -17,8 +17,6 @@ constexpr double kDifferenceStep = 1e-3;
 // Pixels that are interpolated together: sums of that many lie in the first-level cache.
 constexpr std::size_t kBlockPixels = 512;
 
-Range diffuse_range(const Subject& subject) { return subject.model.parameter(ParameterRole::kDiffuse).range; }
-
 // Nodes of the bank around `alpha` and their Lagrange basis in log(alpha).
 struct Window {
   std::size_t first;
@@ -45,9 +43,10 @@ void add_scaled(double factor, const float* values, std::size_t count, Block* su
 
 BankPictures::BankPictures(const Photographer& photographer, const Subject& target, const TargetBank& bank)
     : bank_(bank),
+      black_base_(target.response.proportional()),
       alphas_{bank.alpha(0), bank.alpha(bank.size() - 1)},
       speculars_(target.linear_range()),
-      diffuses_(diffuse_range(target)) {
+      diffuses_(target.diffuse_range()) {
   const std::vector<float> dark = photographer.take(target, {alphas_.max, speculars_.min, diffuses_.min});
   diffuse_ = photographer.take(target, {alphas_.max, speculars_.min, diffuses_.max});
   const double scale = 1.0 / (diffuses_.max - diffuses_.min);
@@ -66,10 +65,11 @@ PictureTangents BankPictures::at(const Sitting& point, bool with_diffuse) const 
     const std::size_t count = std::min(kBlockPixels, pixels - start);
     Block base{}, slope{}, base_rise{}, slope_rise{};
     for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
-      add_scaled(window.basis.value[i], &entries[i]->base[start], count, &base);
       add_scaled(window.basis.value[i], &entries[i]->slope[start], count, &slope);
-      add_scaled(window.basis.derivative[i], &entries[i]->base[start], count, &base_rise);
       add_scaled(window.basis.derivative[i], &entries[i]->slope[start], count, &slope_rise);
+      if (black_base_) continue;
+      add_scaled(window.basis.value[i], &entries[i]->base[start], count, &base);
+      add_scaled(window.basis.derivative[i], &entries[i]->base[start], count, &base_rise);
     }
     for (std::size_t i = 0; i < count; ++i) {
       result.picture[start + i] =
@@ -88,7 +88,7 @@ RenderedPictures::RenderedPictures(const Photographer& photographer, const Subje
       target_(target),
       alphas_(alphas),
       speculars_(target.linear_range()),
-      diffuses_(diffuse_range(target)) {}
+      diffuses_(target.diffuse_range()) {}
 
 PictureTangents RenderedPictures::at(const Sitting& point, bool with_diffuse) const {
   const auto derivative = [&](double Sitting::*parameter, const Range& range, double step) {

@@ -43,6 +43,7 @@ class BankPictures final : public TargetPictures {
 
  private:
   const TargetBank& bank_;
+  bool black_base_;
   remap::Range alphas_, speculars_, diffuses_;
   std::vector<float> diffuse_;  // what diffuse 1 adds
 };

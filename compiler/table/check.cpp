@@ -71,10 +71,9 @@ class Linter {
         const char* name;
         double value;
         bool open;  // 0 itself is not allowed
-      } cells[] = {{"alpha1", row.alpha1, true},
-                   {"specular1", row.specular1, false},
-                   {"alpha2", row.alpha2, true},
-                   {"specular2", row.specular2, false}};
+      } cells[] = {{"alpha1", row.alpha1, true},      {"specular1", row.specular1, false},
+                   {"alpha2", row.alpha2, true},      {"specular2", row.specular2, false},
+                   {"diffuse1", row.diffuse1, false}, {"diffuse2", row.diffuse2, false}};
       for (const auto& cell : cells) {
         const std::string found = std::string(cell.name) + " is " + number_text(cell.value);
         const bool possible = std::isfinite(cell.value) && (cell.open ? cell.value > 0.0 : cell.value >= 0.0);

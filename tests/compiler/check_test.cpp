@@ -119,6 +119,17 @@ TEST_CASE("check: values that cannot be are errors, beyond physical ranges warni
   CHECK(of_kind(bright, "range")[0].severity == Severity::kWarning);
 }
 
+TEST_CASE("check: diffuse out of range is named") {
+  Table table = sound_table();
+  table.has_diffuse = true;
+  table.rows[3].diffuse2 = -0.1;
+  table.rows[4].diffuse2 = 1.2;
+  const auto findings = of_kind(table, "range");
+  REQUIRE(findings.size() == 2);
+  CHECK(findings[0].message.find("diffuse2 is -0.1; expected a number from 0") != std::string::npos);
+  CHECK(findings[1].severity == Severity::kWarning);
+}
+
 TEST_CASE("check: too few rows or widths cannot be fitted") {
   Table table = sound_table();
   table.rows.resize(10);

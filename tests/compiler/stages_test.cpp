@@ -1,4 +1,5 @@
 // Diffuse and specular together: one, two and three stages (section 3.1 of the paper).
+#include <atomic>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -125,6 +126,33 @@ TEST_CASE("stages: a diffuse target that does not add is found out and matched b
   CHECK(row.alpha2 == Approx(0.25).epsilon(1e-3));
   CHECK(row.specular2 == Approx(0.5).epsilon(1e-3));
   CHECK(row.diffuse2 == Approx(0.4).epsilon(1e-3));
+}
+
+TEST_CASE("stages: a sweep with diffuse resumes to the same bytes") {
+  const remap::TemporaryFolder folder;
+  const auto journal = folder.path() / "t.csv.partial";
+  const auto renderer = make_builtin_renderer();
+  const SweepOptions options = staged(3, grid_samples({0.2, 0.5}, 3, {0.0, 0.4}, 2));
+  const std::string whole = table_text(sweep(*renderer, options, 1));
+  std::atomic<bool> cancelled{false};
+  SweepExecution execution;
+  execution.jobs = 1;
+  execution.cancelled = &cancelled;
+  execution.progress = [&](std::size_t done, std::size_t) { cancelled = done >= 2; };
+  CHECK_THROWS_WITH(run_sweep(*renderer, options, execution, journal, false), Catch::Contains("--resume"));
+  cancelled = false;
+  execution.progress = nullptr;
+  CHECK(table_text(run_sweep(*renderer, options, execution, journal, true)) == whole);
+}
+
+TEST_CASE("stages: where the source is black there is nothing to match") {
+  const auto renderer = make_builtin_renderer();
+  SweepOptions options = staged(1, {{0.3, 1.0}, {0.3, 1.5}}, 0.0);  // indices: 1 is no boundary at all
+  options.source = "mitsuba/as-dielectric";
+  const Table table = sweep(*renderer, options);
+  CHECK(table.rows[0].status == RowStatus::kFlat);
+  CHECK(table.rows[0].specular2 == 0.0);
+  CHECK(table.rows[1].specular2 > 0.01);
 }
 
 TEST_CASE(

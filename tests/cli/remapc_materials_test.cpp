@@ -1,0 +1,111 @@
+// `remapc sweep` with stages and diffuse, and the studies of measured materials, as a person meets them.
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+
+#include "cli/remapc_session.hpp"
+
+using namespace remap;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> study(const Session& session, const std::string& name,
+                               const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"study", name, "-o", session.path(name), "--resolution", "32"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+}  // namespace
+
+TEST_CASE("remapc sweep: stages and diffuse make columns that check and fit take") {
+  const Session session;
+  for (const std::string stages : {"1", "2", "3"}) {
+    auto arguments = session.sweep("t" + stages + ".csv");
+    arguments.insert(arguments.end(), {"--stages", stages, "--diffuse", "0.25"});
+    const ProcessResult result = session.remapc(arguments);
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    const std::string table = read_file(session.path("t" + stages + ".csv"));
+    CHECK(table.find("# stages: " + stages + "\n") != std::string::npos);
+    CHECK(table.find("# irradiance_scale: 1\n") != std::string::npos);
+    CHECK(table.find("alpha1,specular1,alpha2,specular2,diffuse1,diffuse2,error,status\n") !=
+          std::string::npos);
+  }
+  CHECK(session.remapc({"check", session.path("t2.csv")}).exit_code == 0);
+  CHECK(session.remapc(session.fit("t2.csv")).exit_code == 0);
+}
+
+TEST_CASE("remapc sweep: models with an index are swept in F0") {
+  const Session session;
+  const ProcessResult result = session.remapc({"sweep", "--source", "mitsuba/as-ior", "--target",
+                                               "mitsuba/ggx-ior", "--resolution", "48", "--roughness-samples",
+                                               "3", "--specular-samples", "3", "-o", session.path("t.csv")});
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  const std::string table = read_file(session.path("t.csv"));
+  CHECK(table.find("# source_specular: ior\n") != std::string::npos);
+  CHECK(table.find("# target_specular_law: ior\n") != std::string::npos);
+  CHECK(table.find("# target_specular_column: f0\n") != std::string::npos);
+  CHECK(table.find("3 specular 0 to 0.36\n") != std::string::npos);
+}
+
+TEST_CASE("remapc sweep: wrong stages, diffuse and conductors are exit code 2") {
+  const Session session;
+  auto arguments = session.sweep("t.csv");
+  arguments.insert(arguments.end(), {"--stages", "4"});
+  check_failure(session.remapc(arguments), 2, "--stages: Value 4 not in range 1 to 3");
+  arguments = session.sweep("t.csv");
+  arguments.insert(arguments.end(), {"--diffuse", "2"});
+  check_failure(session.remapc(arguments), 2, "diffuse 2; expected 0 to 1");
+  arguments = session.sweep("t.csv");
+  arguments[2] = "mitsuba/as-conductor";
+  check_failure(session.remapc(arguments), 2, "has no parameter for specular");
+  CHECK(session.file_count() == 0);
+}
+
+TEST_CASE("remapc study conductors: writes tables and says what was found") {
+  const Session session;
+  const ProcessResult result = session.remapc(study(session, "conductors", {"--alphas", "0.2,0.4"}));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.output.find("figure 6: smooth") != std::string::npos);
+  CHECK(result.output.find("figure 7: the ") != std::string::npos);
+  CHECK(result.output.find("Schlick from F0 against exact Fresnel") != std::string::npos);
+  for (const std::string file : {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"})
+    CHECK(fs::exists(session.path("conductors/" + file)));
+  CHECK(session.remapc({"check", session.path("conductors/as_to_ward.csv")}).output.find("contradiction") ==
+        std::string::npos);
+  const ProcessResult json = session.remapc(study(session, "conductors", {"--alphas", "0.2", "--json"}));
+  CHECK(json.output.find("\"slope\": ") != std::string::npos);
+  CHECK(json.output.find("null") == std::string::npos);
+}
+
+TEST_CASE("remapc study dielectrics: compares one, two and three stages") {
+  const Session session;
+  const ProcessResult result = session.remapc(study(session, "dielectrics", {"--alphas", "0.3", "--json"}));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.output.find("\"stages\": 3") != std::string::npos);
+  CHECK(result.output.find("\"jumps\": false") != std::string::npos);
+  CHECK(result.output.find("figure 10: three stages lower") != std::string::npos);
+  CHECK(result.output.find("null") == std::string::npos);
+  for (const std::string file :
+       {"stages1.csv", "stages2.csv", "stages3.csv", "guesses.csv", "dielectrics.csv"})
+    CHECK(fs::exists(session.path("dielectrics/" + file)));
+}
+
+TEST_CASE("remapc study: wrong usage is exit code 2, help has an example") {
+  const Session session;
+  check_failure(session.remapc({"study"}), 2, "command: is missing");
+  check_failure(session.remapc({"study", "conductor"}), 2, "conductors");
+  check_failure(session.remapc(study(session, "conductors", {"--alphas", "0.4,0.2"})), 2,
+                "--alphas: expected rising widths from 0.01 to 1");
+  check_failure(session.remapc(study(session, "dielectrics", {"--diffuse", "-1"})), 2,
+                "--diffuse: expected 0 to 1");
+  CHECK(session.file_count() == 0);
+  for (const std::string name : {"conductors", "dielectrics"})
+    CHECK(session.remapc({"study", name, "--help"}).output.find("Example:\n  remapc study " + name) !=
+          std::string::npos);
+}
