@@ -164,7 +164,7 @@ class Builder {
     if (fresh.header) return;
     const remap::Fit fit = remap::load_fit(paths.fit);
     const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
-    const std::string text = emit_header(fit, lowered);
+    const std::string text = emit_lowered_header(fit, lowered);
     remap::write_file(paths.header, text);
     record->header = sha256(text);
     record->alpha_bound = lowered.alpha.bound;

@@ -21,7 +21,7 @@ struct EmitOptions {
 std::string emit_header(const remap::Fit& fit, const EmitOptions& options = {});
 
 // The same from polynomials that fit.mapping was lowered to.
-std::string emit_header(const remap::Fit& fit, const remap::Lowered& lowered);
+std::string emit_lowered_header(const remap::Fit& fit, const remap::Lowered& lowered);
 
 // `registry.hpp` for headers of these fits, which stand beside it: one entry a converter, in the order of
 // ids.

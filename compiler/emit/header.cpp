@@ -395,7 +395,7 @@ std::string emit_header(const Fit& fit, const EmitOptions& options) {
   return header_text(fit, mapping_code(fit, options));
 }
 
-std::string emit_header(const Fit& fit, const remap::Lowered& lowered) {
+std::string emit_lowered_header(const Fit& fit, const remap::Lowered& lowered) {
   return header_text(fit, lowered_code(lowered));
 }
 
