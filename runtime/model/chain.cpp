@@ -34,12 +34,13 @@ void require_links(const std::vector<Fit>& steps) {
   if (steps.size() < 2) throw Error(ErrorKind::kUsage, "chain: expected at least 2 fits");
   std::set<std::string> visited = {steps.front().source.model};
   for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (i > 0 && steps[i - 1].target != steps[i].source)
+      throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " gives " +
+                                         side_text(steps[i - 1].target) + ", but " + steps[i].id + " takes " +
+                                         side_text(steps[i].source));
     if (!visited.insert(steps[i].target.model).second)
       throw Error(ErrorKind::kUsage, "chain: comes to " + steps[i].target.model + " twice, by " +
                                          steps[i].id + "; expected every model once");
-    if (i == 0 || steps[i - 1].target == steps[i].source) continue;
-    throw Error(ErrorKind::kInput, "chain: " + steps[i - 1].id + " gives " + side_text(steps[i - 1].target) +
-                                       ", but " + steps[i].id + " takes " + side_text(steps[i].source));
   }
 }
 
@@ -90,7 +91,7 @@ Domain chain_domain(const std::vector<Fit>& steps) {
   for (int i = 0; i < kAlphas; ++i) {
     const double alpha = at(first.alpha, i, kAlphas);
     CoveredColumn column{alpha, alpha, 0.0, false};
-    for (int j = 1; j <= kSpeculars; ++j) {
+    for (int j = 0; j <= kSpeculars; ++j) {
       const double specular = first.specular.max * j / kSpeculars;
       if (leaves(steps, {alpha, specular}) != steps.size()) break;
       column.reach = specular;

@@ -81,13 +81,14 @@ std::vector<Fit> three_fits() {
   return {first, second, third};
 }
 
-struct Chain {
+struct SteppedFits {
   std::vector<Fit> fits;
   std::vector<Lowered> lowered;
   std::vector<std::unique_ptr<Converter>> owned;
   Steps steps;
 
-  explicit Chain(std::vector<Fit> made, InstructionSet set = best_instruction_set()) : fits(std::move(made)) {
+  explicit SteppedFits(std::vector<Fit> made, InstructionSet set = best_instruction_set())
+      : fits(std::move(made)) {
     for (const Fit& fit : fits) {
       lowered.push_back(lower(fit.mapping, fit.domain));
       owned.push_back(make_lowered_converter(fit, lowered.back(), set));
@@ -99,7 +100,7 @@ struct Chain {
 }  // namespace
 
 TEST_CASE("chained converter: gives the bits of its steps one after another, and counts each texel once") {
-  const Chain chain(three_fits());
+  const SteppedFits chain(three_fits());
   for (std::size_t count = 1; count <= 3; ++count) {
     const Steps steps(chain.steps.begin(), chain.steps.begin() + static_cast<std::ptrdiff_t>(count));
     const auto chained = make_chained_converter(steps);
@@ -109,7 +110,7 @@ TEST_CASE("chained converter: gives the bits of its steps one after another, and
 }
 
 TEST_CASE("chained converter: rows around the length of its blocks, and two channels") {
-  const Chain chain(three_fits());
+  const SteppedFits chain(three_fits());
   const auto chained = make_chained_converter(chain.steps);
   const InTurn in_turn(chain.steps);
   const TexelRows texels = odd_and_random_texels(chain.steps.front()->info(), 2000);
@@ -126,11 +127,11 @@ TEST_CASE("chained converter: rows around the length of its blocks, and two chan
 }
 
 TEST_CASE("chained converter: every instruction set computes the same bits") {
-  const Chain baseline(three_fits(), InstructionSet::kBaseline);
+  const SteppedFits baseline(three_fits(), InstructionSet::kBaseline);
   const auto expected = make_chained_converter(baseline.steps);
   const TexelRows texels = odd_and_random_texels(expected->info(), 1500);
   for (const InstructionSet set : instruction_sets()) {
-    const Chain chain(three_fits(), set);
+    const SteppedFits chain(three_fits(), set);
     const auto chained = make_chained_converter(chain.steps);
     CHECK(chained->info().instructions == set);
     CHECK(same_bits(*chained, *expected, texels));
@@ -138,7 +139,7 @@ TEST_CASE("chained converter: every instruction set computes the same bits") {
 }
 
 TEST_CASE("chained converter: stays within the proven bounds of the interpreted composition") {
-  const Chain chain(three_fits());
+  const SteppedFits chain(three_fits());
   const auto chained = make_chained_converter(chain.steps);
   const Range widths = chained->info().roughness, speculars = chained->info().specular;
   // Four units in the last place of a float, at each step: of the parameters, and of the scale of a texel.
@@ -184,7 +185,7 @@ TEST_CASE("chained converter: says what it is made of") {
     fit.specular_error.rms = 0.002;
     fit.likeness = Likeness{{0.05, 0.06, 0.07}, {}};
   }
-  const ConverterInfo info = make_chained_converter(Chain(fits).steps)->info();
+  const ConverterInfo info = make_chained_converter(SteppedFits(fits).steps)->info();
   CHECK(info.id == "example_a_to_example_d");
   CHECK(info.source == fits.front().source);
   CHECK(info.target == fits.back().target);
@@ -193,31 +194,31 @@ TEST_CASE("chained converter: says what it is made of") {
   CHECK(info.specular_rms_error == Approx(0.006));
   CHECK(*info.image_rms_error == Approx(0.15));
   fits[1].likeness.reset();
-  CHECK_FALSE(make_chained_converter(Chain(fits).steps)->info().image_rms_error.has_value());
+  CHECK_FALSE(make_chained_converter(SteppedFits(fits).steps)->info().image_rms_error.has_value());
 }
 
 TEST_CASE("chained converter: its domain is the part of the first that every step covers") {
   Fit first = proportional_fit("r/a", "r/b", 0.8, 1.25), second = proportional_fit("r/b", "r/c", 1.0, 1.0);
   second.domain = {{0.1, 0.6}, {0.0, 0.25}};
-  const ConverterInfo info = make_chained_converter(Chain({first, second}).steps)->info();
+  const ConverterInfo info = make_chained_converter(SteppedFits({first, second}).steps)->info();
   // Polynomials are within 1e-5 and ends rounded to 4 digits.
   CHECK(info.roughness.min == Approx(0.125).margin(2e-4));
   CHECK(info.roughness.max == Approx(0.75).margin(2e-4));
   CHECK(info.specular.min == 0.0);
   CHECK(info.specular.max == Approx(0.2).margin(2e-4));
   second.domain = {{0.01, 1.0}, {0.0, 1.0}};
-  const ConverterInfo whole = make_chained_converter(Chain({first, second}).steps)->info();
+  const ConverterInfo whole = make_chained_converter(SteppedFits({first, second}).steps)->info();
   const ConverterInfo own = make_lowered_converter(first)->info();
   CHECK(whole.roughness == own.roughness);
   CHECK(whole.specular == own.specular);
   second.domain = {{0.9, 1.0}, {0.0, 1.0}};  // which no image reaches
-  CHECK(make_chained_converter(Chain({first, second}).steps)->info().roughness == own.roughness);
+  CHECK(make_chained_converter(SteppedFits({first, second}).steps)->info().roughness == own.roughness);
 }
 
 TEST_CASE("chained converter: a step that takes other parameters than the one before gives is refused") {
   Fit first = proportional_fit("r/a", "r/b", 0.8, 1.0), second = proportional_fit("r/b", "r/c", 1.0, 1.0);
   second.source.roughness = RoughnessConvention::kRoughness;
-  const Chain chain({first, second});
+  const SteppedFits chain({first, second});
   try {
     make_chained_converter(chain.steps);
     FAIL("no exception");

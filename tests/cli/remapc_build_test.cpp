@@ -1,0 +1,197 @@
+// remapc build, chain, invert, fit --swap: fits from a manifest, and fits made of fits.
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/remapc_session.hpp"
+
+using namespace remap;
+
+namespace {
+
+// Two pairs of small sweeps, a published formula, its inverse and a chain of the two.
+std::string manifest(int resolution = 48) {
+  return R"({"format": "remap-manifest", "version": 1,
+  "published": [{"id": "a_b_to_mitsuba_ward", "from": "nobody 2020",
+    "source": {"model": "a/b", "roughness": "roughness", "specular": "specular"},
+    "target": {"model": "mitsuba/ward", "roughness": "alpha", "specular": "specular"},
+    "domain": {"alpha": [0.05, 0.6], "specular": [0, 0.5]}, "roughness": [0.9, 0.05],
+    "slope": {"c0": 0.5, "c1": 0.3, "c2": 2, "c3": 0, "c4": 0, "c5": 0}, "remarks": ["As printed."]}],
+  "sweeps": [{"models": ["mitsuba/ward", "mitsuba/ward-duer"], "objective": "natural", "resolution": )" +
+         std::to_string(resolution) + R"(,
+    "alpha": [0.05, 0.6], "roughness_samples": 12, "specular_samples": 3, "seed": 1}],
+  "inverses": [{"id": "mitsuba_ward_to_a_b", "of": "a_b_to_mitsuba_ward", "seed": 1}],
+  "chains": [{"id": "a_b_to_mitsuba_ward_duer", "steps": ["a_b_to_mitsuba_ward", "mitsuba_ward_to_mitsuba_ward_duer"]}]})";
+}
+
+std::vector<std::string> build_of(const Session& session, std::vector<std::string> more = {}) {
+  std::vector<std::string> words = {
+      "build", "--json", "--fits", session.path("fits"), "-o", session.path("generated")};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::vector<std::string> built_ids(const ProcessResult& result) {
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  std::vector<std::string> ids;
+  for (const auto& item : nlohmann::json::parse(result.output)["built"]) ids.push_back(item["id"]);
+  return ids;
+}
+
+void append(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::app) << text; }
+
+}  // namespace
+
+TEST_CASE("remapc build: makes what the manifest asks for, and nothing twice") {
+  const Session session;
+  session.write("fits/manifest.json", manifest());
+  CHECK(built_ids(session.remapc(build_of(session))) ==
+        std::vector<std::string>{"a_b_to_mitsuba_ward", "a_b_to_mitsuba_ward_duer",
+                                 "mitsuba_ward_duer_to_mitsuba_ward", "mitsuba_ward_to_a_b",
+                                 "mitsuba_ward_to_mitsuba_ward_duer"});
+  CHECK(built_ids(session.remapc(build_of(session))).empty());
+  CHECK(session.remapc(build_of(session, {"--check"})).exit_code == 0);
+  const std::vector<std::string> emit = {
+      "emit", "--all", "--check", "--fits", session.path("fits"), "-o", session.path("generated")};
+  CHECK(session.remapc(emit).exit_code == 0);
+  const std::string report = read_file(session.path("fits/README.md"));
+  CHECK(report.find("| **mitsuba/ward-duer** |") != std::string::npos);
+  CHECK(report.find("Published in nobody 2020. As printed.") != std::string::npos);
+  CHECK(read_file(session.path("fits/pairs.svg")).find("<polyline") != std::string::npos);
+
+  // A header that was edited is made again by itself.
+  append(session.path("generated/mitsuba_ward_to_mitsuba_ward_duer.hpp"), "// mine\n");
+  const ProcessResult check = session.remapc(build_of(session, {"--check"}));
+  CHECK(check.exit_code == 1);
+  CHECK(check.output.find("is not the file that the last build made") != std::string::npos);
+  const std::string fit = read_file(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json"));
+  const ProcessResult again = session.remapc(build_of(session));
+  CHECK(built_ids(again) == std::vector<std::string>{"mitsuba_ward_to_mitsuba_ward_duer"});
+  CHECK_FALSE(nlohmann::json::parse(again.output)["built"][0]["fit"].get<bool>());
+  CHECK(read_file(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json")) == fit);
+
+  // A fit that is gone is made again from its table, to the same bytes.
+  std::filesystem::remove(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json"));
+  CHECK(built_ids(session.remapc(build_of(session))).size() == 1);
+  CHECK(read_file(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json")) == fit);
+
+  // Another recipe of the sweeps: both pairs, and the chain that is made from one of them.
+  session.write("fits/manifest.json", manifest(56));
+  CHECK(built_ids(session.remapc(build_of(session))) ==
+        std::vector<std::string>{"a_b_to_mitsuba_ward_duer", "mitsuba_ward_duer_to_mitsuba_ward",
+                                 "mitsuba_ward_to_mitsuba_ward_duer"});
+}
+
+TEST_CASE("remapc build: a table that is not the one a fit was made of is told") {
+  const Session session;
+  session.write(
+      "fits/manifest.json",
+      R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [], "chains": []})");
+  session.write("fits/tables/t.csv", made_table(14, 4));
+  REQUIRE(session.remapc(session.fit("fits/tables/t.csv")).exit_code == 0);
+  CHECK(session.remapc(build_of(session, {"--check"})).exit_code == 0);
+  append(session.path("fits/tables/t.csv"), "0.5,0.5,0.4,0.4,0,ok\n");
+  const ProcessResult check = session.remapc(build_of(session, {"--check"}));
+  CHECK(check.exit_code == 1);
+  CHECK(check.output.find("t.csv is not the table that it was fitted to") != std::string::npos);
+}
+
+TEST_CASE("remapc build: a manifest that is wrong is refused with the place") {
+  const Session session;
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& message) {
+    std::string text = manifest();
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    session.write("fits/manifest.json", text);
+    check_failure(session.remapc(build_of(session)), 1, message);
+  };
+  check_failure(session.remapc(build_of(session)), 1, "manifest.json");
+  refused("remap-manifest", "remap-fit", "expected \"remap-manifest\"");
+  refused("\"version\": 1", "\"version\": 9", "expected version 1");
+  refused("\"of\": \"a_b_to_mitsuba_ward\"", "\"of\": \"a_b_to_mitsuba_wart\"", "a_b_to_mitsuba_ward?");
+  refused("\"id\": \"mitsuba_ward_to_a_b\"", "\"id\": \"a_b_to_mitsuba_ward\"", "twice");
+  refused("\"id\": \"mitsuba_ward_to_a_b\"", "\"id\": \"int\"", "identifier");
+  refused("\"steps\": [\"a_b_to_mitsuba_ward\", ", "\"steps\": [", "at least 2");
+  refused("\"mitsuba/ward-duer\"]", "\"mitsuba/ward-dur\"]", "mitsuba/ward-duer");
+}
+
+TEST_CASE("remapc build: an interrupted build goes on where it was") {
+  const Session session;
+  session.write("fits/manifest.json", manifest(200));
+  std::vector<std::string> words = build_of(session, {"--jobs", "1"});
+  words.insert(words.begin(), REMAPC_PROGRAM);
+  Process process(words);
+  while (process.is_running() && !std::filesystem::exists(session.path("fits/manifest.lock")))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  process.send(SIGINT);
+  const ProcessResult cut = process.wait();
+  INFO(cut.errors);
+  CHECK(cut.exit_code == 1);
+  CHECK(cut.last_error().find("interrupted") != std::string::npos);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(session.path("fits")))
+    CHECK(entry.path().filename().string().front() != '.');
+  built_ids(session.remapc(build_of(session)));
+  CHECK(session.remapc(build_of(session, {"--check"})).exit_code == 0);
+}
+
+TEST_CASE("remapc fit --swap and invert: two ways back that agree") {
+  const Session session;
+  session.write("t.csv", made_table(24, 6));
+  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
+  std::vector<std::string> swap = session.fit("t.csv", "swapped");
+  swap.push_back("--swap");
+  REQUIRE(session.remapc(swap).exit_code == 0);
+  const auto swapped =
+      nlohmann::json::parse(read_file(session.path("swapped/mitsuba_as_to_mitsuba_ward.json")));
+  CHECK(swapped["source"]["specular"] == "f0");
+  CHECK(swapped["table"]["comments"]["roles"] == "swapped");
+  const ProcessResult inverted =
+      session.remapc({"invert", session.path("fits/mitsuba_ward_to_mitsuba_as.json"), "-o",
+                      session.path("inverse"), "--json"});
+  INFO(inverted.errors);
+  REQUIRE(inverted.exit_code == 0);
+  const auto json = nlohmann::json::parse(inverted.output);
+  CHECK(json["inverse_of"] == "mitsuba_ward_to_mitsuba_as");
+  CHECK(json["alpha_error"]["max"].get<double>() < 2e-3);
+  const ProcessResult eval = session.remapc(
+      {"eval", session.path("inverse/mitsuba_as_to_mitsuba_ward.json"), session.path("back.csv"), "--json"});
+  CHECK(eval.exit_code == 1);  // no such table
+}
+
+TEST_CASE("remapc chain: one fit, and what cannot be one") {
+  const Session session;
+  session.write("fits/manifest.json", manifest());
+  REQUIRE(session.remapc(build_of(session)).exit_code == 0);
+  const auto chain = [&](std::vector<std::string> steps) {
+    steps.insert(steps.begin(), "chain");
+    for (const std::string& word : {std::string("--fits"), session.path("fits"), std::string("-o"),
+                                    session.path("mine"), std::string("--json")})
+      steps.push_back(word);
+    return session.remapc(steps);
+  };
+  const ProcessResult made = chain({"a_b_to_mitsuba_ward", "mitsuba_ward_to_mitsuba_ward_duer"});
+  INFO(made.errors);
+  REQUIRE(made.exit_code == 0);
+  CHECK(nlohmann::json::parse(made.output)["lowered_within"]["alpha"].get<double>() <= 1e-5);
+  CHECK(read_file(session.path("mine/a_b_to_mitsuba_ward_duer.json")) ==
+        read_file(session.path("fits/a_b_to_mitsuba_ward_duer.json")));
+  const ProcessResult shown = session.remapc({"show", session.path("mine/a_b_to_mitsuba_ward_duer.json")});
+  CHECK(shown.output.find("Composed of a_b_to_mitsuba_ward, then") != std::string::npos);
+  CHECK(
+      session.remapc({"emit", session.path("mine/a_b_to_mitsuba_ward_duer.json"), "-o", session.path("mine")})
+          .exit_code == 0);
+  check_failure(session.remapc({"emit", "--exact", session.path("mine/a_b_to_mitsuba_ward_duer.json"), "-o",
+                                session.path("mine")}),
+                2, "no exact form");
+  check_failure(chain({"mitsuba_ward_to_mitsuba_ward_duer", "a_b_to_mitsuba_ward"}), 1, "takes a/b");
+  check_failure(chain({"mitsuba_ward_to_mitsuba_ward_duer", "mitsuba_ward_duer_to_mitsuba_ward"}), 2,
+                "twice");
+  check_failure(chain({"a_b_to_mitsuba_wart", "mitsuba_ward_to_mitsuba_ward_duer"}), 2,
+                "a_b_to_mitsuba_ward?");
+  check_failure(chain({"a_b_to_mitsuba_ward"}), 2, "at least 2");
+  CHECK(made.output.find("coloured") != std::string::npos);
+}
