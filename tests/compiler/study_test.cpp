@@ -26,6 +26,8 @@ nlohmann::json record(const nlohmann::json& database, const std::string& name) {
   return {};
 }
 
+bool is_linear_srgb(const nlohmann::json& index) { return index.at("colorSpace") == "srgb-linear"; }
+
 StudyOptions small_study(std::vector<double> alphas) {
   StudyOptions options;
   options.resolution = 64;
@@ -60,8 +62,11 @@ TEST_CASE("materials: values are those of the database") {
   if (path.empty()) return;
   const nlohmann::json database = nlohmann::json::parse(remap::read_file(path));
   for (const Conductor& metal : measured_conductors()) {
-    for (const nlohmann::json& index : record(database, metal.name).at("complexIor")) {
-      if (index.at("colorSpace") != "srgb-linear") continue;
+    const nlohmann::json item = record(database, metal.name);
+    const auto& indices = item.at("complexIor");
+    CHECK(std::count_if(indices.begin(), indices.end(), is_linear_srgb) == 1);
+    for (const nlohmann::json& index : indices) {
+      if (!is_linear_srgb(index)) continue;
       CHECK(index.at("n").get<std::array<double, 3>>() == metal.eta);
       CHECK(index.at("k").get<std::array<double, 3>>() == metal.k);
     }
