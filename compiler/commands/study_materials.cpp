@@ -94,7 +94,7 @@ nlohmann::ordered_json dielectrics_json(const DielectricsStudy& study) {
   for (const DielectricCurve& curve : study.curves)
     curves.push_back({{"stages", curve.stages},
                       {"alpha", curve.alpha},
-                      {"second_difference", curve.roughness},
+                      {"second_difference", curve.second_difference},
                       {"largest_step", curve.largest_step},
                       {"largest_step_ior", curve.step_ior},
                       {"mean_error", curve.mean_error},

@@ -93,7 +93,7 @@ DielectricCurve curve_of(const std::vector<Table>& stages, int stage_count, doub
     curve.largest_step = std::max(curve.largest_step, step);
     if (i + 1 == rows.size()) continue;
     const double second = rows[i + 1]->specular2 - 2.0 * rows[i]->specular2 + rows[i - 1]->specular2;
-    curve.roughness = std::max(curve.roughness, std::fabs(second) / range);
+    curve.second_difference = std::max(curve.second_difference, std::fabs(second) / range);
   }
   return curve;
 }
@@ -182,7 +182,7 @@ std::string curve_words(const DielectricCurve& curve) {
          (curve.loses_highlight() ? "loses the highlight"
           : curve.jumps()         ? "jumps"
                                   : "smooth") +
-         "; largest second difference " + percent_text(curve.roughness) + " and largest step " +
+         "; largest second difference " + percent_text(curve.second_difference) + " and largest step " +
          percent_text(curve.largest_step) + " (at ior " + number_text(curve.step_ior) +
          ") of the range of two stages, specular at least " + percent_text(curve.least_highlight) +
          " of theirs; image error " + percent_text(curve.mean_error) + " mean, " +

@@ -17,15 +17,15 @@ namespace remapc {
 struct DielectricCurve {
   int stages = 0;
   double alpha = 0.0;
-  double roughness = 0.0;     // largest second difference between neighbours 0.05 apart in the index
-  double largest_step = 0.0;  // largest change of specular between neighbours
-  double step_ior = 0.0;      // where it is: the upper of the two
+  double second_difference = 0.0;  // largest second difference between neighbours 0.05 apart in the index
+  double largest_step = 0.0;       // largest change of specular between neighbours
+  double step_ior = 0.0;           // where it is: the upper of the two
   double mean_error = 0.0, worst_error = 0.0;  // image error of the whole picture
   std::size_t rows = 0, unstable = 0, clamped = 0;
   double least_highlight = 1.0;  // smallest specular of a row, relative to that of two stages
 
   // Smooth curves have a second difference of half a per cent.
-  bool jumps() const { return roughness > 0.05; }
+  bool jumps() const { return second_difference > 0.05; }
   bool loses_highlight() const { return least_highlight < 0.1; }
 };
 

@@ -12,7 +12,7 @@ using remap::Range;
 
 TableRow flat_row(const SamplePoint& sample, const Subject& target) {
   const double alpha = std::clamp(sample.alpha, target.model.alpha.min, target.model.alpha.max);
-  return {sample.alpha, sample.specular, alpha, 0.0, 0.0, RowStatus::kFlat, 0};
+  return {sample.alpha, sample.specular, alpha, target.linear_range().min, 0.0, RowStatus::kFlat, 0};
 }
 
 TableRow matched_row(const SamplePoint& sample, const Match& match) {

@@ -181,8 +181,11 @@ JointMatch JointMatcher::search(const Sitting& guess, double tolerance) const {
   // while the others are searched once more.
   std::vector<int> fixed;
   for (std::size_t i = 0; i < count; ++i)
-    if (lies_at(values[i], ranges[i].min, ranges[i]) || lies_at(values[i], ranges[i].max, ranges[i]))
+    for (const double bound : {ranges[i].min, ranges[i].max}) {
+      if (!lies_at(values[i], bound, ranges[i])) continue;
+      values[i] = bound;
       fixed.push_back(static_cast<int>(i));
+    }
   if (!fixed.empty() && fixed.size() < count) {
     problem.SetManifold(values.data(), new ceres::SubsetManifold(static_cast<int>(count), fixed));
     summary = solve(&problem, tolerance);

@@ -231,6 +231,20 @@ TEST_CASE("sweep: a target of no known law that cannot match is where affine mat
   }
 }
 
+TEST_CASE("sweep: exact Fresnel as a target is matched in its index") {
+  const auto renderer = make_builtin_renderer();
+  const Table table = sweep(*renderer, sweep_options("mitsuba/as-dielectric", "mitsuba/as-dielectric",
+                                                     "natural", {{0.2, 1.0}, {0.2, 1.5}, {0.4, 2.2}}, 48));
+  CHECK(table.target.specular == "ior");
+  CHECK(table.rows[0].status == RowStatus::kFlat);
+  CHECK(table.rows[0].specular2 == 1.0);
+  for (const std::size_t i : {1u, 2u}) {
+    CHECK(table.rows[i].alpha2 == Approx(table.rows[i].alpha1).epsilon(1e-3));
+    CHECK(table.rows[i].specular2 == Approx(table.rows[i].specular1).epsilon(1e-3));
+    CHECK(table.rows[i].status == RowStatus::kOk);
+  }
+}
+
 TEST_CASE("sweep: a source that is not affine is rendered sample by sample") {
   const LawRenderer renderer("mitsuba/ward", {0.0, 1.0}, squared);
   const auto samples = grid_samples({0.2, 0.4}, 2, {0.0, 0.9}, 3);
