@@ -8,7 +8,58 @@
 #include <array>
 #include <cstddef>
 
+#include "blender_internal_2_7_ward_to_cycles_2_7_ggx.hpp"
+#include "blender_internal_2_7_ward_to_mitsuba_ward.hpp"
+#include "cycles_2_7_ggx_to_blender_internal_2_7_ward.hpp"
+#include "cycles_2_7_ggx_to_mitsuba_as.hpp"
+#include "cycles_2_7_ggx_to_mitsuba_ggx.hpp"
+#include "mitsuba_as_to_cycles_2_7_ggx.hpp"
+#include "mitsuba_as_to_mitsuba_beckmann.hpp"
+#include "mitsuba_as_to_mitsuba_ggx.hpp"
+#include "mitsuba_as_to_mitsuba_phong.hpp"
+#include "mitsuba_as_to_mitsuba_ward.hpp"
+#include "mitsuba_as_to_mitsuba_ward_balanced.hpp"
+#include "mitsuba_as_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_beckmann_to_mitsuba_as.hpp"
+#include "mitsuba_beckmann_to_mitsuba_ggx.hpp"
+#include "mitsuba_beckmann_to_mitsuba_phong.hpp"
+#include "mitsuba_beckmann_to_mitsuba_ward.hpp"
+#include "mitsuba_beckmann_to_mitsuba_ward_balanced.hpp"
+#include "mitsuba_beckmann_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_ggx_to_cycles_2_7_ggx.hpp"
+#include "mitsuba_ggx_to_mitsuba_as.hpp"
+#include "mitsuba_ggx_to_mitsuba_beckmann.hpp"
+#include "mitsuba_ggx_to_mitsuba_phong.hpp"
+#include "mitsuba_ggx_to_mitsuba_ward.hpp"
+#include "mitsuba_ggx_to_mitsuba_ward_balanced.hpp"
+#include "mitsuba_ggx_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_phong_to_mitsuba_as.hpp"
+#include "mitsuba_phong_to_mitsuba_beckmann.hpp"
+#include "mitsuba_phong_to_mitsuba_ggx.hpp"
+#include "mitsuba_phong_to_mitsuba_ward.hpp"
+#include "mitsuba_phong_to_mitsuba_ward_balanced.hpp"
+#include "mitsuba_phong_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_ward_balanced_to_mitsuba_as.hpp"
+#include "mitsuba_ward_balanced_to_mitsuba_beckmann.hpp"
+#include "mitsuba_ward_balanced_to_mitsuba_ggx.hpp"
+#include "mitsuba_ward_balanced_to_mitsuba_phong.hpp"
+#include "mitsuba_ward_balanced_to_mitsuba_ward.hpp"
+#include "mitsuba_ward_balanced_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_ward_duer_to_mitsuba_as.hpp"
+#include "mitsuba_ward_duer_to_mitsuba_beckmann.hpp"
+#include "mitsuba_ward_duer_to_mitsuba_ggx.hpp"
+#include "mitsuba_ward_duer_to_mitsuba_phong.hpp"
+#include "mitsuba_ward_duer_to_mitsuba_ward.hpp"
+#include "mitsuba_ward_duer_to_mitsuba_ward_balanced.hpp"
+#include "mitsuba_ward_to_blender_internal_2_7_ward.hpp"
 #include "mitsuba_ward_to_mitsuba_as.hpp"
+#include "mitsuba_ward_to_mitsuba_as_sztrajman_2019.hpp"
+#include "mitsuba_ward_to_mitsuba_beckmann.hpp"
+#include "mitsuba_ward_to_mitsuba_ggx.hpp"
+#include "mitsuba_ward_to_mitsuba_ggx_sztrajman_2019.hpp"
+#include "mitsuba_ward_to_mitsuba_phong.hpp"
+#include "mitsuba_ward_to_mitsuba_ward_balanced.hpp"
+#include "mitsuba_ward_to_mitsuba_ward_duer.hpp"
 
 namespace remap {
 
@@ -34,18 +85,720 @@ struct ConverterEntry {
   bool (*self_test)() noexcept;
 };
 
-inline constexpr std::array<ConverterEntry, 1> kConverters = {{
+inline constexpr std::array<ConverterEntry, 52> kConverters = {{
+    {blender_internal_2_7_ward_to_cycles_2_7_ggx::kId, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceModel, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceRoughness, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceSpecular,
+     blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetModel, blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetRoughness, blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetSpecular,
+     blender_internal_2_7_ward_to_cycles_2_7_ggx::kDomainMin.alpha, blender_internal_2_7_ward_to_cycles_2_7_ggx::kDomainMax.alpha,
+     blender_internal_2_7_ward_to_cycles_2_7_ggx::kDomainMin.specular, blender_internal_2_7_ward_to_cycles_2_7_ggx::kDomainMax.specular,
+     blender_internal_2_7_ward_to_cycles_2_7_ggx::kAlphaRmsError, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSpecularRmsError, blender_internal_2_7_ward_to_cycles_2_7_ggx::kImageRmsError,
+     &blender_internal_2_7_ward_to_cycles_2_7_ggx::evaluate_batch<1>, &blender_internal_2_7_ward_to_cycles_2_7_ggx::evaluate_batch<3>, &blender_internal_2_7_ward_to_cycles_2_7_ggx::self_test},
+    {blender_internal_2_7_ward_to_mitsuba_ward::kId, blender_internal_2_7_ward_to_mitsuba_ward::kSourceModel, blender_internal_2_7_ward_to_mitsuba_ward::kSourceRoughness, blender_internal_2_7_ward_to_mitsuba_ward::kSourceSpecular,
+     blender_internal_2_7_ward_to_mitsuba_ward::kTargetModel, blender_internal_2_7_ward_to_mitsuba_ward::kTargetRoughness, blender_internal_2_7_ward_to_mitsuba_ward::kTargetSpecular,
+     blender_internal_2_7_ward_to_mitsuba_ward::kDomainMin.alpha, blender_internal_2_7_ward_to_mitsuba_ward::kDomainMax.alpha,
+     blender_internal_2_7_ward_to_mitsuba_ward::kDomainMin.specular, blender_internal_2_7_ward_to_mitsuba_ward::kDomainMax.specular,
+     blender_internal_2_7_ward_to_mitsuba_ward::kAlphaRmsError, blender_internal_2_7_ward_to_mitsuba_ward::kSpecularRmsError, blender_internal_2_7_ward_to_mitsuba_ward::kImageRmsError,
+     &blender_internal_2_7_ward_to_mitsuba_ward::evaluate_batch<1>, &blender_internal_2_7_ward_to_mitsuba_ward::evaluate_batch<3>, &blender_internal_2_7_ward_to_mitsuba_ward::self_test},
+    {cycles_2_7_ggx_to_blender_internal_2_7_ward::kId, cycles_2_7_ggx_to_blender_internal_2_7_ward::kSourceModel, cycles_2_7_ggx_to_blender_internal_2_7_ward::kSourceRoughness, cycles_2_7_ggx_to_blender_internal_2_7_ward::kSourceSpecular,
+     cycles_2_7_ggx_to_blender_internal_2_7_ward::kTargetModel, cycles_2_7_ggx_to_blender_internal_2_7_ward::kTargetRoughness, cycles_2_7_ggx_to_blender_internal_2_7_ward::kTargetSpecular,
+     cycles_2_7_ggx_to_blender_internal_2_7_ward::kDomainMin.alpha, cycles_2_7_ggx_to_blender_internal_2_7_ward::kDomainMax.alpha,
+     cycles_2_7_ggx_to_blender_internal_2_7_ward::kDomainMin.f0, cycles_2_7_ggx_to_blender_internal_2_7_ward::kDomainMax.f0,
+     cycles_2_7_ggx_to_blender_internal_2_7_ward::kAlphaRmsError, cycles_2_7_ggx_to_blender_internal_2_7_ward::kSpecularRmsError, cycles_2_7_ggx_to_blender_internal_2_7_ward::kImageRmsError,
+     &cycles_2_7_ggx_to_blender_internal_2_7_ward::evaluate_batch<1>, &cycles_2_7_ggx_to_blender_internal_2_7_ward::evaluate_batch<3>, &cycles_2_7_ggx_to_blender_internal_2_7_ward::self_test},
+    {cycles_2_7_ggx_to_mitsuba_as::kId, cycles_2_7_ggx_to_mitsuba_as::kSourceModel, cycles_2_7_ggx_to_mitsuba_as::kSourceRoughness, cycles_2_7_ggx_to_mitsuba_as::kSourceSpecular,
+     cycles_2_7_ggx_to_mitsuba_as::kTargetModel, cycles_2_7_ggx_to_mitsuba_as::kTargetRoughness, cycles_2_7_ggx_to_mitsuba_as::kTargetSpecular,
+     cycles_2_7_ggx_to_mitsuba_as::kDomainMin.alpha, cycles_2_7_ggx_to_mitsuba_as::kDomainMax.alpha,
+     cycles_2_7_ggx_to_mitsuba_as::kDomainMin.f0, cycles_2_7_ggx_to_mitsuba_as::kDomainMax.f0,
+     cycles_2_7_ggx_to_mitsuba_as::kAlphaRmsError, cycles_2_7_ggx_to_mitsuba_as::kSpecularRmsError, cycles_2_7_ggx_to_mitsuba_as::kImageRmsError,
+     &cycles_2_7_ggx_to_mitsuba_as::evaluate_batch<1>, &cycles_2_7_ggx_to_mitsuba_as::evaluate_batch<3>, &cycles_2_7_ggx_to_mitsuba_as::self_test},
+    {cycles_2_7_ggx_to_mitsuba_ggx::kId, cycles_2_7_ggx_to_mitsuba_ggx::kSourceModel, cycles_2_7_ggx_to_mitsuba_ggx::kSourceRoughness, cycles_2_7_ggx_to_mitsuba_ggx::kSourceSpecular,
+     cycles_2_7_ggx_to_mitsuba_ggx::kTargetModel, cycles_2_7_ggx_to_mitsuba_ggx::kTargetRoughness, cycles_2_7_ggx_to_mitsuba_ggx::kTargetSpecular,
+     cycles_2_7_ggx_to_mitsuba_ggx::kDomainMin.alpha, cycles_2_7_ggx_to_mitsuba_ggx::kDomainMax.alpha,
+     cycles_2_7_ggx_to_mitsuba_ggx::kDomainMin.f0, cycles_2_7_ggx_to_mitsuba_ggx::kDomainMax.f0,
+     cycles_2_7_ggx_to_mitsuba_ggx::kAlphaRmsError, cycles_2_7_ggx_to_mitsuba_ggx::kSpecularRmsError, cycles_2_7_ggx_to_mitsuba_ggx::kImageRmsError,
+     &cycles_2_7_ggx_to_mitsuba_ggx::evaluate_batch<1>, &cycles_2_7_ggx_to_mitsuba_ggx::evaluate_batch<3>, &cycles_2_7_ggx_to_mitsuba_ggx::self_test},
+    {mitsuba_as_to_cycles_2_7_ggx::kId, mitsuba_as_to_cycles_2_7_ggx::kSourceModel, mitsuba_as_to_cycles_2_7_ggx::kSourceRoughness, mitsuba_as_to_cycles_2_7_ggx::kSourceSpecular,
+     mitsuba_as_to_cycles_2_7_ggx::kTargetModel, mitsuba_as_to_cycles_2_7_ggx::kTargetRoughness, mitsuba_as_to_cycles_2_7_ggx::kTargetSpecular,
+     mitsuba_as_to_cycles_2_7_ggx::kDomainMin.alpha, mitsuba_as_to_cycles_2_7_ggx::kDomainMax.alpha,
+     mitsuba_as_to_cycles_2_7_ggx::kDomainMin.f0, mitsuba_as_to_cycles_2_7_ggx::kDomainMax.f0,
+     mitsuba_as_to_cycles_2_7_ggx::kAlphaRmsError, mitsuba_as_to_cycles_2_7_ggx::kSpecularRmsError, mitsuba_as_to_cycles_2_7_ggx::kImageRmsError,
+     &mitsuba_as_to_cycles_2_7_ggx::evaluate_batch<1>, &mitsuba_as_to_cycles_2_7_ggx::evaluate_batch<3>, &mitsuba_as_to_cycles_2_7_ggx::self_test},
+    {mitsuba_as_to_mitsuba_beckmann::kId, mitsuba_as_to_mitsuba_beckmann::kSourceModel, mitsuba_as_to_mitsuba_beckmann::kSourceRoughness, mitsuba_as_to_mitsuba_beckmann::kSourceSpecular,
+     mitsuba_as_to_mitsuba_beckmann::kTargetModel, mitsuba_as_to_mitsuba_beckmann::kTargetRoughness, mitsuba_as_to_mitsuba_beckmann::kTargetSpecular,
+     mitsuba_as_to_mitsuba_beckmann::kDomainMin.alpha, mitsuba_as_to_mitsuba_beckmann::kDomainMax.alpha,
+     mitsuba_as_to_mitsuba_beckmann::kDomainMin.f0, mitsuba_as_to_mitsuba_beckmann::kDomainMax.f0,
+     mitsuba_as_to_mitsuba_beckmann::kAlphaRmsError, mitsuba_as_to_mitsuba_beckmann::kSpecularRmsError, mitsuba_as_to_mitsuba_beckmann::kImageRmsError,
+     &mitsuba_as_to_mitsuba_beckmann::evaluate_batch<1>, &mitsuba_as_to_mitsuba_beckmann::evaluate_batch<3>, &mitsuba_as_to_mitsuba_beckmann::self_test},
+    {mitsuba_as_to_mitsuba_ggx::kId, mitsuba_as_to_mitsuba_ggx::kSourceModel, mitsuba_as_to_mitsuba_ggx::kSourceRoughness, mitsuba_as_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba_as_to_mitsuba_ggx::kTargetModel, mitsuba_as_to_mitsuba_ggx::kTargetRoughness, mitsuba_as_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba_as_to_mitsuba_ggx::kDomainMin.alpha, mitsuba_as_to_mitsuba_ggx::kDomainMax.alpha,
+     mitsuba_as_to_mitsuba_ggx::kDomainMin.f0, mitsuba_as_to_mitsuba_ggx::kDomainMax.f0,
+     mitsuba_as_to_mitsuba_ggx::kAlphaRmsError, mitsuba_as_to_mitsuba_ggx::kSpecularRmsError, mitsuba_as_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba_as_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba_as_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba_as_to_mitsuba_ggx::self_test},
+    {mitsuba_as_to_mitsuba_phong::kId, mitsuba_as_to_mitsuba_phong::kSourceModel, mitsuba_as_to_mitsuba_phong::kSourceRoughness, mitsuba_as_to_mitsuba_phong::kSourceSpecular,
+     mitsuba_as_to_mitsuba_phong::kTargetModel, mitsuba_as_to_mitsuba_phong::kTargetRoughness, mitsuba_as_to_mitsuba_phong::kTargetSpecular,
+     mitsuba_as_to_mitsuba_phong::kDomainMin.alpha, mitsuba_as_to_mitsuba_phong::kDomainMax.alpha,
+     mitsuba_as_to_mitsuba_phong::kDomainMin.f0, mitsuba_as_to_mitsuba_phong::kDomainMax.f0,
+     mitsuba_as_to_mitsuba_phong::kAlphaRmsError, mitsuba_as_to_mitsuba_phong::kSpecularRmsError, mitsuba_as_to_mitsuba_phong::kImageRmsError,
+     &mitsuba_as_to_mitsuba_phong::evaluate_batch<1>, &mitsuba_as_to_mitsuba_phong::evaluate_batch<3>, &mitsuba_as_to_mitsuba_phong::self_test},
+    {mitsuba_as_to_mitsuba_ward::kId, mitsuba_as_to_mitsuba_ward::kSourceModel, mitsuba_as_to_mitsuba_ward::kSourceRoughness, mitsuba_as_to_mitsuba_ward::kSourceSpecular,
+     mitsuba_as_to_mitsuba_ward::kTargetModel, mitsuba_as_to_mitsuba_ward::kTargetRoughness, mitsuba_as_to_mitsuba_ward::kTargetSpecular,
+     mitsuba_as_to_mitsuba_ward::kDomainMin.alpha, mitsuba_as_to_mitsuba_ward::kDomainMax.alpha,
+     mitsuba_as_to_mitsuba_ward::kDomainMin.f0, mitsuba_as_to_mitsuba_ward::kDomainMax.f0,
+     mitsuba_as_to_mitsuba_ward::kAlphaRmsError, mitsuba_as_to_mitsuba_ward::kSpecularRmsError, mitsuba_as_to_mitsuba_ward::kImageRmsError,
+     &mitsuba_as_to_mitsuba_ward::evaluate_batch<1>, &mitsuba_as_to_mitsuba_ward::evaluate_batch<3>, &mitsuba_as_to_mitsuba_ward::self_test},
+    {mitsuba_as_to_mitsuba_ward_balanced::kId, mitsuba_as_to_mitsuba_ward_balanced::kSourceModel, mitsuba_as_to_mitsuba_ward_balanced::kSourceRoughness, mitsuba_as_to_mitsuba_ward_balanced::kSourceSpecular,
+     mitsuba_as_to_mitsuba_ward_balanced::kTargetModel, mitsuba_as_to_mitsuba_ward_balanced::kTargetRoughness, mitsuba_as_to_mitsuba_ward_balanced::kTargetSpecular,
+     mitsuba_as_to_mitsuba_ward_balanced::kDomainMin.alpha, mitsuba_as_to_mitsuba_ward_balanced::kDomainMax.alpha,
+     mitsuba_as_to_mitsuba_ward_balanced::kDomainMin.f0, mitsuba_as_to_mitsuba_ward_balanced::kDomainMax.f0,
+     mitsuba_as_to_mitsuba_ward_balanced::kAlphaRmsError, mitsuba_as_to_mitsuba_ward_balanced::kSpecularRmsError, mitsuba_as_to_mitsuba_ward_balanced::kImageRmsError,
+     &mitsuba_as_to_mitsuba_ward_balanced::evaluate_batch<1>, &mitsuba_as_to_mitsuba_ward_balanced::evaluate_batch<3>, &mitsuba_as_to_mitsuba_ward_balanced::self_test},
+    {mitsuba_as_to_mitsuba_ward_duer::kId, mitsuba_as_to_mitsuba_ward_duer::kSourceModel, mitsuba_as_to_mitsuba_ward_duer::kSourceRoughness, mitsuba_as_to_mitsuba_ward_duer::kSourceSpecular,
+     mitsuba_as_to_mitsuba_ward_duer::kTargetModel, mitsuba_as_to_mitsuba_ward_duer::kTargetRoughness, mitsuba_as_to_mitsuba_ward_duer::kTargetSpecular,
+     mitsuba_as_to_mitsuba_ward_duer::kDomainMin.alpha, mitsuba_as_to_mitsuba_ward_duer::kDomainMax.alpha,
+     mitsuba_as_to_mitsuba_ward_duer::kDomainMin.f0, mitsuba_as_to_mitsuba_ward_duer::kDomainMax.f0,
+     mitsuba_as_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_as_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_as_to_mitsuba_ward_duer::kImageRmsError,
+     &mitsuba_as_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_as_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_as_to_mitsuba_ward_duer::self_test},
+    {mitsuba_beckmann_to_mitsuba_as::kId, mitsuba_beckmann_to_mitsuba_as::kSourceModel, mitsuba_beckmann_to_mitsuba_as::kSourceRoughness, mitsuba_beckmann_to_mitsuba_as::kSourceSpecular,
+     mitsuba_beckmann_to_mitsuba_as::kTargetModel, mitsuba_beckmann_to_mitsuba_as::kTargetRoughness, mitsuba_beckmann_to_mitsuba_as::kTargetSpecular,
+     mitsuba_beckmann_to_mitsuba_as::kDomainMin.alpha, mitsuba_beckmann_to_mitsuba_as::kDomainMax.alpha,
+     mitsuba_beckmann_to_mitsuba_as::kDomainMin.f0, mitsuba_beckmann_to_mitsuba_as::kDomainMax.f0,
+     mitsuba_beckmann_to_mitsuba_as::kAlphaRmsError, mitsuba_beckmann_to_mitsuba_as::kSpecularRmsError, mitsuba_beckmann_to_mitsuba_as::kImageRmsError,
+     &mitsuba_beckmann_to_mitsuba_as::evaluate_batch<1>, &mitsuba_beckmann_to_mitsuba_as::evaluate_batch<3>, &mitsuba_beckmann_to_mitsuba_as::self_test},
+    {mitsuba_beckmann_to_mitsuba_ggx::kId, mitsuba_beckmann_to_mitsuba_ggx::kSourceModel, mitsuba_beckmann_to_mitsuba_ggx::kSourceRoughness, mitsuba_beckmann_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba_beckmann_to_mitsuba_ggx::kTargetModel, mitsuba_beckmann_to_mitsuba_ggx::kTargetRoughness, mitsuba_beckmann_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba_beckmann_to_mitsuba_ggx::kDomainMin.alpha, mitsuba_beckmann_to_mitsuba_ggx::kDomainMax.alpha,
+     mitsuba_beckmann_to_mitsuba_ggx::kDomainMin.f0, mitsuba_beckmann_to_mitsuba_ggx::kDomainMax.f0,
+     mitsuba_beckmann_to_mitsuba_ggx::kAlphaRmsError, mitsuba_beckmann_to_mitsuba_ggx::kSpecularRmsError, mitsuba_beckmann_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba_beckmann_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba_beckmann_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba_beckmann_to_mitsuba_ggx::self_test},
+    {mitsuba_beckmann_to_mitsuba_phong::kId, mitsuba_beckmann_to_mitsuba_phong::kSourceModel, mitsuba_beckmann_to_mitsuba_phong::kSourceRoughness, mitsuba_beckmann_to_mitsuba_phong::kSourceSpecular,
+     mitsuba_beckmann_to_mitsuba_phong::kTargetModel, mitsuba_beckmann_to_mitsuba_phong::kTargetRoughness, mitsuba_beckmann_to_mitsuba_phong::kTargetSpecular,
+     mitsuba_beckmann_to_mitsuba_phong::kDomainMin.alpha, mitsuba_beckmann_to_mitsuba_phong::kDomainMax.alpha,
+     mitsuba_beckmann_to_mitsuba_phong::kDomainMin.f0, mitsuba_beckmann_to_mitsuba_phong::kDomainMax.f0,
+     mitsuba_beckmann_to_mitsuba_phong::kAlphaRmsError, mitsuba_beckmann_to_mitsuba_phong::kSpecularRmsError, mitsuba_beckmann_to_mitsuba_phong::kImageRmsError,
+     &mitsuba_beckmann_to_mitsuba_phong::evaluate_batch<1>, &mitsuba_beckmann_to_mitsuba_phong::evaluate_batch<3>, &mitsuba_beckmann_to_mitsuba_phong::self_test},
+    {mitsuba_beckmann_to_mitsuba_ward::kId, mitsuba_beckmann_to_mitsuba_ward::kSourceModel, mitsuba_beckmann_to_mitsuba_ward::kSourceRoughness, mitsuba_beckmann_to_mitsuba_ward::kSourceSpecular,
+     mitsuba_beckmann_to_mitsuba_ward::kTargetModel, mitsuba_beckmann_to_mitsuba_ward::kTargetRoughness, mitsuba_beckmann_to_mitsuba_ward::kTargetSpecular,
+     mitsuba_beckmann_to_mitsuba_ward::kDomainMin.alpha, mitsuba_beckmann_to_mitsuba_ward::kDomainMax.alpha,
+     mitsuba_beckmann_to_mitsuba_ward::kDomainMin.f0, mitsuba_beckmann_to_mitsuba_ward::kDomainMax.f0,
+     mitsuba_beckmann_to_mitsuba_ward::kAlphaRmsError, mitsuba_beckmann_to_mitsuba_ward::kSpecularRmsError, mitsuba_beckmann_to_mitsuba_ward::kImageRmsError,
+     &mitsuba_beckmann_to_mitsuba_ward::evaluate_batch<1>, &mitsuba_beckmann_to_mitsuba_ward::evaluate_batch<3>, &mitsuba_beckmann_to_mitsuba_ward::self_test},
+    {mitsuba_beckmann_to_mitsuba_ward_balanced::kId, mitsuba_beckmann_to_mitsuba_ward_balanced::kSourceModel, mitsuba_beckmann_to_mitsuba_ward_balanced::kSourceRoughness, mitsuba_beckmann_to_mitsuba_ward_balanced::kSourceSpecular,
+     mitsuba_beckmann_to_mitsuba_ward_balanced::kTargetModel, mitsuba_beckmann_to_mitsuba_ward_balanced::kTargetRoughness, mitsuba_beckmann_to_mitsuba_ward_balanced::kTargetSpecular,
+     mitsuba_beckmann_to_mitsuba_ward_balanced::kDomainMin.alpha, mitsuba_beckmann_to_mitsuba_ward_balanced::kDomainMax.alpha,
+     mitsuba_beckmann_to_mitsuba_ward_balanced::kDomainMin.f0, mitsuba_beckmann_to_mitsuba_ward_balanced::kDomainMax.f0,
+     mitsuba_beckmann_to_mitsuba_ward_balanced::kAlphaRmsError, mitsuba_beckmann_to_mitsuba_ward_balanced::kSpecularRmsError, mitsuba_beckmann_to_mitsuba_ward_balanced::kImageRmsError,
+     &mitsuba_beckmann_to_mitsuba_ward_balanced::evaluate_batch<1>, &mitsuba_beckmann_to_mitsuba_ward_balanced::evaluate_batch<3>, &mitsuba_beckmann_to_mitsuba_ward_balanced::self_test},
+    {mitsuba_beckmann_to_mitsuba_ward_duer::kId, mitsuba_beckmann_to_mitsuba_ward_duer::kSourceModel, mitsuba_beckmann_to_mitsuba_ward_duer::kSourceRoughness, mitsuba_beckmann_to_mitsuba_ward_duer::kSourceSpecular,
+     mitsuba_beckmann_to_mitsuba_ward_duer::kTargetModel, mitsuba_beckmann_to_mitsuba_ward_duer::kTargetRoughness, mitsuba_beckmann_to_mitsuba_ward_duer::kTargetSpecular,
+     mitsuba_beckmann_to_mitsuba_ward_duer::kDomainMin.alpha, mitsuba_beckmann_to_mitsuba_ward_duer::kDomainMax.alpha,
+     mitsuba_beckmann_to_mitsuba_ward_duer::kDomainMin.f0, mitsuba_beckmann_to_mitsuba_ward_duer::kDomainMax.f0,
+     mitsuba_beckmann_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_beckmann_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_beckmann_to_mitsuba_ward_duer::kImageRmsError,
+     &mitsuba_beckmann_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_beckmann_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_beckmann_to_mitsuba_ward_duer::self_test},
+    {mitsuba_ggx_to_cycles_2_7_ggx::kId, mitsuba_ggx_to_cycles_2_7_ggx::kSourceModel, mitsuba_ggx_to_cycles_2_7_ggx::kSourceRoughness, mitsuba_ggx_to_cycles_2_7_ggx::kSourceSpecular,
+     mitsuba_ggx_to_cycles_2_7_ggx::kTargetModel, mitsuba_ggx_to_cycles_2_7_ggx::kTargetRoughness, mitsuba_ggx_to_cycles_2_7_ggx::kTargetSpecular,
+     mitsuba_ggx_to_cycles_2_7_ggx::kDomainMin.alpha, mitsuba_ggx_to_cycles_2_7_ggx::kDomainMax.alpha,
+     mitsuba_ggx_to_cycles_2_7_ggx::kDomainMin.f0, mitsuba_ggx_to_cycles_2_7_ggx::kDomainMax.f0,
+     mitsuba_ggx_to_cycles_2_7_ggx::kAlphaRmsError, mitsuba_ggx_to_cycles_2_7_ggx::kSpecularRmsError, mitsuba_ggx_to_cycles_2_7_ggx::kImageRmsError,
+     &mitsuba_ggx_to_cycles_2_7_ggx::evaluate_batch<1>, &mitsuba_ggx_to_cycles_2_7_ggx::evaluate_batch<3>, &mitsuba_ggx_to_cycles_2_7_ggx::self_test},
+    {mitsuba_ggx_to_mitsuba_as::kId, mitsuba_ggx_to_mitsuba_as::kSourceModel, mitsuba_ggx_to_mitsuba_as::kSourceRoughness, mitsuba_ggx_to_mitsuba_as::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba_as::kTargetModel, mitsuba_ggx_to_mitsuba_as::kTargetRoughness, mitsuba_ggx_to_mitsuba_as::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba_as::kDomainMin.alpha, mitsuba_ggx_to_mitsuba_as::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba_as::kDomainMin.f0, mitsuba_ggx_to_mitsuba_as::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba_as::kAlphaRmsError, mitsuba_ggx_to_mitsuba_as::kSpecularRmsError, mitsuba_ggx_to_mitsuba_as::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba_as::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba_as::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba_as::self_test},
+    {mitsuba_ggx_to_mitsuba_beckmann::kId, mitsuba_ggx_to_mitsuba_beckmann::kSourceModel, mitsuba_ggx_to_mitsuba_beckmann::kSourceRoughness, mitsuba_ggx_to_mitsuba_beckmann::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba_beckmann::kTargetModel, mitsuba_ggx_to_mitsuba_beckmann::kTargetRoughness, mitsuba_ggx_to_mitsuba_beckmann::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba_beckmann::kDomainMin.alpha, mitsuba_ggx_to_mitsuba_beckmann::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba_beckmann::kDomainMin.f0, mitsuba_ggx_to_mitsuba_beckmann::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba_beckmann::kAlphaRmsError, mitsuba_ggx_to_mitsuba_beckmann::kSpecularRmsError, mitsuba_ggx_to_mitsuba_beckmann::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba_beckmann::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba_beckmann::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba_beckmann::self_test},
+    {mitsuba_ggx_to_mitsuba_phong::kId, mitsuba_ggx_to_mitsuba_phong::kSourceModel, mitsuba_ggx_to_mitsuba_phong::kSourceRoughness, mitsuba_ggx_to_mitsuba_phong::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba_phong::kTargetModel, mitsuba_ggx_to_mitsuba_phong::kTargetRoughness, mitsuba_ggx_to_mitsuba_phong::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba_phong::kDomainMin.alpha, mitsuba_ggx_to_mitsuba_phong::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba_phong::kDomainMin.f0, mitsuba_ggx_to_mitsuba_phong::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba_phong::kAlphaRmsError, mitsuba_ggx_to_mitsuba_phong::kSpecularRmsError, mitsuba_ggx_to_mitsuba_phong::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba_phong::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba_phong::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba_phong::self_test},
+    {mitsuba_ggx_to_mitsuba_ward::kId, mitsuba_ggx_to_mitsuba_ward::kSourceModel, mitsuba_ggx_to_mitsuba_ward::kSourceRoughness, mitsuba_ggx_to_mitsuba_ward::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba_ward::kTargetModel, mitsuba_ggx_to_mitsuba_ward::kTargetRoughness, mitsuba_ggx_to_mitsuba_ward::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba_ward::kDomainMin.alpha, mitsuba_ggx_to_mitsuba_ward::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba_ward::kDomainMin.f0, mitsuba_ggx_to_mitsuba_ward::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba_ward::kAlphaRmsError, mitsuba_ggx_to_mitsuba_ward::kSpecularRmsError, mitsuba_ggx_to_mitsuba_ward::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba_ward::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba_ward::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba_ward::self_test},
+    {mitsuba_ggx_to_mitsuba_ward_balanced::kId, mitsuba_ggx_to_mitsuba_ward_balanced::kSourceModel, mitsuba_ggx_to_mitsuba_ward_balanced::kSourceRoughness, mitsuba_ggx_to_mitsuba_ward_balanced::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba_ward_balanced::kTargetModel, mitsuba_ggx_to_mitsuba_ward_balanced::kTargetRoughness, mitsuba_ggx_to_mitsuba_ward_balanced::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba_ward_balanced::kDomainMin.alpha, mitsuba_ggx_to_mitsuba_ward_balanced::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba_ward_balanced::kDomainMin.f0, mitsuba_ggx_to_mitsuba_ward_balanced::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba_ward_balanced::kAlphaRmsError, mitsuba_ggx_to_mitsuba_ward_balanced::kSpecularRmsError, mitsuba_ggx_to_mitsuba_ward_balanced::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba_ward_balanced::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba_ward_balanced::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba_ward_balanced::self_test},
+    {mitsuba_ggx_to_mitsuba_ward_duer::kId, mitsuba_ggx_to_mitsuba_ward_duer::kSourceModel, mitsuba_ggx_to_mitsuba_ward_duer::kSourceRoughness, mitsuba_ggx_to_mitsuba_ward_duer::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba_ward_duer::kTargetModel, mitsuba_ggx_to_mitsuba_ward_duer::kTargetRoughness, mitsuba_ggx_to_mitsuba_ward_duer::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba_ward_duer::kDomainMin.alpha, mitsuba_ggx_to_mitsuba_ward_duer::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba_ward_duer::kDomainMin.f0, mitsuba_ggx_to_mitsuba_ward_duer::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_ggx_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_ggx_to_mitsuba_ward_duer::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba_ward_duer::self_test},
+    {mitsuba_phong_to_mitsuba_as::kId, mitsuba_phong_to_mitsuba_as::kSourceModel, mitsuba_phong_to_mitsuba_as::kSourceRoughness, mitsuba_phong_to_mitsuba_as::kSourceSpecular,
+     mitsuba_phong_to_mitsuba_as::kTargetModel, mitsuba_phong_to_mitsuba_as::kTargetRoughness, mitsuba_phong_to_mitsuba_as::kTargetSpecular,
+     mitsuba_phong_to_mitsuba_as::kDomainMin.exponent, mitsuba_phong_to_mitsuba_as::kDomainMax.exponent,
+     mitsuba_phong_to_mitsuba_as::kDomainMin.specular, mitsuba_phong_to_mitsuba_as::kDomainMax.specular,
+     mitsuba_phong_to_mitsuba_as::kAlphaRmsError, mitsuba_phong_to_mitsuba_as::kSpecularRmsError, mitsuba_phong_to_mitsuba_as::kImageRmsError,
+     &mitsuba_phong_to_mitsuba_as::evaluate_batch<1>, &mitsuba_phong_to_mitsuba_as::evaluate_batch<3>, &mitsuba_phong_to_mitsuba_as::self_test},
+    {mitsuba_phong_to_mitsuba_beckmann::kId, mitsuba_phong_to_mitsuba_beckmann::kSourceModel, mitsuba_phong_to_mitsuba_beckmann::kSourceRoughness, mitsuba_phong_to_mitsuba_beckmann::kSourceSpecular,
+     mitsuba_phong_to_mitsuba_beckmann::kTargetModel, mitsuba_phong_to_mitsuba_beckmann::kTargetRoughness, mitsuba_phong_to_mitsuba_beckmann::kTargetSpecular,
+     mitsuba_phong_to_mitsuba_beckmann::kDomainMin.exponent, mitsuba_phong_to_mitsuba_beckmann::kDomainMax.exponent,
+     mitsuba_phong_to_mitsuba_beckmann::kDomainMin.specular, mitsuba_phong_to_mitsuba_beckmann::kDomainMax.specular,
+     mitsuba_phong_to_mitsuba_beckmann::kAlphaRmsError, mitsuba_phong_to_mitsuba_beckmann::kSpecularRmsError, mitsuba_phong_to_mitsuba_beckmann::kImageRmsError,
+     &mitsuba_phong_to_mitsuba_beckmann::evaluate_batch<1>, &mitsuba_phong_to_mitsuba_beckmann::evaluate_batch<3>, &mitsuba_phong_to_mitsuba_beckmann::self_test},
+    {mitsuba_phong_to_mitsuba_ggx::kId, mitsuba_phong_to_mitsuba_ggx::kSourceModel, mitsuba_phong_to_mitsuba_ggx::kSourceRoughness, mitsuba_phong_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba_phong_to_mitsuba_ggx::kTargetModel, mitsuba_phong_to_mitsuba_ggx::kTargetRoughness, mitsuba_phong_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba_phong_to_mitsuba_ggx::kDomainMin.exponent, mitsuba_phong_to_mitsuba_ggx::kDomainMax.exponent,
+     mitsuba_phong_to_mitsuba_ggx::kDomainMin.specular, mitsuba_phong_to_mitsuba_ggx::kDomainMax.specular,
+     mitsuba_phong_to_mitsuba_ggx::kAlphaRmsError, mitsuba_phong_to_mitsuba_ggx::kSpecularRmsError, mitsuba_phong_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba_phong_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba_phong_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba_phong_to_mitsuba_ggx::self_test},
+    {mitsuba_phong_to_mitsuba_ward::kId, mitsuba_phong_to_mitsuba_ward::kSourceModel, mitsuba_phong_to_mitsuba_ward::kSourceRoughness, mitsuba_phong_to_mitsuba_ward::kSourceSpecular,
+     mitsuba_phong_to_mitsuba_ward::kTargetModel, mitsuba_phong_to_mitsuba_ward::kTargetRoughness, mitsuba_phong_to_mitsuba_ward::kTargetSpecular,
+     mitsuba_phong_to_mitsuba_ward::kDomainMin.exponent, mitsuba_phong_to_mitsuba_ward::kDomainMax.exponent,
+     mitsuba_phong_to_mitsuba_ward::kDomainMin.specular, mitsuba_phong_to_mitsuba_ward::kDomainMax.specular,
+     mitsuba_phong_to_mitsuba_ward::kAlphaRmsError, mitsuba_phong_to_mitsuba_ward::kSpecularRmsError, mitsuba_phong_to_mitsuba_ward::kImageRmsError,
+     &mitsuba_phong_to_mitsuba_ward::evaluate_batch<1>, &mitsuba_phong_to_mitsuba_ward::evaluate_batch<3>, &mitsuba_phong_to_mitsuba_ward::self_test},
+    {mitsuba_phong_to_mitsuba_ward_balanced::kId, mitsuba_phong_to_mitsuba_ward_balanced::kSourceModel, mitsuba_phong_to_mitsuba_ward_balanced::kSourceRoughness, mitsuba_phong_to_mitsuba_ward_balanced::kSourceSpecular,
+     mitsuba_phong_to_mitsuba_ward_balanced::kTargetModel, mitsuba_phong_to_mitsuba_ward_balanced::kTargetRoughness, mitsuba_phong_to_mitsuba_ward_balanced::kTargetSpecular,
+     mitsuba_phong_to_mitsuba_ward_balanced::kDomainMin.exponent, mitsuba_phong_to_mitsuba_ward_balanced::kDomainMax.exponent,
+     mitsuba_phong_to_mitsuba_ward_balanced::kDomainMin.specular, mitsuba_phong_to_mitsuba_ward_balanced::kDomainMax.specular,
+     mitsuba_phong_to_mitsuba_ward_balanced::kAlphaRmsError, mitsuba_phong_to_mitsuba_ward_balanced::kSpecularRmsError, mitsuba_phong_to_mitsuba_ward_balanced::kImageRmsError,
+     &mitsuba_phong_to_mitsuba_ward_balanced::evaluate_batch<1>, &mitsuba_phong_to_mitsuba_ward_balanced::evaluate_batch<3>, &mitsuba_phong_to_mitsuba_ward_balanced::self_test},
+    {mitsuba_phong_to_mitsuba_ward_duer::kId, mitsuba_phong_to_mitsuba_ward_duer::kSourceModel, mitsuba_phong_to_mitsuba_ward_duer::kSourceRoughness, mitsuba_phong_to_mitsuba_ward_duer::kSourceSpecular,
+     mitsuba_phong_to_mitsuba_ward_duer::kTargetModel, mitsuba_phong_to_mitsuba_ward_duer::kTargetRoughness, mitsuba_phong_to_mitsuba_ward_duer::kTargetSpecular,
+     mitsuba_phong_to_mitsuba_ward_duer::kDomainMin.exponent, mitsuba_phong_to_mitsuba_ward_duer::kDomainMax.exponent,
+     mitsuba_phong_to_mitsuba_ward_duer::kDomainMin.specular, mitsuba_phong_to_mitsuba_ward_duer::kDomainMax.specular,
+     mitsuba_phong_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_phong_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_phong_to_mitsuba_ward_duer::kImageRmsError,
+     &mitsuba_phong_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_phong_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_phong_to_mitsuba_ward_duer::self_test},
+    {mitsuba_ward_balanced_to_mitsuba_as::kId, mitsuba_ward_balanced_to_mitsuba_as::kSourceModel, mitsuba_ward_balanced_to_mitsuba_as::kSourceRoughness, mitsuba_ward_balanced_to_mitsuba_as::kSourceSpecular,
+     mitsuba_ward_balanced_to_mitsuba_as::kTargetModel, mitsuba_ward_balanced_to_mitsuba_as::kTargetRoughness, mitsuba_ward_balanced_to_mitsuba_as::kTargetSpecular,
+     mitsuba_ward_balanced_to_mitsuba_as::kDomainMin.alpha, mitsuba_ward_balanced_to_mitsuba_as::kDomainMax.alpha,
+     mitsuba_ward_balanced_to_mitsuba_as::kDomainMin.specular, mitsuba_ward_balanced_to_mitsuba_as::kDomainMax.specular,
+     mitsuba_ward_balanced_to_mitsuba_as::kAlphaRmsError, mitsuba_ward_balanced_to_mitsuba_as::kSpecularRmsError, mitsuba_ward_balanced_to_mitsuba_as::kImageRmsError,
+     &mitsuba_ward_balanced_to_mitsuba_as::evaluate_batch<1>, &mitsuba_ward_balanced_to_mitsuba_as::evaluate_batch<3>, &mitsuba_ward_balanced_to_mitsuba_as::self_test},
+    {mitsuba_ward_balanced_to_mitsuba_beckmann::kId, mitsuba_ward_balanced_to_mitsuba_beckmann::kSourceModel, mitsuba_ward_balanced_to_mitsuba_beckmann::kSourceRoughness, mitsuba_ward_balanced_to_mitsuba_beckmann::kSourceSpecular,
+     mitsuba_ward_balanced_to_mitsuba_beckmann::kTargetModel, mitsuba_ward_balanced_to_mitsuba_beckmann::kTargetRoughness, mitsuba_ward_balanced_to_mitsuba_beckmann::kTargetSpecular,
+     mitsuba_ward_balanced_to_mitsuba_beckmann::kDomainMin.alpha, mitsuba_ward_balanced_to_mitsuba_beckmann::kDomainMax.alpha,
+     mitsuba_ward_balanced_to_mitsuba_beckmann::kDomainMin.specular, mitsuba_ward_balanced_to_mitsuba_beckmann::kDomainMax.specular,
+     mitsuba_ward_balanced_to_mitsuba_beckmann::kAlphaRmsError, mitsuba_ward_balanced_to_mitsuba_beckmann::kSpecularRmsError, mitsuba_ward_balanced_to_mitsuba_beckmann::kImageRmsError,
+     &mitsuba_ward_balanced_to_mitsuba_beckmann::evaluate_batch<1>, &mitsuba_ward_balanced_to_mitsuba_beckmann::evaluate_batch<3>, &mitsuba_ward_balanced_to_mitsuba_beckmann::self_test},
+    {mitsuba_ward_balanced_to_mitsuba_ggx::kId, mitsuba_ward_balanced_to_mitsuba_ggx::kSourceModel, mitsuba_ward_balanced_to_mitsuba_ggx::kSourceRoughness, mitsuba_ward_balanced_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba_ward_balanced_to_mitsuba_ggx::kTargetModel, mitsuba_ward_balanced_to_mitsuba_ggx::kTargetRoughness, mitsuba_ward_balanced_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba_ward_balanced_to_mitsuba_ggx::kDomainMin.alpha, mitsuba_ward_balanced_to_mitsuba_ggx::kDomainMax.alpha,
+     mitsuba_ward_balanced_to_mitsuba_ggx::kDomainMin.specular, mitsuba_ward_balanced_to_mitsuba_ggx::kDomainMax.specular,
+     mitsuba_ward_balanced_to_mitsuba_ggx::kAlphaRmsError, mitsuba_ward_balanced_to_mitsuba_ggx::kSpecularRmsError, mitsuba_ward_balanced_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba_ward_balanced_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba_ward_balanced_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba_ward_balanced_to_mitsuba_ggx::self_test},
+    {mitsuba_ward_balanced_to_mitsuba_phong::kId, mitsuba_ward_balanced_to_mitsuba_phong::kSourceModel, mitsuba_ward_balanced_to_mitsuba_phong::kSourceRoughness, mitsuba_ward_balanced_to_mitsuba_phong::kSourceSpecular,
+     mitsuba_ward_balanced_to_mitsuba_phong::kTargetModel, mitsuba_ward_balanced_to_mitsuba_phong::kTargetRoughness, mitsuba_ward_balanced_to_mitsuba_phong::kTargetSpecular,
+     mitsuba_ward_balanced_to_mitsuba_phong::kDomainMin.alpha, mitsuba_ward_balanced_to_mitsuba_phong::kDomainMax.alpha,
+     mitsuba_ward_balanced_to_mitsuba_phong::kDomainMin.specular, mitsuba_ward_balanced_to_mitsuba_phong::kDomainMax.specular,
+     mitsuba_ward_balanced_to_mitsuba_phong::kAlphaRmsError, mitsuba_ward_balanced_to_mitsuba_phong::kSpecularRmsError, mitsuba_ward_balanced_to_mitsuba_phong::kImageRmsError,
+     &mitsuba_ward_balanced_to_mitsuba_phong::evaluate_batch<1>, &mitsuba_ward_balanced_to_mitsuba_phong::evaluate_batch<3>, &mitsuba_ward_balanced_to_mitsuba_phong::self_test},
+    {mitsuba_ward_balanced_to_mitsuba_ward::kId, mitsuba_ward_balanced_to_mitsuba_ward::kSourceModel, mitsuba_ward_balanced_to_mitsuba_ward::kSourceRoughness, mitsuba_ward_balanced_to_mitsuba_ward::kSourceSpecular,
+     mitsuba_ward_balanced_to_mitsuba_ward::kTargetModel, mitsuba_ward_balanced_to_mitsuba_ward::kTargetRoughness, mitsuba_ward_balanced_to_mitsuba_ward::kTargetSpecular,
+     mitsuba_ward_balanced_to_mitsuba_ward::kDomainMin.alpha, mitsuba_ward_balanced_to_mitsuba_ward::kDomainMax.alpha,
+     mitsuba_ward_balanced_to_mitsuba_ward::kDomainMin.specular, mitsuba_ward_balanced_to_mitsuba_ward::kDomainMax.specular,
+     mitsuba_ward_balanced_to_mitsuba_ward::kAlphaRmsError, mitsuba_ward_balanced_to_mitsuba_ward::kSpecularRmsError, mitsuba_ward_balanced_to_mitsuba_ward::kImageRmsError,
+     &mitsuba_ward_balanced_to_mitsuba_ward::evaluate_batch<1>, &mitsuba_ward_balanced_to_mitsuba_ward::evaluate_batch<3>, &mitsuba_ward_balanced_to_mitsuba_ward::self_test},
+    {mitsuba_ward_balanced_to_mitsuba_ward_duer::kId, mitsuba_ward_balanced_to_mitsuba_ward_duer::kSourceModel, mitsuba_ward_balanced_to_mitsuba_ward_duer::kSourceRoughness, mitsuba_ward_balanced_to_mitsuba_ward_duer::kSourceSpecular,
+     mitsuba_ward_balanced_to_mitsuba_ward_duer::kTargetModel, mitsuba_ward_balanced_to_mitsuba_ward_duer::kTargetRoughness, mitsuba_ward_balanced_to_mitsuba_ward_duer::kTargetSpecular,
+     mitsuba_ward_balanced_to_mitsuba_ward_duer::kDomainMin.alpha, mitsuba_ward_balanced_to_mitsuba_ward_duer::kDomainMax.alpha,
+     mitsuba_ward_balanced_to_mitsuba_ward_duer::kDomainMin.specular, mitsuba_ward_balanced_to_mitsuba_ward_duer::kDomainMax.specular,
+     mitsuba_ward_balanced_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_ward_balanced_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_ward_balanced_to_mitsuba_ward_duer::kImageRmsError,
+     &mitsuba_ward_balanced_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_ward_balanced_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_ward_balanced_to_mitsuba_ward_duer::self_test},
+    {mitsuba_ward_duer_to_mitsuba_as::kId, mitsuba_ward_duer_to_mitsuba_as::kSourceModel, mitsuba_ward_duer_to_mitsuba_as::kSourceRoughness, mitsuba_ward_duer_to_mitsuba_as::kSourceSpecular,
+     mitsuba_ward_duer_to_mitsuba_as::kTargetModel, mitsuba_ward_duer_to_mitsuba_as::kTargetRoughness, mitsuba_ward_duer_to_mitsuba_as::kTargetSpecular,
+     mitsuba_ward_duer_to_mitsuba_as::kDomainMin.alpha, mitsuba_ward_duer_to_mitsuba_as::kDomainMax.alpha,
+     mitsuba_ward_duer_to_mitsuba_as::kDomainMin.specular, mitsuba_ward_duer_to_mitsuba_as::kDomainMax.specular,
+     mitsuba_ward_duer_to_mitsuba_as::kAlphaRmsError, mitsuba_ward_duer_to_mitsuba_as::kSpecularRmsError, mitsuba_ward_duer_to_mitsuba_as::kImageRmsError,
+     &mitsuba_ward_duer_to_mitsuba_as::evaluate_batch<1>, &mitsuba_ward_duer_to_mitsuba_as::evaluate_batch<3>, &mitsuba_ward_duer_to_mitsuba_as::self_test},
+    {mitsuba_ward_duer_to_mitsuba_beckmann::kId, mitsuba_ward_duer_to_mitsuba_beckmann::kSourceModel, mitsuba_ward_duer_to_mitsuba_beckmann::kSourceRoughness, mitsuba_ward_duer_to_mitsuba_beckmann::kSourceSpecular,
+     mitsuba_ward_duer_to_mitsuba_beckmann::kTargetModel, mitsuba_ward_duer_to_mitsuba_beckmann::kTargetRoughness, mitsuba_ward_duer_to_mitsuba_beckmann::kTargetSpecular,
+     mitsuba_ward_duer_to_mitsuba_beckmann::kDomainMin.alpha, mitsuba_ward_duer_to_mitsuba_beckmann::kDomainMax.alpha,
+     mitsuba_ward_duer_to_mitsuba_beckmann::kDomainMin.specular, mitsuba_ward_duer_to_mitsuba_beckmann::kDomainMax.specular,
+     mitsuba_ward_duer_to_mitsuba_beckmann::kAlphaRmsError, mitsuba_ward_duer_to_mitsuba_beckmann::kSpecularRmsError, mitsuba_ward_duer_to_mitsuba_beckmann::kImageRmsError,
+     &mitsuba_ward_duer_to_mitsuba_beckmann::evaluate_batch<1>, &mitsuba_ward_duer_to_mitsuba_beckmann::evaluate_batch<3>, &mitsuba_ward_duer_to_mitsuba_beckmann::self_test},
+    {mitsuba_ward_duer_to_mitsuba_ggx::kId, mitsuba_ward_duer_to_mitsuba_ggx::kSourceModel, mitsuba_ward_duer_to_mitsuba_ggx::kSourceRoughness, mitsuba_ward_duer_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba_ward_duer_to_mitsuba_ggx::kTargetModel, mitsuba_ward_duer_to_mitsuba_ggx::kTargetRoughness, mitsuba_ward_duer_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba_ward_duer_to_mitsuba_ggx::kDomainMin.alpha, mitsuba_ward_duer_to_mitsuba_ggx::kDomainMax.alpha,
+     mitsuba_ward_duer_to_mitsuba_ggx::kDomainMin.specular, mitsuba_ward_duer_to_mitsuba_ggx::kDomainMax.specular,
+     mitsuba_ward_duer_to_mitsuba_ggx::kAlphaRmsError, mitsuba_ward_duer_to_mitsuba_ggx::kSpecularRmsError, mitsuba_ward_duer_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba_ward_duer_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba_ward_duer_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba_ward_duer_to_mitsuba_ggx::self_test},
+    {mitsuba_ward_duer_to_mitsuba_phong::kId, mitsuba_ward_duer_to_mitsuba_phong::kSourceModel, mitsuba_ward_duer_to_mitsuba_phong::kSourceRoughness, mitsuba_ward_duer_to_mitsuba_phong::kSourceSpecular,
+     mitsuba_ward_duer_to_mitsuba_phong::kTargetModel, mitsuba_ward_duer_to_mitsuba_phong::kTargetRoughness, mitsuba_ward_duer_to_mitsuba_phong::kTargetSpecular,
+     mitsuba_ward_duer_to_mitsuba_phong::kDomainMin.alpha, mitsuba_ward_duer_to_mitsuba_phong::kDomainMax.alpha,
+     mitsuba_ward_duer_to_mitsuba_phong::kDomainMin.specular, mitsuba_ward_duer_to_mitsuba_phong::kDomainMax.specular,
+     mitsuba_ward_duer_to_mitsuba_phong::kAlphaRmsError, mitsuba_ward_duer_to_mitsuba_phong::kSpecularRmsError, mitsuba_ward_duer_to_mitsuba_phong::kImageRmsError,
+     &mitsuba_ward_duer_to_mitsuba_phong::evaluate_batch<1>, &mitsuba_ward_duer_to_mitsuba_phong::evaluate_batch<3>, &mitsuba_ward_duer_to_mitsuba_phong::self_test},
+    {mitsuba_ward_duer_to_mitsuba_ward::kId, mitsuba_ward_duer_to_mitsuba_ward::kSourceModel, mitsuba_ward_duer_to_mitsuba_ward::kSourceRoughness, mitsuba_ward_duer_to_mitsuba_ward::kSourceSpecular,
+     mitsuba_ward_duer_to_mitsuba_ward::kTargetModel, mitsuba_ward_duer_to_mitsuba_ward::kTargetRoughness, mitsuba_ward_duer_to_mitsuba_ward::kTargetSpecular,
+     mitsuba_ward_duer_to_mitsuba_ward::kDomainMin.alpha, mitsuba_ward_duer_to_mitsuba_ward::kDomainMax.alpha,
+     mitsuba_ward_duer_to_mitsuba_ward::kDomainMin.specular, mitsuba_ward_duer_to_mitsuba_ward::kDomainMax.specular,
+     mitsuba_ward_duer_to_mitsuba_ward::kAlphaRmsError, mitsuba_ward_duer_to_mitsuba_ward::kSpecularRmsError, mitsuba_ward_duer_to_mitsuba_ward::kImageRmsError,
+     &mitsuba_ward_duer_to_mitsuba_ward::evaluate_batch<1>, &mitsuba_ward_duer_to_mitsuba_ward::evaluate_batch<3>, &mitsuba_ward_duer_to_mitsuba_ward::self_test},
+    {mitsuba_ward_duer_to_mitsuba_ward_balanced::kId, mitsuba_ward_duer_to_mitsuba_ward_balanced::kSourceModel, mitsuba_ward_duer_to_mitsuba_ward_balanced::kSourceRoughness, mitsuba_ward_duer_to_mitsuba_ward_balanced::kSourceSpecular,
+     mitsuba_ward_duer_to_mitsuba_ward_balanced::kTargetModel, mitsuba_ward_duer_to_mitsuba_ward_balanced::kTargetRoughness, mitsuba_ward_duer_to_mitsuba_ward_balanced::kTargetSpecular,
+     mitsuba_ward_duer_to_mitsuba_ward_balanced::kDomainMin.alpha, mitsuba_ward_duer_to_mitsuba_ward_balanced::kDomainMax.alpha,
+     mitsuba_ward_duer_to_mitsuba_ward_balanced::kDomainMin.specular, mitsuba_ward_duer_to_mitsuba_ward_balanced::kDomainMax.specular,
+     mitsuba_ward_duer_to_mitsuba_ward_balanced::kAlphaRmsError, mitsuba_ward_duer_to_mitsuba_ward_balanced::kSpecularRmsError, mitsuba_ward_duer_to_mitsuba_ward_balanced::kImageRmsError,
+     &mitsuba_ward_duer_to_mitsuba_ward_balanced::evaluate_batch<1>, &mitsuba_ward_duer_to_mitsuba_ward_balanced::evaluate_batch<3>, &mitsuba_ward_duer_to_mitsuba_ward_balanced::self_test},
+    {mitsuba_ward_to_blender_internal_2_7_ward::kId, mitsuba_ward_to_blender_internal_2_7_ward::kSourceModel, mitsuba_ward_to_blender_internal_2_7_ward::kSourceRoughness, mitsuba_ward_to_blender_internal_2_7_ward::kSourceSpecular,
+     mitsuba_ward_to_blender_internal_2_7_ward::kTargetModel, mitsuba_ward_to_blender_internal_2_7_ward::kTargetRoughness, mitsuba_ward_to_blender_internal_2_7_ward::kTargetSpecular,
+     mitsuba_ward_to_blender_internal_2_7_ward::kDomainMin.alpha, mitsuba_ward_to_blender_internal_2_7_ward::kDomainMax.alpha,
+     mitsuba_ward_to_blender_internal_2_7_ward::kDomainMin.specular, mitsuba_ward_to_blender_internal_2_7_ward::kDomainMax.specular,
+     mitsuba_ward_to_blender_internal_2_7_ward::kAlphaRmsError, mitsuba_ward_to_blender_internal_2_7_ward::kSpecularRmsError, mitsuba_ward_to_blender_internal_2_7_ward::kImageRmsError,
+     &mitsuba_ward_to_blender_internal_2_7_ward::evaluate_batch<1>, &mitsuba_ward_to_blender_internal_2_7_ward::evaluate_batch<3>, &mitsuba_ward_to_blender_internal_2_7_ward::self_test},
     {mitsuba_ward_to_mitsuba_as::kId, mitsuba_ward_to_mitsuba_as::kSourceModel, mitsuba_ward_to_mitsuba_as::kSourceRoughness, mitsuba_ward_to_mitsuba_as::kSourceSpecular,
      mitsuba_ward_to_mitsuba_as::kTargetModel, mitsuba_ward_to_mitsuba_as::kTargetRoughness, mitsuba_ward_to_mitsuba_as::kTargetSpecular,
      mitsuba_ward_to_mitsuba_as::kDomainMin.alpha, mitsuba_ward_to_mitsuba_as::kDomainMax.alpha,
      mitsuba_ward_to_mitsuba_as::kDomainMin.specular, mitsuba_ward_to_mitsuba_as::kDomainMax.specular,
      mitsuba_ward_to_mitsuba_as::kAlphaRmsError, mitsuba_ward_to_mitsuba_as::kSpecularRmsError, mitsuba_ward_to_mitsuba_as::kImageRmsError,
      &mitsuba_ward_to_mitsuba_as::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_as::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_as::self_test},
+    {mitsuba_ward_to_mitsuba_as_sztrajman_2019::kId, mitsuba_ward_to_mitsuba_as_sztrajman_2019::kSourceModel, mitsuba_ward_to_mitsuba_as_sztrajman_2019::kSourceRoughness, mitsuba_ward_to_mitsuba_as_sztrajman_2019::kSourceSpecular,
+     mitsuba_ward_to_mitsuba_as_sztrajman_2019::kTargetModel, mitsuba_ward_to_mitsuba_as_sztrajman_2019::kTargetRoughness, mitsuba_ward_to_mitsuba_as_sztrajman_2019::kTargetSpecular,
+     mitsuba_ward_to_mitsuba_as_sztrajman_2019::kDomainMin.alpha, mitsuba_ward_to_mitsuba_as_sztrajman_2019::kDomainMax.alpha,
+     mitsuba_ward_to_mitsuba_as_sztrajman_2019::kDomainMin.specular, mitsuba_ward_to_mitsuba_as_sztrajman_2019::kDomainMax.specular,
+     mitsuba_ward_to_mitsuba_as_sztrajman_2019::kAlphaRmsError, mitsuba_ward_to_mitsuba_as_sztrajman_2019::kSpecularRmsError, mitsuba_ward_to_mitsuba_as_sztrajman_2019::kImageRmsError,
+     &mitsuba_ward_to_mitsuba_as_sztrajman_2019::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_as_sztrajman_2019::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_as_sztrajman_2019::self_test},
+    {mitsuba_ward_to_mitsuba_beckmann::kId, mitsuba_ward_to_mitsuba_beckmann::kSourceModel, mitsuba_ward_to_mitsuba_beckmann::kSourceRoughness, mitsuba_ward_to_mitsuba_beckmann::kSourceSpecular,
+     mitsuba_ward_to_mitsuba_beckmann::kTargetModel, mitsuba_ward_to_mitsuba_beckmann::kTargetRoughness, mitsuba_ward_to_mitsuba_beckmann::kTargetSpecular,
+     mitsuba_ward_to_mitsuba_beckmann::kDomainMin.alpha, mitsuba_ward_to_mitsuba_beckmann::kDomainMax.alpha,
+     mitsuba_ward_to_mitsuba_beckmann::kDomainMin.specular, mitsuba_ward_to_mitsuba_beckmann::kDomainMax.specular,
+     mitsuba_ward_to_mitsuba_beckmann::kAlphaRmsError, mitsuba_ward_to_mitsuba_beckmann::kSpecularRmsError, mitsuba_ward_to_mitsuba_beckmann::kImageRmsError,
+     &mitsuba_ward_to_mitsuba_beckmann::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_beckmann::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_beckmann::self_test},
+    {mitsuba_ward_to_mitsuba_ggx::kId, mitsuba_ward_to_mitsuba_ggx::kSourceModel, mitsuba_ward_to_mitsuba_ggx::kSourceRoughness, mitsuba_ward_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba_ward_to_mitsuba_ggx::kTargetModel, mitsuba_ward_to_mitsuba_ggx::kTargetRoughness, mitsuba_ward_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba_ward_to_mitsuba_ggx::kDomainMin.alpha, mitsuba_ward_to_mitsuba_ggx::kDomainMax.alpha,
+     mitsuba_ward_to_mitsuba_ggx::kDomainMin.specular, mitsuba_ward_to_mitsuba_ggx::kDomainMax.specular,
+     mitsuba_ward_to_mitsuba_ggx::kAlphaRmsError, mitsuba_ward_to_mitsuba_ggx::kSpecularRmsError, mitsuba_ward_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba_ward_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_ggx::self_test},
+    {mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kId, mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kSourceModel, mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kSourceRoughness, mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kSourceSpecular,
+     mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kTargetModel, mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kTargetRoughness, mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kTargetSpecular,
+     mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kDomainMin.alpha, mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kDomainMax.alpha,
+     mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kDomainMin.specular, mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kDomainMax.specular,
+     mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kAlphaRmsError, mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kSpecularRmsError, mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::kImageRmsError,
+     &mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::self_test},
+    {mitsuba_ward_to_mitsuba_phong::kId, mitsuba_ward_to_mitsuba_phong::kSourceModel, mitsuba_ward_to_mitsuba_phong::kSourceRoughness, mitsuba_ward_to_mitsuba_phong::kSourceSpecular,
+     mitsuba_ward_to_mitsuba_phong::kTargetModel, mitsuba_ward_to_mitsuba_phong::kTargetRoughness, mitsuba_ward_to_mitsuba_phong::kTargetSpecular,
+     mitsuba_ward_to_mitsuba_phong::kDomainMin.alpha, mitsuba_ward_to_mitsuba_phong::kDomainMax.alpha,
+     mitsuba_ward_to_mitsuba_phong::kDomainMin.specular, mitsuba_ward_to_mitsuba_phong::kDomainMax.specular,
+     mitsuba_ward_to_mitsuba_phong::kAlphaRmsError, mitsuba_ward_to_mitsuba_phong::kSpecularRmsError, mitsuba_ward_to_mitsuba_phong::kImageRmsError,
+     &mitsuba_ward_to_mitsuba_phong::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_phong::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_phong::self_test},
+    {mitsuba_ward_to_mitsuba_ward_balanced::kId, mitsuba_ward_to_mitsuba_ward_balanced::kSourceModel, mitsuba_ward_to_mitsuba_ward_balanced::kSourceRoughness, mitsuba_ward_to_mitsuba_ward_balanced::kSourceSpecular,
+     mitsuba_ward_to_mitsuba_ward_balanced::kTargetModel, mitsuba_ward_to_mitsuba_ward_balanced::kTargetRoughness, mitsuba_ward_to_mitsuba_ward_balanced::kTargetSpecular,
+     mitsuba_ward_to_mitsuba_ward_balanced::kDomainMin.alpha, mitsuba_ward_to_mitsuba_ward_balanced::kDomainMax.alpha,
+     mitsuba_ward_to_mitsuba_ward_balanced::kDomainMin.specular, mitsuba_ward_to_mitsuba_ward_balanced::kDomainMax.specular,
+     mitsuba_ward_to_mitsuba_ward_balanced::kAlphaRmsError, mitsuba_ward_to_mitsuba_ward_balanced::kSpecularRmsError, mitsuba_ward_to_mitsuba_ward_balanced::kImageRmsError,
+     &mitsuba_ward_to_mitsuba_ward_balanced::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_ward_balanced::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_ward_balanced::self_test},
+    {mitsuba_ward_to_mitsuba_ward_duer::kId, mitsuba_ward_to_mitsuba_ward_duer::kSourceModel, mitsuba_ward_to_mitsuba_ward_duer::kSourceRoughness, mitsuba_ward_to_mitsuba_ward_duer::kSourceSpecular,
+     mitsuba_ward_to_mitsuba_ward_duer::kTargetModel, mitsuba_ward_to_mitsuba_ward_duer::kTargetRoughness, mitsuba_ward_to_mitsuba_ward_duer::kTargetSpecular,
+     mitsuba_ward_to_mitsuba_ward_duer::kDomainMin.alpha, mitsuba_ward_to_mitsuba_ward_duer::kDomainMax.alpha,
+     mitsuba_ward_to_mitsuba_ward_duer::kDomainMin.specular, mitsuba_ward_to_mitsuba_ward_duer::kDomainMax.specular,
+     mitsuba_ward_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_ward_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_ward_to_mitsuba_ward_duer::kImageRmsError,
+     &mitsuba_ward_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_ward_duer::self_test},
 }};
 
 // The same converters as types. Through a type a compiler sees what it calls, which no pointer of the table above lets
 // it: a program can compile all of them for another instruction set, as texremap does.
 namespace converters {
+
+struct blender_internal_2_7_ward_to_cycles_2_7_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::blender_internal_2_7_ward_to_cycles_2_7_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct blender_internal_2_7_ward_to_mitsuba_ward {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::blender_internal_2_7_ward_to_mitsuba_ward::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_2_7_ggx_to_blender_internal_2_7_ward {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_2_7_ggx_to_blender_internal_2_7_ward::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_2_7_ggx_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_2_7_ggx_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_2_7_ggx_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_2_7_ggx_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_cycles_2_7_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_cycles_2_7_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_mitsuba_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_mitsuba_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_mitsuba_phong {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_mitsuba_phong::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_mitsuba_ward {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_mitsuba_ward::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_mitsuba_ward_balanced {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_mitsuba_ward_balanced::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_mitsuba_ward_duer {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_mitsuba_ward_duer::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_beckmann_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_beckmann_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_beckmann_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_beckmann_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_beckmann_to_mitsuba_phong {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_beckmann_to_mitsuba_phong::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_beckmann_to_mitsuba_ward {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_beckmann_to_mitsuba_ward::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_beckmann_to_mitsuba_ward_balanced {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_beckmann_to_mitsuba_ward_balanced::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_beckmann_to_mitsuba_ward_duer {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_beckmann_to_mitsuba_ward_duer::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_cycles_2_7_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_cycles_2_7_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba_phong {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba_phong::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba_ward {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba_ward::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba_ward_balanced {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba_ward_balanced::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba_ward_duer {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba_ward_duer::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_phong_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_phong_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_phong_to_mitsuba_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_phong_to_mitsuba_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_phong_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_phong_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_phong_to_mitsuba_ward {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_phong_to_mitsuba_ward::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_phong_to_mitsuba_ward_balanced {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_phong_to_mitsuba_ward_balanced::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_phong_to_mitsuba_ward_duer {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_phong_to_mitsuba_ward_duer::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_balanced_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_balanced_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_balanced_to_mitsuba_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_balanced_to_mitsuba_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_balanced_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_balanced_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_balanced_to_mitsuba_phong {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_balanced_to_mitsuba_phong::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_balanced_to_mitsuba_ward {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_balanced_to_mitsuba_ward::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_balanced_to_mitsuba_ward_duer {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_balanced_to_mitsuba_ward_duer::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_duer_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_duer_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_duer_to_mitsuba_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_duer_to_mitsuba_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_duer_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_duer_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_duer_to_mitsuba_phong {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_duer_to_mitsuba_phong::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_duer_to_mitsuba_ward {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_duer_to_mitsuba_ward::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_duer_to_mitsuba_ward_balanced {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_duer_to_mitsuba_ward_balanced::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_to_blender_internal_2_7_ward {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_to_blender_internal_2_7_ward::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
 
 struct mitsuba_ward_to_mitsuba_as {
   template <std::size_t Channels>
@@ -56,6 +809,69 @@ struct mitsuba_ward_to_mitsuba_as {
   }
 };
 
+struct mitsuba_ward_to_mitsuba_as_sztrajman_2019 {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_to_mitsuba_as_sztrajman_2019::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_to_mitsuba_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_to_mitsuba_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_to_mitsuba_ggx_sztrajman_2019 {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_to_mitsuba_ggx_sztrajman_2019::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_to_mitsuba_phong {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_to_mitsuba_phong::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_to_mitsuba_ward_balanced {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_to_mitsuba_ward_balanced::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_to_mitsuba_ward_duer {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_to_mitsuba_ward_duer::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 }  // namespace converters
 
 template <typename... Converters>
@@ -63,7 +879,58 @@ struct ConverterList {};
 
 // In the order of kConverters.
 using ConverterTypes = ConverterList<
-    converters::mitsuba_ward_to_mitsuba_as>;
+    converters::blender_internal_2_7_ward_to_cycles_2_7_ggx,
+    converters::blender_internal_2_7_ward_to_mitsuba_ward,
+    converters::cycles_2_7_ggx_to_blender_internal_2_7_ward,
+    converters::cycles_2_7_ggx_to_mitsuba_as,
+    converters::cycles_2_7_ggx_to_mitsuba_ggx,
+    converters::mitsuba_as_to_cycles_2_7_ggx,
+    converters::mitsuba_as_to_mitsuba_beckmann,
+    converters::mitsuba_as_to_mitsuba_ggx,
+    converters::mitsuba_as_to_mitsuba_phong,
+    converters::mitsuba_as_to_mitsuba_ward,
+    converters::mitsuba_as_to_mitsuba_ward_balanced,
+    converters::mitsuba_as_to_mitsuba_ward_duer,
+    converters::mitsuba_beckmann_to_mitsuba_as,
+    converters::mitsuba_beckmann_to_mitsuba_ggx,
+    converters::mitsuba_beckmann_to_mitsuba_phong,
+    converters::mitsuba_beckmann_to_mitsuba_ward,
+    converters::mitsuba_beckmann_to_mitsuba_ward_balanced,
+    converters::mitsuba_beckmann_to_mitsuba_ward_duer,
+    converters::mitsuba_ggx_to_cycles_2_7_ggx,
+    converters::mitsuba_ggx_to_mitsuba_as,
+    converters::mitsuba_ggx_to_mitsuba_beckmann,
+    converters::mitsuba_ggx_to_mitsuba_phong,
+    converters::mitsuba_ggx_to_mitsuba_ward,
+    converters::mitsuba_ggx_to_mitsuba_ward_balanced,
+    converters::mitsuba_ggx_to_mitsuba_ward_duer,
+    converters::mitsuba_phong_to_mitsuba_as,
+    converters::mitsuba_phong_to_mitsuba_beckmann,
+    converters::mitsuba_phong_to_mitsuba_ggx,
+    converters::mitsuba_phong_to_mitsuba_ward,
+    converters::mitsuba_phong_to_mitsuba_ward_balanced,
+    converters::mitsuba_phong_to_mitsuba_ward_duer,
+    converters::mitsuba_ward_balanced_to_mitsuba_as,
+    converters::mitsuba_ward_balanced_to_mitsuba_beckmann,
+    converters::mitsuba_ward_balanced_to_mitsuba_ggx,
+    converters::mitsuba_ward_balanced_to_mitsuba_phong,
+    converters::mitsuba_ward_balanced_to_mitsuba_ward,
+    converters::mitsuba_ward_balanced_to_mitsuba_ward_duer,
+    converters::mitsuba_ward_duer_to_mitsuba_as,
+    converters::mitsuba_ward_duer_to_mitsuba_beckmann,
+    converters::mitsuba_ward_duer_to_mitsuba_ggx,
+    converters::mitsuba_ward_duer_to_mitsuba_phong,
+    converters::mitsuba_ward_duer_to_mitsuba_ward,
+    converters::mitsuba_ward_duer_to_mitsuba_ward_balanced,
+    converters::mitsuba_ward_to_blender_internal_2_7_ward,
+    converters::mitsuba_ward_to_mitsuba_as,
+    converters::mitsuba_ward_to_mitsuba_as_sztrajman_2019,
+    converters::mitsuba_ward_to_mitsuba_beckmann,
+    converters::mitsuba_ward_to_mitsuba_ggx,
+    converters::mitsuba_ward_to_mitsuba_ggx_sztrajman_2019,
+    converters::mitsuba_ward_to_mitsuba_phong,
+    converters::mitsuba_ward_to_mitsuba_ward_balanced,
+    converters::mitsuba_ward_to_mitsuba_ward_duer>;
 
 }  // namespace remap
 
