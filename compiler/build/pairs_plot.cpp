@@ -11,7 +11,7 @@
 namespace remapc {
 namespace {
 
-constexpr int kPanel = 110, kGap = 12, kMargin = 130, kTop = 40;
+constexpr int kPanel = 116, kGap = 12, kMargin = 140, kTop = 40;
 constexpr int kSteps = 48;
 constexpr double kSpecular = 0.5, kLargestRatio = 2.0;
 
@@ -70,10 +70,10 @@ std::string pairs_plot(const std::vector<remap::Fit>& fits) {
   };
   const Place end = place(models.size(), models.size());
   std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + decimals(end.x) + "\" height=\"" +
-                     decimals(end.y) + "\" font-family=\"sans-serif\" font-size=\"11\">\n" +
+                     decimals(end.y) + "\" font-family=\"sans-serif\" font-size=\"10\">\n" +
                      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   for (std::size_t i = 0; i < models.size(); ++i) {
-    text += label(place(0, i).x + 0.5 * kPanel, kTop - 8.0, "middle", "to " + models[i]);
+    text += label(place(0, i).x + 0.5 * kPanel, kTop - 8.0, "middle", models[i]);
     text += label(kMargin - 8.0, place(i, 0).y + 0.5 * kPanel, "end", models[i]);
   }
   for (const remap::Fit& fit : fits) {

@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "build/fit_folder.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
-#include "build/fit_folder.hpp"
 #include "commands/studies.hpp"
 #include "error.hpp"
 #include "files.hpp"

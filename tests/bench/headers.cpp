@@ -12,6 +12,7 @@
 #include "emit/mapping_code.hpp"
 #include "files.hpp"
 #include "fit/fit_table.hpp"
+#include "model/chain.hpp"
 #include "model/fit_json.hpp"
 #include "support/shared_data.hpp"
 
@@ -148,6 +149,16 @@ void write_network(const std::filesystem::path& folder, remap::Activation activa
                         "}  // namespace remap::" + name + "\n");
 }
 
+// `fused.hpp`: three of the converters that ship as one pass.
+void write_chain(const std::filesystem::path& folder) {
+  const std::filesystem::path fits = std::filesystem::path(REMAP_SOURCE_DIR) / "fits";
+  std::vector<remap::Fit> steps;
+  for (const char* id : {"mitsuba_ward_to_mitsuba_ward_balanced", "mitsuba_ward_balanced_to_mitsuba_beckmann",
+                         "mitsuba_beckmann_to_mitsuba_as"})
+    steps.push_back(remap::load_fit(fits / (std::string(id) + ".json")));
+  remap::write_file(folder / "fused.hpp", remapc::emit_header(remap::compose(steps, "fused")));
+}
+
 }  // namespace
 
 int main(int, char** argv) {
@@ -160,6 +171,7 @@ int main(int, char** argv) {
       write_plain_loop(folder, std::get<remap::Svr>(svr.mapping), type);
     write_fit(folder, table, "parametric", remapc::Regressor::kParametric);
     write_fit(folder, table, "mlp", remapc::Regressor::kMlp);
+    write_chain(folder);
     write_network(folder, remap::Activation::kRelu);
     write_network(folder, remap::Activation::kTanh);
   } catch (const std::exception& error) {

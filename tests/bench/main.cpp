@@ -34,6 +34,8 @@ int main(int argc, char** argv) {
   const std::vector<Section> sections = {
       pass_section(medians, "svr", "Lowered SVR pass"),
       pass_section(medians, "parametric", "Lowered parametric pass (the paper's form)"),
+      pass_section(medians, "fused",
+                   "Three converters as one pass (remapc chain: ward, ward-balanced, beckmann, as)"),
       chain_section(medians),
       rival_section(medians),
       network_section(medians),

@@ -21,11 +21,14 @@ void convert(Maps& maps, Pass pass) {
 }
 
 // Whether a pass is fast enough for large maps.
-bool is_lowered(const std::string& code) { return code == "svr" || code == "parametric" || code == "mlp"; }
+bool is_lowered(const std::string& code) {
+  return code == "svr" || code == "parametric" || code == "fused" || code == "mlp";
+}
 
 std::optional<double> goal(const std::string& code, const std::string& flags) {
   const bool parametric = code == "parametric";
-  if (code == "mlp" || flags == "o2") return std::nullopt;
+  if (code == "fused" && flags == "avx2") return 0.5;
+  if (code == "fused" || code == "mlp" || flags == "o2") return std::nullopt;
   if (flags == "o3") return parametric ? 0.5 : 0.3;
   if (flags == "avx2") return parametric ? 0.95 : 0.6;
   return parametric ? 1.0 : 0.8;
