@@ -4,11 +4,11 @@
 // cycles-2.7/ggx to blender-internal-2.7/ward: which parameters of the second give the same picture as those of the first.
 // Composed of cycles_2_7_ggx_to_mitsuba_ggx, then mitsuba_ggx_to_mitsuba_ward, then mitsuba_ward_to_blender_internal_2_7_ward.
 // Fit: chain.
-// Error of its steps together: alpha rms 1.6e-05, 99 % 7.7e-05, max 7.7e-05;
-// specular rms 2.5e-05, 99 % 2e-04, max 2e-04.
-// Lowered from the fit. Target alpha: degree 11, 10 in specular, proven within 7.3e-06 (sampled 6.2e-06), rising with alpha.
-// Target specular: degree 11, 7 in specular, proven within 1.1e-05 (sampled 9.1e-06), rising with specular.
-// Covers alpha 0.0147398163567 to 0.55467946514535, f0 0 to 0.3809295358537462.
+// Error of its steps together: alpha rms 1.6e-05, 99 % 7.5e-05, max 7.5e-05;
+// specular rms 2.4e-05, 99 % 2e-04, max 2e-04.
+// Lowered from the fit. Target alpha: degree 11, 10 in specular, proven within 7.4e-06 (sampled 6.1e-06), rising with alpha.
+// Target specular: degree 11, 7 in specular, proven within 8.8e-06 (sampled 8e-06), rising with specular.
+// Covers alpha 0.01227433850835 to 0.55467946514535, f0 0 to 0.3758016382557151.
 #ifndef REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 #define REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 
@@ -36,7 +36,7 @@ inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on.
 inline constexpr float kAlphaRmsError = 1.6e-05f;
-inline constexpr float kSpecularRmsError = 2.5e-05f;
+inline constexpr float kSpecularRmsError = 2.4e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = -1.0f;
@@ -53,8 +53,8 @@ struct Output {
 // What the measured table covers. Beyond it alpha is held at the edge, and f0 is extrapolated in
 // proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
-inline constexpr Input kDomainMin{0.014739816f, 0.0f};
-inline constexpr Input kDomainMax{0.55467945f, 0.38092953f};
+inline constexpr Input kDomainMin{0.012274339f, 0.0f};
+inline constexpr Input kDomainMax{0.55467945f, 0.37580165f};
 
 namespace detail {
 
@@ -74,83 +74,83 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.28471023f;
+  const float u = alpha - 0.2834775f;
   const float u_2 = u * u;
-  float c0 = -8246.219f;
-  float c0_next = 2213.3591f;
-  c0 = c0 * u_2 + 2695.1045f;
-  c0_next = c0_next * u_2 + -587.629f;
-  c0 = c0 * u_2 + -425.29425f;
-  c0_next = c0_next * u_2 + 66.21558f;
-  c0 = c0 * u_2 + 49.15669f;
-  c0_next = c0_next * u_2 + -3.2471285f;
-  c0 = c0 * u_2 + -4.2553215f;
-  c0_next = c0_next * u_2 + -0.21362735f;
-  c0 = c0 * u_2 + 1.3742721f;
-  c0_next = c0_next * u_2 + 0.3667269f;
+  float c0 = -7884.0107f;
+  float c0_next = 2267.371f;
+  c0 = c0 * u_2 + 2600.9644f;
+  c0_next = c0_next * u_2 + -607.4253f;
+  c0 = c0 * u_2 + -414.95197f;
+  c0_next = c0_next * u_2 + 69.26033f;
+  c0 = c0 * u_2 + 48.51999f;
+  c0_next = c0_next * u_2 + -3.5342972f;
+  c0 = c0 * u_2 + -4.236443f;
+  c0_next = c0_next * u_2 + -0.19804806f;
+  c0 = c0 * u_2 + 1.3747238f;
+  c0_next = c0_next * u_2 + 0.36502668f;
   c0 = c0 * u + c0_next;
-  float c1 = 3073.042f;
-  float c1_next = 197.9459f;
-  c1 = c1 * u_2 + -673.6498f;
-  c1_next = c1_next * u_2 + -45.765926f;
-  c1 = c1 * u_2 + 51.896576f;
-  c1_next = c1_next * u_2 + 4.939415f;
-  c1 = c1 * u_2 + -1.4696631f;
-  c1_next = c1_next * u_2 + -0.28927222f;
-  c1 = c1 * u_2 + 0.02007863f;
-  c1_next = c1_next * u_2 + 0.019338563f;
-  c1 = c1 * u_2 + 0.0021985176f;
+  float c1 = 3141.4688f;
+  float c1_next = 167.01125f;
+  c1 = c1 * u_2 + -690.8754f;
+  c1_next = c1_next * u_2 + -40.93296f;
+  c1 = c1 * u_2 + 53.57866f;
+  c1_next = c1_next * u_2 + 4.7488623f;
+  c1 = c1 * u_2 + -1.557014f;
+  c1_next = c1_next * u_2 + -0.29010078f;
+  c1 = c1 * u_2 + 0.022147598f;
+  c1_next = c1_next * u_2 + 0.019842455f;
+  c1 = c1 * u_2 + 0.0022595092f;
   c1 = c1_next * u + c1;
-  float c2 = -3422.0908f;
-  float c2_next = 587.0752f;
-  c2 = c2 * u_2 + 736.6018f;
-  c2_next = c2_next * u_2 + -92.22034f;
-  c2 = c2 * u_2 + -60.44351f;
-  c2_next = c2_next * u_2 + 5.493395f;
-  c2 = c2 * u_2 + 2.021998f;
-  c2_next = c2_next * u_2 + -0.12853178f;
-  c2 = c2 * u_2 + -0.11840126f;
-  c2_next = c2_next * u_2 + -0.0153042795f;
+  float c2 = -3453.6233f;
+  float c2_next = 619.2146f;
+  c2 = c2 * u_2 + 742.82446f;
+  c2_next = c2_next * u_2 + -98.42894f;
+  c2 = c2 * u_2 + -61.40716f;
+  c2_next = c2_next * u_2 + 6.014065f;
+  c2 = c2 * u_2 + 2.0744407f;
+  c2_next = c2_next * u_2 + -0.13658209f;
+  c2 = c2 * u_2 + -0.118928224f;
+  c2_next = c2_next * u_2 + -0.015969705f;
   c2 = c2 * u + c2_next;
-  float c3 = -1049.3688f;
-  float c3_next = 36.414856f;
-  c3 = c3 * u_2 + 187.40804f;
-  c3_next = c3_next * u_2 + -17.971863f;
-  c3 = c3 * u_2 + -9.939181f;
-  c3_next = c3_next * u_2 + -0.47137168f;
-  c3 = c3 * u_2 + 0.25977296f;
-  c3_next = c3_next * u_2 + 0.13112837f;
+  float c3 = -1066.159f;
+  float c3_next = 41.89444f;
+  c3 = c3 * u_2 + 193.48105f;
+  c3_next = c3_next * u_2 + -18.20849f;
+  c3 = c3 * u_2 + -10.670228f;
+  c3_next = c3_next * u_2 + -0.4196528f;
+  c3 = c3 * u_2 + 0.2483948f;
+  c3_next = c3_next * u_2 + 0.12618168f;
   c3 = c3 * u + c3_next;
-  float c4 = -505.57983f;
-  float c4_next = -29.182478f;
-  c4 = c4 * u_2 + 79.87795f;
-  c4_next = c4_next * u_2 + 1.0910306f;
-  c4 = c4 * u_2 + 3.3419743f;
-  c4_next = c4_next * u_2 + 0.21887717f;
+  float c4 = -522.34265f;
+  float c4_next = -36.67254f;
+  c4 = c4 * u_2 + 84.91587f;
+  c4_next = c4_next * u_2 + 0.040276725f;
+  c4 = c4 * u_2 + 2.9250157f;
+  c4_next = c4_next * u_2 + 0.30129588f;
   c4 = c4 * u + c4_next;
-  float c5 = 1487.4303f;
-  float c5_next = 845.2572f;
-  c5 = c5 * u_2 + -360.89856f;
-  c5_next = c5_next * u_2 + 100.78189f;
-  c5 = c5 * u_2 + 15.440822f;
-  c5_next = c5_next * u_2 + -9.554481f;
+  float c5 = 1514.304f;
+  float c5_next = 871.74426f;
+  c5 = c5 * u_2 + -374.40073f;
+  c5_next = c5_next * u_2 + 104.418816f;
+  c5 = c5 * u_2 + 21.348164f;
+  c5_next = c5_next * u_2 + -9.131366f;
   c5 = c5 * u + c5_next;
-  float c6 = -2652.639f;
-  float c6_next = 425.0721f;
-  c6 = c6 * u_2 + -331.43637f;
-  c6_next = c6_next * u_2 + -545.9003f;
-  c6 = c6 * u_2 + -14.012469f;
+  float c6 = -2668.0938f;
+  float c6_next = 430.51028f;
+  c6 = c6 * u_2 + -307.0259f;
+  c6_next = c6_next * u_2 + -571.557f;
+  c6 = c6 * u_2 + -22.395649f;
   c6 = c6_next * u + c6;
-  float c7 = -3117.552f;
-  c7 = c7 * u + 1985.18f;
-  c7 = c7 * u + 612.89325f;
-  float c8 = 13221.062f;
-  c8 = c8 * u + 5526.8647f;
-  c8 = c8 * u + -1626.0166f;
-  float c9 = -28140.594f;
-  c9 = c9 * u + -5055.245f;
-  const float c10 = 18046.055f;
-  const float w = specular - 0.19046515f;
+  float c7 = -3337.9321f;
+  c7 = c7 * u + 1981.3451f;
+  c7 = c7 * u + 638.55707f;
+  float c8 = 13769.049f;
+  c8 = c8 * u + 6018.154f;
+  c8 = c8 * u + -1564.6268f;
+  float c9 = -29635.004f;
+  c9 = c9 * u + -5451.1167f;
+  const float c10 = 18441.395f;
+  const float w = specular - 0.1879012f;
   float sum = c10;
   sum = sum * w + c9;
   sum = sum * w + c8;
@@ -183,51 +183,51 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.28471023f;
+    const float u = alpha - 0.2834775f;
     const float u_2 = u * u;
-    float c0 = 7149.1387f;
-    float c0_next = -1293.53f;
-    c0 = c0 * u_2 + -1479.7736f;
-    c0_next = c0_next * u_2 + 410.87146f;
-    c0 = c0 * u_2 + 30.517822f;
-    c0_next = c0_next * u_2 + -21.435125f;
-    c0 = c0 * u_2 + 3.7394764f;
-    c0_next = c0_next * u_2 + 0.62866926f;
-    c0 = c0 * u_2 + -0.4963407f;
-    c0_next = c0_next * u_2 + -0.04645596f;
-    c0 = c0 * u_2 + 0.025517661f;
-    c0_next = c0_next * u_2 + 0.06474591f;
+    float c0 = 7015.855f;
+    float c0_next = -1370.6752f;
+    c0 = c0 * u_2 + -1436.1309f;
+    c0_next = c0_next * u_2 + 421.41748f;
+    c0 = c0 * u_2 + 25.48778f;
+    c0_next = c0_next * u_2 + -21.39029f;
+    c0 = c0 * u_2 + 3.88613f;
+    c0_next = c0_next * u_2 + 0.59529126f;
+    c0 = c0 * u_2 + -0.49489257f;
+    c0_next = c0_next * u_2 + -0.043914076f;
+    c0 = c0 * u_2 + 0.025317855f;
+    c0_next = c0_next * u_2 + 0.063848294f;
     c0 = c0 * u + c0_next;
-    float c1 = 34706.348f;
-    float c1_next = -6071.88f;
-    c1 = c1 * u_2 + -7341.24f;
-    c1_next = c1_next * u_2 + 2025.9509f;
-    c1 = c1 * u_2 + 142.03203f;
-    c1_next = c1_next * u_2 + -105.265366f;
-    c1 = c1 * u_2 + 19.769407f;
-    c1_next = c1_next * u_2 + 3.1925726f;
-    c1 = c1 * u_2 + -2.605702f;
-    c1_next = c1_next * u_2 + -0.24207616f;
-    c1 = c1 * u_2 + 0.13556741f;
-    c1_next = c1_next * u_2 + 0.33763495f;
+    float c1 = 34118.23f;
+    float c1_next = -6493.9707f;
+    c1 = c1 * u_2 + -7151.9883f;
+    c1_next = c1_next * u_2 + 2100.2708f;
+    c1 = c1 * u_2 + 114.01943f;
+    c1_next = c1_next * u_2 + -106.06406f;
+    c1 = c1 * u_2 + 20.76833f;
+    c1_next = c1_next * u_2 + 3.0594692f;
+    c1 = c1 * u_2 + -2.6191247f;
+    c1_next = c1_next * u_2 + -0.23254882f;
+    c1 = c1 * u_2 + 0.13593046f;
+    c1_next = c1_next * u_2 + 0.3374766f;
     c1 = c1 * u + c1_next;
-    float c2 = 1.2856263f;
-    float c2_next = -0.073080994f;
-    c2 = c2 * u_2 + -0.08072029f;
-    c2_next = c2_next * u_2 + 0.003838689f;
-    c2 = c2 * u_2 + -0.0027523944f;
-    c2_next = c2_next * u_2 + -0.00077077467f;
-    c2 = c2 * u + c2_next;
-    float c3 = 0.05296215f;
-    c3 = c3 * u + 0.008484971f;
-    float c4 = 0.3730173f;
-    c4 = c4 * u + 0.085594974f;
-    float c5 = -3.778312f;
-    c5 = c5 * u + -0.6806784f;
-    float c6 = -10.315264f;
-    c6 = c6 * u + -2.288634f;
-    float c7 = 80.31115f;
-    c7 = c7 * u + 15.596675f;
+    float c2 = 0.035538595f;
+    c2 = c2 * u + -0.00032787054f;
+    c2 = c2 * u + -0.005010086f;
+    c2 = c2 * u + -0.0007594706f;
+    float c3 = -0.15150963f;
+    c3 = c3 * u + 0.009800332f;
+    c3 = c3 * u + 0.06275259f;
+    c3 = c3 * u + 0.008242612f;
+    float c4 = -0.03241063f;
+    c4 = c4 * u + 0.3945009f;
+    c4 = c4 * u + 0.08953914f;
+    float c5 = -3.9674077f;
+    c5 = c5 * u + -0.71245545f;
+    float c6 = -11.145629f;
+    c6 = c6 * u + -2.4443645f;
+    float c7 = 86.8365f;
+    c7 = c7 * u + 16.861807f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
@@ -240,7 +240,7 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.19046515f;
+  const float w = specular - 0.1879012f;
   float sum = terms.c7[i];
   sum = sum * w + terms.c6[i];
   sum = sum * w + terms.c5[i];
@@ -302,7 +302,7 @@ inline std::int32_t larger_channel(std::int32_t largest, float given) noexcept {
 // The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
 inline float channel_scale(float largest) noexcept {
   const std::int32_t one = static_cast<std::int32_t>(bits(1.0f));
-  const std::int32_t above = static_cast<std::int32_t>(bits(largest * 2.6251574f)) - one;
+  const std::int32_t above = static_cast<std::int32_t>(bits(largest * 2.6609783f)) - one;
   return float_from_bits(static_cast<std::uint32_t>((above & ~(above >> 31)) + one));
 }
 
@@ -515,19 +515,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.014739816f, 0.38092953f}, {0.018250823f, 0.1334172f}, {7.8e-06f, 1.1e-05f}},
-      {{0.082232274f, 0.35712144f}, {0.10059335f, 0.11464727f}, {7.8e-06f, 1.1e-05f}},
-      {{0.14972472f, 0.33331335f}, {0.1851869f, 0.1074899f}, {7.9e-06f, 1.1e-05f}},
-      {{0.21721719f, 0.30950525f}, {0.274271f, 0.102044724f}, {7.9e-06f, 1.1e-05f}},
-      {{0.28470963f, 0.28569716f}, {0.36687005f, 0.096897945f}, {7.9e-06f, 1.1e-05f}},
-      {{0.3522021f, 0.26188907f}, {0.45738402f, 0.09076222f}, {8e-06f, 1.1e-05f}},
-      {{0.41969454f, 0.23808096f}, {0.53918993f, 0.08292104f}, {8e-06f, 1.1e-05f}},
-      {{0.487187f, 0.21427286f}, {0.6108541f, 0.07363797f}, {8.1e-06f, 1.1e-05f}},
-      {{0.55467945f, 0.19046476f}, {0.67679083f, 0.06370389f}, {8.1e-06f, 1.1e-05f}},
-      {{0.007369908f, 0.19046476f}, {0.01823605f, 0.06695741f}, {7.8e-06f, 1.1e-05f}},
-      {{0.8320192f, 0.09523238f}, {0.67568326f, 0.03200581f}, {8.1e-06f, 1.1e-05f}},
-      {{0.28470963f, 0.0f}, {0.3612666f, 0.00037782907f}, {7.9e-06f, 1.1e-05f}},
-      {{0.28470963f, 0.76185906f}, {0.3669416f, 0.2581102f}, {7.9e-06f, 2.1e-05f}},
+      {{0.012274339f, 0.37580165f}, {0.015251707f, 0.13263582f}, {7.9e-06f, 8.9e-06f}},
+      {{0.08007498f, 0.35231403f}, {0.09794432f, 0.113171995f}, {7.9e-06f, 8.9e-06f}},
+      {{0.14787562f, 0.32882643f}, {0.18281479f, 0.10600447f}, {7.9e-06f, 8.9e-06f}},
+      {{0.21567626f, 0.30533883f}, {0.2721831f, 0.100615874f}, {8e-06f, 8.8e-06f}},
+      {{0.2834769f, 0.28185123f}, {0.36516982f, 0.095552705f}, {8e-06f, 8.8e-06f}},
+      {{0.35127753f, 0.25836363f}, {0.4561844f, 0.089528896f}, {8.1e-06f, 8.8e-06f}},
+      {{0.41907817f, 0.23487602f}, {0.53848267f, 0.08181351f}, {8.1e-06f, 8.8e-06f}},
+      {{0.4868788f, 0.21138842f}, {0.6105328f, 0.07265851f}, {8.1e-06f, 8.8e-06f}},
+      {{0.55467945f, 0.18790083f}, {0.676774f, 0.06285075f}, {8.2e-06f, 8.8e-06f}},
+      {{0.0061371694f, 0.18790083f}, {0.015228451f, 0.06656391f}, {7.9e-06f, 8.8e-06f}},
+      {{0.8320192f, 0.09395041f}, {0.67565393f, 0.031578973f}, {8.2e-06f, 8.8e-06f}},
+      {{0.2834769f, 0.0f}, {0.35961473f, 0.0003785509f}, {8e-06f, 8.8e-06f}},
+      {{0.2834769f, 0.7516033f}, {0.3652427f, 0.25452158f}, {8e-06f, 1.8e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

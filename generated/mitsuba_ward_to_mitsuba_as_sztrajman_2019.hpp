@@ -3,14 +3,15 @@
 //
 // mitsuba/ward to mitsuba/as: which parameters of the second give the same picture as those of the first.
 // Published in Sztrajman et al. 2019, appendix A.
+// Covers what the authors' published table covers.
 // Erratum: the cubic coefficient of alpha is -0.332; +0.332 is printed and is off by up to 0.64.
 // Erratum: the second exponential of the slope takes alpha squared, as section 7 has it.
 // Matched under a headlight in L2, the objective `paper`: worse under natural light than the measured converter of this pair.
 // Fit: parametric.
 // Its error is not known.
-// Lowered from the fit. Target alpha: degree 4, proven within 2.6e-07 (sampled 1.2e-08), rising with alpha.
-// Target specular: degree 6, proven within 3.4e-05 (sampled 3.1e-05), rising with specular.
-// Covers alpha 0.01 to 1, specular 0 to 1.
+// Lowered from the fit. Target alpha: degree 4, proven within 2.7e-07 (sampled 2e-08), rising with alpha.
+// Target specular: degree 6, proven within 7.1e-06 (sampled 6.1e-06), rising with specular.
+// Covers alpha 0.01 to 0.99, specular 0 to 0.2324.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_AS_SZTRAJMAN_2019_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_AS_SZTRAJMAN_2019_HPP
 
@@ -56,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels count as out
 // of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{1.0f, 1.0f};
+inline constexpr Input kDomainMax{0.99f, 0.2324f};
 
 namespace detail {
 
@@ -76,28 +77,28 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha) noexcept {
-  const float u = alpha - 0.50500107f;
+  const float u = alpha - 0.5000011f;
   const float u_2 = u * u;
   float c0 = 0.25f;
-  float c0_next = 0.17300107f;
-  c0 = c0 * u_2 + -0.5084419f;
-  c0_next = c0_next * u_2 + 0.52290165f;
-  c0 = c0 * u_2 + 0.3997528f;
+  float c0_next = 0.16800107f;
+  c0 = c0 * u_2 + -0.51099944f;
+  c0_next = c0_next * u_2 + 0.5279989f;
+  c0 = c0 * u_2 + 0.39712557f;
   c0 = c0_next * u + c0;
   return c0;
 }
 
 // The factor between the specular parameters.
 inline float specular_slope(float alpha) noexcept {
-  const float u = alpha - 0.50500107f;
+  const float u = alpha - 0.5000011f;
   const float u_2 = u * u;
-  float c1 = 0.97941077f;
-  float c1_next = -0.38608503f;
-  c1 = c1 * u_2 + -1.112965f;
-  c1_next = c1_next * u_2 + 0.837742f;
-  c1 = c1 * u_2 + 0.32873824f;
-  c1_next = c1_next * u_2 + -0.8583924f;
-  c1 = c1 * u_2 + 0.6520533f;
+  float c1 = 0.9890077f;
+  float c1_next = -0.4132496f;
+  c1 = c1 * u_2 + -1.1058846f;
+  c1_next = c1_next * u_2 + 0.8593587f;
+  c1 = c1 * u_2 + 0.31622168f;
+  c1_next = c1_next * u_2 + -0.86159146f;
+  c1 = c1 * u_2 + 0.6563512f;
   c1 = c1_next * u + c1;
   return c1;
 }
@@ -258,19 +259,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.0103608705f, 1.0149531f}, {7.5e-07f, 3.4e-05f}},
-      {{0.13375f, 0.9375f}, {0.1314447f, 0.89747375f}, {8.1e-07f, 3.4e-05f}},
-      {{0.2575f, 0.875f}, {0.23750378f, 0.75982267f}, {8.6e-07f, 3.4e-05f}},
-      {{0.38125f, 0.8125f}, {0.32698748f, 0.61869866f}, {9e-07f, 3.4e-05f}},
-      {{0.505f, 0.75f}, {0.39975223f, 0.48902526f}, {9.4e-07f, 3.4e-05f}},
-      {{0.62875f, 0.6875f}, {0.45706165f, 0.37964103f}, {9.6e-07f, 3.4e-05f}},
-      {{0.7525f, 0.625f}, {0.5015863f, 0.29258198f}, {9.8e-07f, 3.4e-05f}},
-      {{0.87625f, 0.5625f}, {0.5374041f, 0.2251295f}, {1e-06f, 3.4e-05f}},
-      {{1.0f, 0.5f}, {0.57f, 0.17269516f}, {1.1e-06f, 3.4e-05f}},
-      {{0.005f, 0.5f}, {0.0103608705f, 0.50747657f}, {7.5e-07f, 3.4e-05f}},
-      {{1.5f, 0.25f}, {0.57f, 0.08634758f}, {1.1e-06f, 3.4e-05f}},
-      {{0.505f, 0.0f}, {0.39975223f, 0.0f}, {9.4e-07f, 3.4e-05f}},
-      {{0.505f, 2.0f}, {0.39975223f, 1.3040674f}, {9.4e-07f, 6.8e-05f}},
+      {{0.01f, 0.2324f}, {0.0103608705f, 0.23587511f}, {7.5e-07f, 7.2e-06f}},
+      {{0.1325f, 0.217875f}, {0.13029292f, 0.2087377f}, {8.1e-07f, 7.2e-06f}},
+      {{0.255f, 0.20335f}, {0.23552234f, 0.17699493f}, {8.6e-07f, 7.2e-06f}},
+      {{0.3775f, 0.188825f}, {0.32452428f, 0.14441827f}, {9.1e-07f, 7.2e-06f}},
+      {{0.5f, 0.1743f}, {0.397125f, 0.114398785f}, {9.4e-07f, 7.2e-06f}},
+      {{0.6225f, 0.159775f}, {0.45450193f, 0.08897785f}, {9.7e-07f, 7.1e-06f}},
+      {{0.745f, 0.14525f}, {0.4991836f, 0.06866662f}, {9.9e-07f, 7.1e-06f}},
+      {{0.8675f, 0.130725f}, {0.5350497f, 0.05288538f}, {1.1e-06f, 7.1e-06f}},
+      {{0.99f, 0.1162f}, {0.56733096f, 0.04060459f}, {1.1e-06f, 7.1e-06f}},
+      {{0.005f, 0.1162f}, {0.0103608705f, 0.11793756f}, {7.5e-07f, 7.2e-06f}},
+      {{1.485f, 0.0581f}, {0.56733096f, 0.020302296f}, {1.1e-06f, 7.1e-06f}},
+      {{0.5f, 0.0f}, {0.397125f, 0.0f}, {9.4e-07f, 7.1e-06f}},
+      {{0.5f, 0.4648f}, {0.397125f, 0.30506343f}, {9.4e-07f, 1.5e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -22,13 +22,15 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
+const std::filesystem::path kDefaultFitFolder = "fits";
+
 struct EnvironmentsCommand {
   std::vector<std::string> pairs;  // SOURCE:TARGET; empty: the six of default_pairs()
   bool plain = false;
   EnvironmentsOptions study;
   std::vector<std::filesystem::path> environments;  // empty: the built-in ones
   double exposure = 1.0;
-  std::filesystem::path fit_folder = "fits";
+  std::filesystem::path fit_folder;  // empty: `fits`, where there is such a folder
   std::filesystem::path output;
   bool pictures = false, json = false, quiet = false;
 };
@@ -74,7 +76,8 @@ EnvironmentsOptions study_options(const EnvironmentsCommand& command) {
   std::sort(options.alphas.begin(), options.alphas.end());
   options.alphas.erase(std::unique(options.alphas.begin(), options.alphas.end()), options.alphas.end());
   options.environments = chosen_environments(command);
-  options.fits = load_fits(command.fit_folder);
+  if (!command.fit_folder.empty() || std::filesystem::is_directory(kDefaultFitFolder))
+    options.fits = load_fits(command.fit_folder.empty() ? kDefaultFitFolder : command.fit_folder);
   if (command.pictures && command.output.empty())
     throw Error(ErrorKind::kUsage, "--pictures: there is no folder for them; expected -o FOLDER");
   if (command.pictures && !options.alphas.empty())
@@ -161,8 +164,8 @@ void add_options(CLI::App& app, EnvironmentsCommand& command) {
       ->capture_default_str();
   app.add_option("--resolution", study.resolution, "Width and height of the pictures")->capture_default_str();
   app.add_option("--samples", study.samples, "Directions a pixel")->capture_default_str();
-  app.add_option("--fits", command.fit_folder, "Folder of the fits that `shipped` converts with")
-      ->capture_default_str();
+  app.add_option("--fits", command.fit_folder,
+                 "Folder of the fits that `shipped` converts with; default: fits, if there is one");
   app.add_option(
       "-o,--output", command.output,
       "Folder for environments.csv, environments_summary.csv and environments.svg (needs gnuplot)");

@@ -30,18 +30,18 @@ enum class Method {
 std::string method_name(Method method);
 
 struct EnvironmentsOptions {
-  std::vector<ModelPair> pairs;  // of models of the built-in renderer
-  std::vector<double> alphas;    // of the source
-  double specular = 0.5;         // of the source, linear
-  std::vector<Environment> environments;
-  std::vector<remap::Fit> fits;       // what kShipped may use
-  int resolution = 128;               // of the pictures, pixels
-  int samples = 1024;                 // directions a pixel
-  int match_resolution = 512;         // of the pictures that paper and natural are matched by
-  unsigned jobs = 0;                  // threads; 0: one a core
-  bool floor = false;                 // compare kBest too
-  std::optional<double> sheet_alpha;  // of `alphas`: spheres of this width are kept for contact sheets
-  std::function<void()> progress;     // one of progress_steps() is done; from any thread
+  std::vector<ModelPair> pairs;           // of models of the built-in renderer
+  std::vector<double> alphas;             // of the source
+  double specular = 0.5;                  // of the source, linear
+  std::vector<Environment> environments;  // names differ; of one mean luminance
+  std::vector<remap::Fit> fits;           // what kShipped may use
+  int resolution = 128;                   // of the pictures, pixels
+  int samples = 1024;                     // directions a pixel
+  int match_resolution = 512;             // of the pictures that paper and natural are matched by
+  unsigned jobs = 0;                      // threads; 0: one a core
+  bool floor = false;                     // compare kBest too
+  std::optional<double> sheet_alpha;      // of `alphas`: spheres of this width are kept for contact sheets
+  std::function<void()> progress;         // one of progress_steps() is done; from any thread
   const std::atomic<bool>* cancelled = nullptr;  // stops soon; throws kInterrupted
 };
 
@@ -86,8 +86,8 @@ struct EnvironmentsResult {
 };
 
 // Compares every pair, alpha, method and environment. Pairs without a fit have no comparisons of kShipped,
-// and a remark. Throws kUsage for unknown models, numbers out of range and empty lists, kNumeric where a fit
-// cannot be lowered, kInterrupted.
+// and a remark. Throws kUsage for unknown models, numbers out of range, empty lists and names given twice,
+// kNumeric where a fit cannot be lowered, kInterrupted.
 EnvironmentsResult study_environments(const EnvironmentsOptions& options);
 
 // Means over comparisons; energy is the mean of its magnitude.

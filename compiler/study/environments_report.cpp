@@ -32,13 +32,18 @@ std::string figures_text(const PictureLikeness& likeness) {
   return fixed(likeness.rmse, 2, 8) + fixed(likeness.ssim, 3, 8) + fixed(100.0 * likeness.energy, 1, 8);
 }
 
+// All environments are as bright; maps are floats, so not to the last digit.
+std::string brightness_text(const EnvironmentsOptions& options) {
+  return number_text(std::round(1e6 * mean_luminance(options.environments.front())) / 1e6);
+}
+
 // What the figures depend on besides the rows themselves.
 std::vector<std::pair<std::string, std::string>> circumstances(const EnvironmentsOptions& options,
                                                                const EnvironmentsResult& result) {
   return {{"tool", std::string("remapc ") + remap::kVersion},
           {"resolution", std::to_string(options.resolution)},
           {"samples", std::to_string(options.samples)},
-          {"mean_luminance", number_text(mean_luminance(options.environments.front()))},
+          {"mean_luminance", brightness_text(options)},
           {"noise_percent", number_text(remap::rounded_up(result.noise, 2))}};
 }
 
@@ -79,10 +84,10 @@ std::string heading(const EnvironmentsOptions& options, const EnvironmentsResult
   std::string names;
   for (const Environment& environment : options.environments)
     names += (names.empty() ? "" : ", ") + environment.name;
-  return "Spheres under " + names + "; alpha " + listed(options.alphas) + ", specular " +
-         number_text(options.specular) + ", " + std::to_string(options.resolution) + " x " +
-         std::to_string(options.resolution) + " pixels, sampling noise " +
-         number_text(remap::rounded_up(result.noise, 2)) +
+  return "Spheres under " + names + ", mean luminance " + brightness_text(options) + "; alpha " +
+         listed(options.alphas) + ", specular " + number_text(options.specular) + ", " +
+         std::to_string(options.resolution) + " x " + std::to_string(options.resolution) +
+         " pixels, sampling noise " + number_text(remap::rounded_up(result.noise, 2)) +
          " %\nRMSE in % of the display's range, SSIM of luma, energy: error of mean radiance in %\n";
 }
 

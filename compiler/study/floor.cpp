@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "parallel.hpp"
-#include "sweep/likeness.hpp"
 #include "study/lit_sphere.hpp"
+#include "sweep/likeness.hpp"
 #include "sweep/renderer.hpp"
 
 namespace remapc {

@@ -34,7 +34,7 @@ TEST_CASE("remapc study environments: writes tables and says what was found") {
       session.remapc(small_study({"-o", session.path("study"), "--pictures", "--floor"}));
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
-  CHECK(result.output.find("Spheres under sky, overcast, studio; alpha 0.2, 0.5, specular 0.5") == 0);
+  CHECK(result.output.find("Spheres under sky, overcast, studio, mean luminance 1; alpha 0.2, 0.5, ") == 0);
   CHECK(result.output.find("shipped (1 of 2 pairs)") != std::string::npos);
   CHECK(result.output.find("natural is worse than copying for no pair.") != std::string::npos);
   CHECK(result.output.find("mitsuba/beckmann -> mitsuba/ggx has no fit") != std::string::npos);

@@ -248,6 +248,9 @@ TEST_CASE("environment: files that are no map are refused with what was expected
   CHECK_THROWS_WITH(
       load_environment(written({4, 2, 1, std::vector<float>(8, std::numeric_limits<float>::infinity())})),
       Catch::Contains("not finite"));
+  const auto cut = written({64, 32, 1, std::vector<float>(64 * 32, 1.0f)});
+  std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
+  CHECK_THROWS_WITH(load_environment(cut), Catch::Contains("cannot be read"));
   remap::write_file(folder.path() / "text.exr", "no picture");
   CHECK_THROWS_AS(load_environment(folder.path() / "text.exr"), remap::Error);
 }
@@ -357,6 +360,9 @@ TEST_CASE("study environments: what makes no study is refused") {
   options = small_study();
   options.alphas.clear();
   CHECK_THROWS_WITH(study_environments(options), Catch::Contains("expected one at least"));
+  options = small_study();
+  options.environments.push_back(options.environments.front());
+  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("two are named sky"));
   options = small_study();
   options.samples = 1;
   CHECK_THROWS_WITH(study_environments(options), Catch::Contains("samples: 1; expected 16"));

@@ -1,4 +1,5 @@
 // The converters that ship: what their cards promise, held against their tables.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -109,8 +110,8 @@ TEST_CASE("shipped: chains are what their steps are") {
       steps.push_back(find_fit(step.id, kFits));
     CHECK(composed_fit(steps, fit.id) == fit);
     const remap::ChainDifference difference = difference_from_steps(fit, steps);
-    CHECK(difference.alpha < 1e-6);
-    CHECK(difference.grey_specular < 1e-6);
+    CHECK(difference.alpha < 2e-5);
+    CHECK(difference.grey_specular < 2e-5);
     CHECK(difference.colour_specular < 2e-3);
   }
 }
@@ -142,7 +143,8 @@ TEST_CASE("shipped: the published formulas, as corrected") {
   for (const remap::Fit& fit : {as, ggx, cycles}) {
     REQUIRE(fit.remarks.size() >= 2);
     CHECK(fit.remarks[0].find("Sztrajman et al. 2019") != std::string::npos);
-    CHECK(fit.remarks[1].find("Erratum") != std::string::npos);
+    CHECK(std::any_of(fit.remarks.begin(), fit.remarks.end(),
+                      [](const std::string& remark) { return remark.starts_with("Erratum: "); }));
   }
 }
 
