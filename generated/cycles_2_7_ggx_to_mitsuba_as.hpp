@@ -35,9 +35,9 @@ inline constexpr const char* kTargetModel = "mitsuba/as";
 inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
-// Root mean square error of the fit on rows it was not trained on.
-inline constexpr float kAlphaRmsError = 0.0f;
-inline constexpr float kSpecularRmsError = 0.0f;
+// Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
+inline constexpr float kAlphaRmsError = -1.0f;
+inline constexpr float kSpecularRmsError = -1.0f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = -1.0f;

@@ -35,7 +35,7 @@ inline constexpr const char* kTargetModel = "mitsuba/as";
 inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
-// Root mean square error of the fit on rows it was not trained on.
+// Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = 0.00016f;
 inline constexpr float kSpecularRmsError = 8.9e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative

@@ -73,7 +73,7 @@ struct ConverterEntry {
   const char* target_specular;
   // Covered range, in the source's own parameters.
   float roughness_min, roughness_max, specular_min, specular_max;
-  // Of the fit, on rows that were held out: target alpha and target specular.
+  // Of the fit, on rows that were held out: target alpha and target specular; -1 where they are not known.
   float roughness_rms_error, specular_rms_error;
   // Of the pictures at the best parameters, relative; negative where unknown.
   float image_rms_error;

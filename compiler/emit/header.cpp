@@ -54,7 +54,7 @@ inline constexpr const char* kTargetModel = "@target@";
 inline constexpr const char* kTargetRoughness = "@out_roughness@";
 inline constexpr const char* kTargetSpecular = "@out_specular@";
 
-// Root mean square error of the fit on rows it was not trained on.
+// Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = @alpha_rms@;
 inline constexpr float kSpecularRmsError = @specular_rms@;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
@@ -337,6 +337,11 @@ MappingCode exact_code(const remap::Chain& chain, const remap::Domain&) {
 
 namespace {
 
+// -1 where the errors of the fit are not known.
+std::string rms_literal(const Fit& fit, double rms) {
+  return literal(fit.has_errors() ? remap::rounded_up(rms, 2) : -1.0);
+}
+
 MappingCode mapping_code(const Fit& fit, const EmitOptions& options) {
   if (!options.exact) return lowered_code(remap::lower(fit.mapping, fit.domain, options.lowering));
   return std::visit([&](const auto& kind) { return exact_code(kind, fit.domain); }, fit.mapping);
@@ -365,8 +370,8 @@ std::string header_text(const Fit& fit, const MappingCode& code) {
                                  {"in_specular_meaning", specular_meaning(fit.source.specular)},
                                  {"out_roughness_meaning", roughness_meaning(fit.target.roughness)},
                                  {"out_specular_meaning", specular_meaning(fit.target.specular)},
-                                 {"alpha_rms", literal(remap::rounded_up(fit.roughness_error.rms, 2))},
-                                 {"specular_rms", literal(remap::rounded_up(fit.specular_error.rms, 2))},
+                                 {"alpha_rms", rms_literal(fit, fit.roughness_error.rms)},
+                                 {"specular_rms", rms_literal(fit, fit.specular_error.rms)},
                                  {"image_rms", literal(image_rms_error(fit))},
                                  {"roughness_min", literal(own.min)},
                                  {"roughness_max", literal(own.max)},

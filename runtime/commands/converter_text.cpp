@@ -18,9 +18,14 @@ std::string figure_text(double error) { return number_text(rounded_up(error, 2))
 std::string expected_text(double error) { return number_text(rounded_up(error, 3)); }
 
 std::string errors_text(const ConverterInfo& info) {
-  const std::string image = info.image_rms_error ? figure_text(*info.image_rms_error) : "unknown";
-  return "image " + image + ", fit rms " + figure_text(info.roughness_rms_error) + " in alpha and " +
-         figure_text(info.specular_rms_error) + " in " + info.target.specular;
+  const auto text = [](const std::optional<double>& error) {
+    return error ? figure_text(*error) : "unknown";
+  };
+  const std::string fit = info.roughness_rms_error && info.specular_rms_error
+                              ? "rms " + figure_text(*info.roughness_rms_error) + " in alpha and " +
+                                    figure_text(*info.specular_rms_error) + " in " + info.target.specular
+                              : "unknown";
+  return "image " + text(info.image_rms_error) + ", fit " + fit;
 }
 
 std::string models_text(const ConverterPath& path) {
@@ -41,9 +46,10 @@ Json domain_json(const ConverterInfo& info) {
 }
 
 Json errors_json(const ConverterInfo& info) {
-  Json errors = {{"roughness", info.roughness_rms_error}, {"specular", info.specular_rms_error}};
-  errors["image"] = info.image_rms_error ? Json(*info.image_rms_error) : Json();
-  return errors;
+  const auto json = [](const std::optional<double>& error) { return error ? Json(*error) : Json(); };
+  return {{"roughness", json(info.roughness_rms_error)},
+          {"specular", json(info.specular_rms_error)},
+          {"image", json(info.image_rms_error)}};
 }
 
 Json path_json(const ConverterPath& path) {

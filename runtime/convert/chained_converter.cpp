@@ -88,6 +88,14 @@ void require_joined(const std::vector<const Converter*>& steps) {
   }
 }
 
+// Unknown as soon as one is.
+void add(const std::optional<double>& error, std::optional<double>* sum) {
+  if (*sum && error)
+    **sum += *error;
+  else
+    sum->reset();
+}
+
 ConverterInfo chained_info(const std::vector<const Converter*>& steps) {
   require_joined(steps);
   ConverterInfo info = steps.front()->info();
@@ -100,12 +108,9 @@ ConverterInfo chained_info(const std::vector<const Converter*>& steps) {
   info.image_rms_error = 0.0;
   for (const Converter* step : steps) {
     const ConverterInfo& other = step->info();
-    info.roughness_rms_error += other.roughness_rms_error;
-    info.specular_rms_error += other.specular_rms_error;
-    if (info.image_rms_error && other.image_rms_error)
-      *info.image_rms_error += *other.image_rms_error;
-    else
-      info.image_rms_error.reset();
+    add(other.roughness_rms_error, &info.roughness_rms_error);
+    add(other.specular_rms_error, &info.specular_rms_error);
+    add(other.image_rms_error, &info.image_rms_error);
     info.instructions = std::min(info.instructions, other.instructions);
     info.steps.push_back(other.id);
   }

@@ -51,13 +51,16 @@ class InterpretedConverter final : public Converter {
 ConverterInfo converter_info(const Fit& fit, InstructionSet instructions) {
   const auto image_error =
       fit.likeness ? std::optional<double>(fit.likeness->image_error.rms) : std::optional<double>();
+  const auto known = [&](double error) {
+    return fit.has_errors() ? std::optional<double>(error) : std::nullopt;
+  };
   return {fit.id,
           fit.source,
           fit.target,
           decimal(own_roughness_range(fit)),
           decimal(specular_range(fit)),
-          fit.roughness_error.rms,
-          fit.specular_error.rms,
+          known(fit.roughness_error.rms),
+          known(fit.specular_error.rms),
           image_error,
           instructions,
           {}};

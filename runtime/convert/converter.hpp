@@ -22,8 +22,9 @@ struct ConverterInfo {
   ModelSide target;
   Range roughness;  // covered range of the source's own width parameter
   Range specular;   // covered range of the source's specular, linear
-  double roughness_rms_error = 0.0;
-  double specular_rms_error = 0.0;
+  // Of the fit, in the target's alpha and specular; none where they are not known.
+  std::optional<double> roughness_rms_error;
+  std::optional<double> specular_rms_error;
   std::optional<double> image_rms_error;  // of the pictures at the best parameters, relative; none if unknown
   InstructionSet instructions = InstructionSet::kBaseline;  // that it runs on; changes no bit of the results
   std::vector<std::string> steps;  // ids of what a chained converter runs; otherwise empty

@@ -37,8 +37,9 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
 
 double expected_error(const ConverterInfo& info) {
   const double image = info.image_rms_error.value_or(kAssumedImageError);
-  const double alpha = info.roughness_rms_error / middle_alpha(info);
-  const double specular = info.specular_rms_error / (0.5 * (info.specular.min + info.specular.max));
+  const double alpha = info.roughness_rms_error.value_or(0.0) / middle_alpha(info);
+  const double specular =
+      info.specular_rms_error.value_or(0.0) / (0.5 * (info.specular.min + info.specular.max));
   return std::sqrt(image * image + 2.0 * alpha * alpha + specular * specular);
 }
 
@@ -48,7 +49,7 @@ std::vector<std::string> path_models(const ConverterPath& path) {
   return models;
 }
 
-ConverterGraph::ConverterGraph(std::vector<const Converter*> converters)
+ConverterGraph::ConverterGraph(std::vector<const Converter*> converters, Detours detours)
     : converters_(std::move(converters)) {
   std::sort(converters_.begin(), converters_.end(),
             [](const Converter* a, const Converter* b) { return a->info().id < b->info().id; });
@@ -62,6 +63,20 @@ ConverterGraph::ConverterGraph(std::vector<const Converter*> converters)
     const ConverterInfo& info = converter->info();
     graph_.edges.push_back({node(info.source.model), node(info.target.model),
                             std::llround(expected_error(info) * kUnitsOfError)});
+  }
+  graph_.detours = detours == Detours::kAllowed;
+  if (detours == Detours::kRefused) hold_against_measured();
+}
+
+void ConverterGraph::hold_against_measured() {
+  for (std::size_t i = 0; i < converters_.size(); ++i) {
+    if (converters_[i]->info().image_rms_error) continue;
+    DirectedEdge& edge = graph_.edges[i];
+    for (std::size_t j = 0; j < converters_.size(); ++j) {
+      const DirectedEdge& other = graph_.edges[j];
+      if (converters_[j]->info().image_rms_error && other.from == edge.from && other.to == edge.to)
+        edge.cost = std::max(edge.cost, other.cost + 1);
+    }
   }
 }
 
@@ -162,7 +177,7 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
 ConverterGraph compiled_graph(InstructionSet set) {
   std::vector<const Converter*> converters;
   for (const auto& converter : compiled_converters(set)) converters.push_back(converter.get());
-  return ConverterGraph(std::move(converters));
+  return ConverterGraph(std::move(converters), Detours::kRefused);
 }
 
 }  // namespace remap

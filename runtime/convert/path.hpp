@@ -42,10 +42,20 @@ struct PathRequest {
   std::vector<std::string> via;
 };
 
+// What counts beside the sum of expected errors.
+enum class Detours {
+  kAllowed,
+  // A direct match is the best that its two models allow, whatever the figures of others say, which are of
+  // other domains: no path goes round a converter that joins two of its models (but through `via`), and
+  // between the same two models a converter that was not compared by pictures is not expected to beat one
+  // that was.
+  kRefused,
+};
+
 class ConverterGraph {
  public:
   // `converters` must outlive the graph and its paths. Two of them may join the same two models.
-  explicit ConverterGraph(std::vector<const Converter*> converters);
+  explicit ConverterGraph(std::vector<const Converter*> converters, Detours detours = Detours::kAllowed);
 
   // Names, sorted: all; what can be reached from `model`; what `model` can be reached from. Neither of the
   // last two holds `model` itself.
@@ -65,6 +75,7 @@ class ConverterGraph {
   std::size_t node(const std::string& model) const;
   std::vector<std::string> names_connected(const std::string& model, bool forwards) const;
   ConverterPath path_of(const std::vector<std::size_t>& edges) const;
+  void hold_against_measured();
   std::vector<std::size_t> waypoints(const PathRequest& request) const;
   [[noreturn]] void refuse(const std::vector<std::size_t>& waypoints) const;
 
@@ -73,7 +84,7 @@ class ConverterGraph {
   DirectedGraph graph_;                       // nodes as models_, edges as converters_, costs in 1e-9
 };
 
-// The graph of all compiled converters.
+// The graph of all compiled converters, without detours.
 ConverterGraph compiled_graph(InstructionSet set = best_instruction_set());
 
 }  // namespace remap

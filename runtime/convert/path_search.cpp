@@ -83,11 +83,25 @@ class Search {
     return nodes;
   }
 
+  // Whether `edge` would lead to where an edge leads from a node that the leg has left.
+  bool goes_round(const Beginning& beginning, const DirectedEdge& edge) const {
+    if (graph_.detours) return false;
+    const std::size_t leg_start = waypoints_[beginning.next - 1];
+    for (auto step = beginning.edges.rbegin(); step != beginning.edges.rend(); ++step) {
+      if (graph_.edges[*step].to == leg_start) return false;
+      const std::size_t left = graph_.edges[*step].from;
+      if (std::any_of(graph_.edges.begin(), graph_.edges.end(),
+                      [&](const DirectedEdge& other) { return other.from == left && other.to == edge.to; }))
+        return true;
+    }
+    return false;
+  }
+
   void extend(const Beginning& beginning) {
     const std::vector<bool> nodes = closed(beginning);
     for (std::size_t i = 0; i < graph_.edges.size(); ++i) {
       const DirectedEdge& edge = graph_.edges[i];
-      if (edge.from != beginning.node || nodes[edge.to]) continue;
+      if (edge.from != beginning.node || nodes[edge.to] || goes_round(beginning, edge)) continue;
       Beginning longer = beginning;
       longer.cost += edge.cost;
       longer.edges.push_back(i);

@@ -16,6 +16,9 @@ struct DirectedEdge {
 struct DirectedGraph {
   std::size_t node_count = 0;
   std::vector<DirectedEdge> edges;  // any number between the same two nodes
+  // Whether a path may visit two nodes that an edge joins without taking such an edge. Waypoints part a path
+  // into legs, each by itself.
+  bool detours = true;
 };
 
 // For each node, whether a walk of any length, also none, leads to it from `start`; against the edges where

@@ -18,16 +18,17 @@ ModelSide side(const char* model, const char* roughness, const char* specular) {
 }
 
 ConverterInfo info_of(const ConverterEntry& entry, InstructionSet set) {
-  std::optional<double> image_error;
-  if (entry.image_rms_error >= 0.0f) image_error = decimal_value(entry.image_rms_error);
+  const auto known = [](float error) {
+    return error >= 0.0f ? std::optional<double>(decimal_value(error)) : std::nullopt;
+  };
   return {entry.id,
           side(entry.source_model, entry.source_roughness, entry.source_specular),
           side(entry.target_model, entry.target_roughness, entry.target_specular),
           {decimal_value(entry.roughness_min), decimal_value(entry.roughness_max)},
           {decimal_value(entry.specular_min), decimal_value(entry.specular_max)},
-          decimal_value(entry.roughness_rms_error),
-          decimal_value(entry.specular_rms_error),
-          image_error,
+          known(entry.roughness_rms_error),
+          known(entry.specular_rms_error),
+          known(entry.image_rms_error),
           set,
           {}};
 }

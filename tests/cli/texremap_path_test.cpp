@@ -20,8 +20,8 @@ const std::string kId = "mitsuba_ward_to_mitsuba_as";
 std::string ward_to_as_errors() {
   const ConverterInfo& info = find_converter("mitsuba/ward", "mitsuba/as").info();
   return "image " + number_text(info.image_rms_error.value()) + ", fit rms " +
-         number_text(info.roughness_rms_error) + " in alpha and " + number_text(info.specular_rms_error) +
-         " in " + info.target.specular;
+         number_text(info.roughness_rms_error.value()) + " in alpha and " +
+         number_text(info.specular_rms_error.value()) + " in " + info.target.specular;
 }
 
 double ward_to_as_expected() { return expected_error(find_converter("mitsuba/ward", "mitsuba/as").info()); }

@@ -190,8 +190,8 @@ TEST_CASE("chained converter: says what it is made of") {
   CHECK(info.source == fits.front().source);
   CHECK(info.target == fits.back().target);
   CHECK(info.steps == std::vector<std::string>{fits[0].id, fits[1].id, fits[2].id});
-  CHECK(info.roughness_rms_error == Approx(0.003));
-  CHECK(info.specular_rms_error == Approx(0.006));
+  CHECK(info.roughness_rms_error.value() == Approx(0.003));
+  CHECK(info.specular_rms_error.value() == Approx(0.006));
   CHECK(*info.image_rms_error == Approx(0.15));
   fits[1].likeness.reset();
   CHECK_FALSE(make_chained_converter(SteppedFits(fits).steps)->info().image_rms_error.has_value());

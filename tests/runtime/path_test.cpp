@@ -268,8 +268,52 @@ TEST_CASE("path: of what ships, one step is what one converter gives") {
   for (const auto& converter : compiled_converters()) {
     const ConverterInfo& info = converter->info();
     const auto paths = compiled_graph().find_paths({info.source.model, info.target.model, {}});
-    CHECK(paths.front().expected_error <= expected_error(info) + 1e-9);
+    CHECK(paths.front().steps.size() == 1);
+    if (info.image_rms_error) CHECK(paths.front().steps.front()->info().id == info.id);
     CHECK(path_models(paths.front()).front() == info.source.model);
     CHECK(path_models(paths.front()).back() == info.target.model);
   }
+}
+
+TEST_CASE("path: without detours no path goes round a converter, but through what it is led through") {
+  Converters converters;
+  converters.add("r/a", "r/c", 0.5);
+  converters.add("r/a", "r/b", 0.125);
+  converters.add("r/b", "r/c", 0.25);
+  converters.add("r/c", "r/d", 0.25);
+  converters.add("r/b", "r/d", 0.75);
+  const ConverterGraph graph(converters.pointers(), Detours::kRefused);
+  const auto paths = graph.find_paths({"r/a", "r/c", {}}, 5);
+  REQUIRE(paths.size() == 1);
+  CHECK(ids(paths[0]) == Names{"r_a_to_r_c"});
+  CHECK(paths[0].expected_error == 0.5);
+  // By b and c would be 0.625; both ways left are without a shortcut.
+  const auto far = graph.find_paths({"r/a", "r/d", {}}, 5);
+  REQUIRE(far.size() == 2);
+  CHECK(ids(far[0]) == Names{"r_a_to_r_c", "r_c_to_r_d"});
+  CHECK(ids(far[1]) == Names{"r_a_to_r_b", "r_b_to_r_d"});
+  CHECK(ids(graph.find_paths({"r/a", "r/c", {"r/b"}}).front()) == Names{"r_a_to_r_b", "r_b_to_r_c"});
+}
+
+TEST_CASE("path: between the same models a measured match wins over a formula that nobody compared") {
+  Converters converters;
+  converters.add("r/a", "r/c", 0.5);
+  converters.add("r/a", "r/c", std::nullopt, "_published");
+  converters.add("r/c", "r/d", std::nullopt);
+  const ConverterGraph graph(converters.pointers(), Detours::kRefused);
+  const auto paths = graph.find_paths({"r/a", "r/c", {}}, 5);
+  REQUIRE(paths.size() == 2);
+  CHECK(ids(paths[0]) == Names{"r_a_to_r_c"});
+  CHECK(ids(paths[1]) == Names{"r_a_to_r_c_published"});
+  CHECK(paths[1].expected_error >= 0.5);
+  CHECK(graph.find_paths({"r/a", "r/d", {}}).front().expected_error == Approx(0.5 + kAssumedImageError));
+}
+
+TEST_CASE("path: a converter that was composed of others is taken in their place") {
+  Converters converters;
+  converters.add("r/a", "r/b", 0.25);
+  converters.add("r/b", "r/c", 0.5);
+  converters.add("r/a", "r/c", std::nullopt, "_chain");
+  const ConverterGraph graph(converters.pointers(), Detours::kRefused);
+  CHECK(ids(graph.find_paths({"r/a", "r/c", {}}).front()) == Names{"r_a_to_r_c_chain"});
 }
