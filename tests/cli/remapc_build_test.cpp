@@ -38,7 +38,8 @@ std::vector<std::string> built_ids(const ProcessResult& result) {
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
   std::vector<std::string> ids;
-  for (const auto& item : nlohmann::json::parse(result.output)["built"]) ids.push_back(item["id"]);
+  const auto json = nlohmann::json::parse(result.output);
+  for (const auto& item : json["built"]) ids.push_back(item["id"]);
   return ids;
 }
 
@@ -116,7 +117,7 @@ TEST_CASE("remapc build: a manifest that is wrong is refused with the place") {
   refused("\"id\": \"mitsuba_ward_to_a_b\"", "\"id\": \"a_b_to_mitsuba_ward\"", "twice");
   refused("\"id\": \"mitsuba_ward_to_a_b\"", "\"id\": \"int\"", "identifier");
   refused("\"steps\": [\"a_b_to_mitsuba_ward\", ", "\"steps\": [", "at least 2");
-  refused("\"mitsuba/ward-duer\"]", "\"mitsuba/ward-dur\"]", "mitsuba/ward-duer");
+  refused("\"mitsuba/ward-duer\"]", "\"mitsuba/ward-dur\"]", "which is no item before it");
 }
 
 TEST_CASE("remapc build: an interrupted build goes on where it was") {

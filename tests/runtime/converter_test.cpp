@@ -70,7 +70,9 @@ TEST_CASE("converter: compiled ones are sorted, tested and found by their models
     CHECK(last < info.id);
     last = info.id;
     CHECK(converter->self_test());
-    CHECK(&find_converter(info.source.model, info.target.model) == converter.get());
+    const ConverterInfo& found = find_converter(info.source.model, info.target.model).info();
+    CHECK(found.source == info.source);
+    CHECK(found.target == info.target);
     CHECK(info.roughness.min < info.roughness.max);
     CHECK(info.image_rms_error.value_or(1.0) > 0.0);
     CHECK(info.steps.empty());
