@@ -5,6 +5,7 @@
 #include "error.hpp"
 #include "files.hpp"
 #include "json_field.hpp"
+#include "model/fit_fields.hpp"
 #include "nearest_name.hpp"
 #include "version.hpp"
 
@@ -13,12 +14,6 @@ namespace {
 
 using remap::Field;
 using remap::Fit;
-
-remap::Range read_range(const Field& field) {
-  const remap::Range range{field.at(0, 2).number(), field.at(1, 2).number()};
-  field.require(range.min < range.max, "[min, max] with min < max");
-  return range;
-}
 
 std::size_t read_count(const Field& field) {
   field.require(field.count() >= 2 && field.count() <= 1000, "a number from 2 to 1000");
@@ -30,7 +25,7 @@ void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
   SweepRecipe recipe;
   recipe.objective = group["objective"].text();
   recipe.resolution = static_cast<int>(group["resolution"].count());
-  recipe.alphas = read_range(group["alpha"]);
+  recipe.alphas = remap::read_range(group["alpha"]);
   recipe.roughness_samples = read_count(group["roughness_samples"]);
   recipe.specular_samples = read_count(group["specular_samples"]);
   const auto seed = static_cast<std::uint64_t>(group["seed"].count());
@@ -46,15 +41,6 @@ void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
     }
 }
 
-remap::ModelSide read_side(const Field& field) {
-  const auto roughness = remap::convention_from_name(field["roughness"].text());
-  field["roughness"].require(roughness.has_value(), "alpha, roughness, exponent or glossiness");
-  const remap::ModelSide side{field["model"].text(), *roughness, field["specular"].text()};
-  field["model"].require(remap::is_valid_model(side.model), "letters, digits and _ - . /");
-  field["specular"].require(remap::is_valid_specular(side.specular), "an identifier that names no width");
-  return side;
-}
-
 // Coefficients as the paper prints them (Sztrajman et al. 2019, section 7 and appendix A):
 // c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) + c5 / alpha.
 remap::AlphaCurve read_slope(const Field& field) {
@@ -67,9 +53,9 @@ remap::AlphaCurve read_slope(const Field& field) {
 void read_published(const Field& field, std::vector<ManifestItem>* items) {
   Fit fit;
   fit.id = field["id"].text();
-  fit.source = read_side(field["source"]);
-  fit.target = read_side(field["target"]);
-  fit.domain = {read_range(field["domain"]["alpha"]), read_range(field["domain"]["specular"])};
+  fit.source = remap::read_side(field["source"]);
+  fit.target = remap::read_side(field["target"]);
+  fit.domain = {remap::read_range(field["domain"]["alpha"]), remap::read_range(field["domain"]["specular"])};
   fit.mapping = remap::Parametric{{field["roughness"].numbers(1)}, {{1, read_slope(field["slope"])}}};
   fit.method["form"] = "paper";
   fit.method["source"] = field["from"].text();

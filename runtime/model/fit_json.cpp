@@ -7,6 +7,7 @@
 #include "error.hpp"
 #include "files.hpp"
 #include "json_field.hpp"
+#include "model/fit_fields.hpp"
 
 namespace remap {
 namespace {
@@ -120,23 +121,6 @@ Json to_json(const std::optional<Likeness>& likeness) {
   for (const auto& [alpha, ssim] : likeness->ssim)
     spheres.push_back({{"alpha", finite(alpha)}, {"ssim", finite(ssim)}});
   return {{"image_error", to_json(likeness->image_error)}, {"spheres", spheres}};
-}
-
-Range read_range(const Field& field) {
-  const Range range{field.at(0, 2).number(), field.at(1, 2).number()};
-  field.require(range.min < range.max, "[min, max] with min < max");
-  return range;
-}
-
-ModelSide read_side(const Field& field) {
-  const std::string name = field["roughness"].text();
-  const auto convention = convention_from_name(name);
-  field["roughness"].require(convention.has_value(), "alpha, roughness, exponent or glossiness");
-  const std::string specular = field["specular"].text();
-  field["specular"].require(is_valid_specular(specular), "an identifier that names no width");
-  const std::string model = field["model"].text();
-  field["model"].require(is_valid_model(model), "letters, digits and _ - . /");
-  return {model, *convention, specular};
 }
 
 ErrorFigures read_figures(const Field& field) {

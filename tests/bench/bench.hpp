@@ -23,6 +23,10 @@ struct Maps {
 Maps& large_maps();
 Maps& small_maps();
 
+// A benchmark of rows of texels against memcpy on the same maps, `large` or `small`.
+Row pass_row(const Medians& medians, const std::string& what, const std::string& name,
+             const std::string& maps);
+
 void add_passes();
 Section pass_section(const Medians& medians, const std::string& code, const std::string& title);
 Section other_pass_section(const Medians& medians);

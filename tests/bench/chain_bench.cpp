@@ -71,17 +71,6 @@ void convert_in_turn(const Chain& chain, Maps& maps) {
 std::string chain_name(const std::string& flags) { return "chain_" + flags; }
 std::string in_turn_name(const std::string& flags) { return "in_turn_" + flags; }
 
-Row chain_row(const Medians& medians, const std::string& what, const std::string& name,
-              const std::string& maps) {
-  Row row;
-  row.what = what;
-  row.value = mega_items(medians, name + "/" + maps);
-  row.unit = "Mtexel/s";
-  row.ratio = speed_ratio(medians, name + "/" + maps, "memcpy/" + maps);
-  row.rival = "memcpy";
-  return row;
-}
-
 }  // namespace
 
 void add_chains() {
@@ -104,11 +93,11 @@ Section chain_section(const Medians& medians) {
     if (build.code != kCode || build.flags == "o2") continue;
     const std::string flags = flags_text(build.flags);
     section.rows.push_back(
-        chain_row(medians, "chained at " + flags + ", 4096 x 4096", chain_name(build.flags), "large"));
-    section.rows.push_back(chain_row(medians, "one after another at " + flags + ", 4096 x 4096",
-                                     in_turn_name(build.flags), "large"));
+        pass_row(medians, "chained at " + flags + ", 4096 x 4096", chain_name(build.flags), "large"));
+    section.rows.push_back(pass_row(medians, "one after another at " + flags + ", 4096 x 4096",
+                                    in_turn_name(build.flags), "large"));
     section.rows.push_back(
-        chain_row(medians, "chained at " + flags + ", 64 x 64, in cache", chain_name(build.flags), "small"));
+        pass_row(medians, "chained at " + flags + ", 64 x 64, in cache", chain_name(build.flags), "small"));
   }
   return section;
 }

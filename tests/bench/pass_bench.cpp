@@ -34,6 +34,8 @@ std::optional<double> goal(const std::string& code, const std::string& flags) {
   return parametric ? 1.0 : 0.8;
 }
 
+}  // namespace
+
 Row pass_row(const Medians& medians, const std::string& what, const std::string& name,
              const std::string& maps) {
   Row row;
@@ -44,8 +46,6 @@ Row pass_row(const Medians& medians, const std::string& what, const std::string&
   row.rival = "memcpy";
   return row;
 }
-
-}  // namespace
 
 Maps::Maps(std::size_t count) : texels(count) {
   std::mt19937 random(1);

@@ -1,0 +1,29 @@
+// Fields that fit files and manifests share.
+#pragma once
+
+#include "json_field.hpp"
+#include "model/fit.hpp"
+
+namespace remap {
+
+// `[min, max]` with min < max. Throws kInput.
+inline Range read_range(const Field& field) {
+  const Range range{field.at(0, 2).number(), field.at(1, 2).number()};
+  field.require(range.min < range.max, "[min, max] with min < max");
+  return range;
+}
+
+// `{"model": ..., "roughness": ..., "specular": ...}`. Throws kInput for names that could not stand in
+// generated code.
+inline ModelSide read_side(const Field& field) {
+  const std::string name = field["roughness"].text();
+  const auto convention = convention_from_name(name);
+  field["roughness"].require(convention.has_value(), "alpha, roughness, exponent or glossiness");
+  const std::string specular = field["specular"].text();
+  field["specular"].require(is_valid_specular(specular), "an identifier that names no width");
+  const std::string model = field["model"].text();
+  field["model"].require(is_valid_model(model), "letters, digits and _ - . /");
+  return {model, *convention, specular};
+}
+
+}  // namespace remap
