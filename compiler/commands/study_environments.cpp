@@ -65,8 +65,10 @@ std::vector<Environment> chosen_environments(const EnvironmentsCommand& command)
   std::vector<Environment> environments;
   for (const auto& path : command.environments) environments.push_back(load_environment(path));
   if (environments.empty()) environments = builtin_environments();
-  for (Environment& environment : environments)
-    environment = exposed(std::move(environment), command.exposure / mean_luminance(environment));
+  for (Environment& environment : environments) {
+    const double exposure = command.exposure / mean_luminance(environment);
+    environment = exposed(std::move(environment), exposure);
+  }
   return environments;
 }
 
