@@ -10,6 +10,7 @@
 #include "commands/commands.hpp"
 #include "number_text.hpp"
 #include "sweep/renderer.hpp"
+#include "table/domain.hpp"
 
 namespace remapc {
 namespace {
@@ -20,10 +21,6 @@ struct ListOptions {
   std::filesystem::path fit_folder = "fits";
   bool models = false, json = false;
 };
-
-std::string range_text(const remap::Range& range) {
-  return number_text(range.min) + " to " + number_text(range.max);
-}
 
 void list_models(bool json) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();

@@ -12,6 +12,7 @@
 #include "lower/lower.hpp"
 #include "model/fit_json.hpp"
 #include "number_text.hpp"
+#include "table/domain.hpp"
 
 namespace remapc {
 namespace {
@@ -23,10 +24,6 @@ struct ShowOptions {
   std::string fit;
   bool json = false;
 };
-
-std::string range_text(const remap::Range& range) {
-  return number_text(range.min) + " to " + number_text(range.max);
-}
 
 std::string side_text(const remap::ModelSide& side) {
   return side.model + " (" + std::string(remap::convention_name(side.roughness)) + ", " + side.specular + ")";

@@ -115,10 +115,10 @@ nlohmann::ordered_json dielectrics_json(const DielectricsStudy& study) {
 }
 
 void run_conductors(const MaterialsCommand& command) {
-  const ConductorsStudy study = run_with_progress(
-      command, "study conductors", [&](const Renderer& renderer, const StudyOptions& options) {
-        return study_conductors(renderer, options, command.output);
-      });
+  const ConductorsStudy study = run_with_progress(command, "study conductors",
+                                                  [&](const Renderer& renderer, const StudyOptions& options) {
+                                                    return study_conductors(renderer, options);
+                                                  });
   report(command, conductors_words(study), write_conductors(study, command.output), conductors_json(study));
 }
 
@@ -127,7 +127,7 @@ void run_dielectrics(const MaterialsCommand& command) {
     throw Error(ErrorKind::kUsage, "--diffuse: expected 0 to 1");
   const DielectricsStudy study = run_with_progress(
       command, "study dielectrics", [&](const Renderer& renderer, const StudyOptions& options) {
-        return study_dielectrics(renderer, options, command.diffuse, command.output);
+        return study_dielectrics(renderer, options, command.diffuse);
       });
   report(command, dielectrics_words(study), write_dielectrics(study, command.output),
          dielectrics_json(study));

@@ -155,13 +155,12 @@ std::vector<TableRow> rows_of_alpha(const Table& table, double alpha) {
 
 // From Ward back, the rows that can be trusted.
 void travel_back(const Renderer& renderer, const StudyOptions& options, const SweepExecution& execution,
-                 const std::filesystem::path& scratch, ConductorsStudy* study) {
+                 ConductorsStudy* study) {
   const std::vector<TableRow> there = usable_rows(study->there);
   std::vector<SamplePoint> samples;
   for (const TableRow& row : there) samples.push_back({row.alpha2, row.specular2});
-  study->back =
-      run_study_sweep(renderer, study_sweep_options(kTarget, kSource, std::move(samples), options.resolution),
-                      execution, scratch);
+  study->back = run_sweep(
+      renderer, study_sweep_options(kTarget, kSource, std::move(samples), options.resolution), execution);
   RoundTrip trip;
   std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < there.size(); ++i) {
@@ -202,22 +201,21 @@ void join_rows(ConductorsStudy* study) {
 
 }  // namespace
 
-ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& options,
-                                 const std::filesystem::path& scratch) {
+ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& options) {
   ConductorsStudy study;
   SweepExecution execution;
   execution.jobs = options.jobs;
   SweepOptions there = study_sweep_options(kSource, kTarget, metal_samples(options), options.resolution);
-  study.there = run_study_sweep(renderer, there, execution, scratch);
+  study.there = run_sweep(renderer, there, execution);
   if (options.progress) options.progress(0.2);
   there.target = "mitsuba/ward";
-  study.plain_difference = difference(study.there, run_study_sweep(renderer, there, execution, scratch));
+  study.plain_difference = difference(study.there, run_sweep(renderer, there, execution));
   if (options.progress) options.progress(0.3);
   for (const double alpha : options.alphas)
     study.curves.push_back(curve_of(rows_of_alpha(study.there, alpha), alpha));
   match_exactly(renderer, options, &study);
   join_rows(&study);
-  travel_back(renderer, options, execution, scratch, &study);
+  travel_back(renderer, options, execution, &study);
   if (options.progress) options.progress(1.0);
   return study;
 }

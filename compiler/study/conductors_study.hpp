@@ -55,10 +55,8 @@ struct ConductorsStudy {
   double exact_specular_shift = 0.0;  // largest relative, Ward specular by index against by F0, ok rows
 };
 
-// Light at 45 degrees, uniform weights, as the paper has it. `scratch`: an existing folder for the journals
-// of sweeps.
-ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& options,
-                                 const std::filesystem::path& scratch);
+// Light at 45 degrees, uniform weights, as the paper has it.
+ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& options);
 
 // What was found, one statement each.
 std::vector<std::string> conductors_words(const ConductorsStudy& study);

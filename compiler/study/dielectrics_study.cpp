@@ -263,8 +263,7 @@ std::string trials_text(const std::vector<GuessTrial>& trials) {
 
 }  // namespace
 
-DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions& options, double diffuse,
-                                   const std::filesystem::path& scratch) {
+DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions& options, double diffuse) {
   DielectricsStudy study;
   study.diffuse = diffuse;
   for (const int stages : {1, 2, 3}) {
@@ -278,7 +277,7 @@ DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions&
       execution.progress = [&](std::size_t done, std::size_t all) {
         options.progress(0.2 * (stages - 1) + 0.2 * static_cast<double>(done) / static_cast<double>(all));
       };
-    study.stages.push_back(run_study_sweep(renderer, sweep, execution, scratch));
+    study.stages.push_back(run_sweep(renderer, sweep, execution));
   }
   for (const int stages : {1, 2, 3})
     for (const double alpha : options.alphas) study.curves.push_back(curve_of(study.stages, stages, alpha));

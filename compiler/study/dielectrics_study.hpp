@@ -49,9 +49,8 @@ struct DielectricsStudy {
   double worst_difference = 0.0;  // of specular between two and three stages, relative to the curve's range
 };
 
-// mitsuba/as-dielectric to mitsuba/ward; light and `scratch` as for study_conductors.
-DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions& options, double diffuse,
-                                   const std::filesystem::path& scratch);
+// mitsuba/as-dielectric to mitsuba/ward; light as for study_conductors.
+DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions& options, double diffuse);
 
 std::vector<std::string> dielectrics_words(const DielectricsStudy& study);
 

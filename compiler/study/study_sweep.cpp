@@ -19,14 +19,6 @@ SweepOptions study_sweep_options(const std::string& source, const std::string& t
   return options;
 }
 
-Table run_study_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution,
-                      const std::filesystem::path& scratch) {
-  const std::filesystem::path journal = scratch / ".study.partial";
-  Table table = run_sweep(renderer, options, execution, journal, false);
-  std::filesystem::remove(journal);
-  return table;
-}
-
 std::string short_text(double value, int digits) {
   if (value == 0.0 || !std::isfinite(value)) return remap::number_text(value);
   const double unit = std::pow(10.0, digits - 1 - static_cast<int>(std::floor(std::log10(std::fabs(value)))));

@@ -21,10 +21,6 @@ struct StudyOptions {
 SweepOptions study_sweep_options(const std::string& source, const std::string& target,
                                  std::vector<SamplePoint> samples, int resolution);
 
-// run_sweep with a journal in `scratch` that is removed.
-Table run_study_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution,
-                      const std::filesystem::path& scratch);
-
 // A percentage with three significant digits, rounded: `0.123 %`.
 std::string percent_text(double share);
 

@@ -13,6 +13,7 @@
 #include "sweep/photographer.hpp"
 #include "sweep/spheres.hpp"
 #include "sweep/target_bank.hpp"
+#include "table/domain.hpp"
 #include "version.hpp"
 
 namespace remapc {
@@ -36,10 +37,6 @@ std::vector<SampleBlock> blocks_of(const std::vector<SamplePoint>& samples) {
   std::vector<SampleBlock> blocks;
   for (auto& [alpha, indices] : by_alpha) blocks.push_back({alpha, std::move(indices)});
   return blocks;
-}
-
-std::string range_text(const Range& range) {
-  return number_text(range.min) + " to " + number_text(range.max);
 }
 
 Range sampled_alphas(const std::vector<SamplePoint>& samples) {
@@ -209,11 +206,8 @@ std::vector<SamplePoint> grid_samples(const Range& alphas, std::size_t alpha_cou
 
 std::string grid_text(const Range& alphas, std::size_t alpha_count, const Range& speculars,
                       std::size_t specular_count) {
-  const auto text = [](const Range& range) {
-    return number_text(range.min) + " to " + number_text(range.max);
-  };
-  return std::to_string(alpha_count) + " alpha " + text(alphas) + " x " + std::to_string(specular_count) +
-         " specular " + text(speculars);
+  return std::to_string(alpha_count) + " alpha " + range_text(alphas) + " x " +
+         std::to_string(specular_count) + " specular " + range_text(speculars);
 }
 
 Range canonical_speculars(const Renderer& renderer, const ModelDescription& model) {

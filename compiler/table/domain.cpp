@@ -6,6 +6,7 @@
 
 #include "error.hpp"
 #include "model/covered_box.hpp"
+#include "number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -73,6 +74,10 @@ remap::Domain table_domain(const Table& table) {
     throw remap::Error(remap::ErrorKind::kInput,
                        table.name + ": no width has usable rows; expected some of status ok");
   return *domain;
+}
+
+std::string range_text(const remap::Range& range) {
+  return remap::number_text(range.min) + " to " + remap::number_text(range.max);
 }
 
 Table swapped(const Table& table) {

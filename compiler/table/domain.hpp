@@ -10,6 +10,9 @@ namespace remapc {
 // statuses are gaps and bound nothing. Throws kInput for a table without such a box.
 remap::Domain table_domain(const Table& table);
 
+// `0.01 to 1`.
+std::string range_text(const remap::Range& range);
+
 // The table with the roles of source and target reversed: its usable rows with parameters exchanged
 // (Sztrajman et al. 2019, section 5). Comments stay as they are, since they say how the table was made, with
 // `roles: swapped` after them and without the spheres, whose widths are those of the other side.

@@ -83,19 +83,17 @@ Json to_json(const Regressors& kind) {
 }
 
 // A mapping with its kind.
-template <typename Kinds>
-Json mapping_json(const Kinds& mapping);
+Json mapping_json(const MappingKind& mapping);
 
 Json to_json(const Chain& chain) {
   Json steps = Json::array();
   for (const auto& [id, mapping] : chain.steps)
-    steps.push_back({{"id", id}, {"mapping", mapping_json(mapping)}});
+    steps.push_back({{"id", id}, {"mapping", mapping_json(widened(mapping))}});
   return {{"steps", steps}};
 }
 
-template <typename Kinds>
-Json mapping_json(const Kinds& mapping) {
-  Json json = {{"kind", kind_name(std::visit([](const auto& kind) { return MappingKind(kind); }, mapping))}};
+Json mapping_json(const MappingKind& mapping) {
+  Json json = {{"kind", kind_name(mapping)}};
   json.update(std::visit([](const auto& kind) { return to_json(kind); }, mapping));
   return json;
 }

@@ -78,7 +78,7 @@ TEST_CASE("materials: values are those of the database") {
 TEST_CASE("conductors: specular of Ward is smooth up to 1, flagged beyond, and comes back") {
   const remap::TemporaryFolder folder;
   const auto renderer = make_builtin_renderer();
-  const ConductorsStudy study = study_conductors(*renderer, small_study({0.1, 0.3}), folder.path());
+  const ConductorsStudy study = study_conductors(*renderer, small_study({0.1, 0.3}));
   CHECK(study.rows.size() == measured_conductors().size() * 3 * 2);
   for (const ConductorCurve& curve : study.curves) {
     CHECK(curve.ok > 20);
@@ -109,7 +109,7 @@ TEST_CASE("dielectrics: two stages are smooth and stable, three never worse") {
   const auto renderer = make_builtin_renderer();
   StudyOptions options = small_study({0.3});
   options.resolution = 32;
-  const DielectricsStudy study = study_dielectrics(*renderer, options, 0.3, folder.path());
+  const DielectricsStudy study = study_dielectrics(*renderer, options, 0.3);
   REQUIRE(study.curves.size() == 3);
   const DielectricCurve& two = study.curves[1];
   CHECK(two.stages == 2);
