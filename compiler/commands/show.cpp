@@ -11,6 +11,7 @@
 #include "fit/split.hpp"
 #include "lower/lower.hpp"
 #include "model/fit_json.hpp"
+#include "model/round_trip.hpp"
 #include "number_text.hpp"
 #include "table/domain.hpp"
 
@@ -130,6 +131,29 @@ void print_lowering(const remap::Fit& fit) {
   }
 }
 
+std::string percent_text(double share) { return number_text(remap::rounded_up(100.0 * share, 2)) + " %"; }
+
+// By the converter of `folder` that leads back, where there is one.
+void print_round_trip(const remap::Fit& fit, const std::filesystem::path& folder) {
+  const auto path = folder / (remap::converter_id(fit.target.model, fit.source.model) + ".json");
+  if (!std::filesystem::is_regular_file(path)) return;
+  const remap::Fit back = remap::load_fit(path);
+  const remap::RoundTrip trip = remap::round_trip(fit, back);
+  std::cout << "There and back by " << back.id << "\n";
+  if (trip.share == 0.0) {
+    std::cout << "  their domains do not meet\n";
+    return;
+  }
+  const auto print = [](const std::string& name, double median, double p99) {
+    std::cout << "  " << std::left << std::setw(8) << name << "changes by " << percent_text(median)
+              << " in the median, 99 % within " << percent_text(p99) << "\n";
+  };
+  print("alpha", trip.alpha_median, trip.alpha_p99);
+  print(fit.source.specular, trip.specular_median, trip.specular_p99);
+  if (!remap::returns(trip))
+    std::cout << "  (!) not what went: the models differ, and each direction finds its own best match\n";
+}
+
 // The three things that are apart: the models, the fit, its polynomials.
 void print_trust(const remap::Fit& fit) {
   if (fit.likeness) {
@@ -165,6 +189,7 @@ void show(const ShowOptions& options) {
             << "  kind    " << kind_name(fit.mapping) << ", by remapc " << fit.tool_version << "\n";
   for (const std::string& remark : fit.remarks) std::cout << "  " << remark << "\n";
   print_trust(fit);
+  print_round_trip(fit, options.fit_folder);
   std::cout << "Mapping\n";
   std::visit(PrintMapping{}, fit.mapping);
   print_method(fit);

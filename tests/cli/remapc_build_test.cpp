@@ -63,6 +63,10 @@ TEST_CASE("remapc build: makes what the manifest asks for, and nothing twice") {
   CHECK(report.find("| **mitsuba/ward-duer** |") != std::string::npos);
   CHECK(report.find("Published in nobody 2020. As printed.") != std::string::npos);
   CHECK(read_file(session.path("fits/pairs.svg")).find("<polyline") != std::string::npos);
+  const ProcessResult card =
+      session.remapc({"show", "mitsuba_ward_to_mitsuba_ward_duer", "--fits", session.path("fits")});
+  CHECK(card.output.find("There and back by mitsuba_ward_duer_to_mitsuba_ward\n  alpha   changes by") !=
+        std::string::npos);
 
   // A header that was edited is made again by itself.
   append(session.path("generated/mitsuba_ward_to_mitsuba_ward_duer.hpp"), "// mine\n");

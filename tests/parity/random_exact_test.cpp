@@ -75,10 +75,10 @@ std::vector<Header> exact_headers(const std::string& kind) {
 }
 
 // Those that are not refused.
-std::vector<Header> lowered_headers(const std::string& kind) {
+std::vector<Header> lowered_headers(const std::string& kind, std::uint64_t models) {
   std::vector<Header> headers;
   const LoweringOptions options{1e-3, 1e-3, 2048};
-  for (std::uint64_t seed = 0; seed < kModels; ++seed) {
+  for (std::uint64_t seed = 0; seed < models; ++seed) {
     const Fit fit = random_fit(kind, seed);
     try {
       const Lowered lowered = lower(fit.mapping, fit.domain, options);
@@ -277,9 +277,9 @@ void check_exact(const std::string& kind) {
   CHECK(share_of_close(headers) >= 0.6);
 }
 
-void check_lowered(const std::string& kind) {
-  const std::vector<Header> headers = lowered_headers(kind);
-  CHECK(headers.size() >= kModels / 2);
+void check_lowered(const std::string& kind, std::uint64_t models = kModels) {
+  const std::vector<Header> headers = lowered_headers(kind, models);
+  CHECK(headers.size() >= models / 2);
   check_headers("lowered " + kind, headers);
 }
 
@@ -302,4 +302,7 @@ TEST_CASE("lowered headers: random sums of Gaussians give the bits of the lowere
 }
 TEST_CASE("lowered headers: random networks give the bits of the lowered form", "[slow]") {
   check_lowered("mlp");
+}
+TEST_CASE("lowered headers: random chains give the bits of the lowered form", "[slow]") {
+  check_lowered("chain", kModels / 5);
 }
