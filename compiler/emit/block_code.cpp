@@ -307,6 +307,8 @@ std::string to_alpha_code(RoughnessConvention convention) {
       return "std::sqrt(2.0f / (own + 2.0f))";
     case RoughnessConvention::kGlossiness:
       return "(1.0f - own) * (1.0f - own)";
+    case RoughnessConvention::kSquared:
+      return "std::sqrt(own)";
   }
   return "own";
 }
@@ -321,6 +323,8 @@ std::string from_alpha_code(RoughnessConvention convention) {
       return "2.0f / (alpha * alpha) - 2.0f";
     case RoughnessConvention::kGlossiness:
       return "1.0f - std::sqrt(alpha)";
+    case RoughnessConvention::kSquared:
+      return "alpha * alpha";
   }
   return "alpha";
 }

@@ -223,6 +223,8 @@ std::string roughness_meaning(RoughnessConvention convention) {
       return "Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0";
     case RoughnessConvention::kGlossiness:
       return "1 - square root of the microfacet width, [0, 1)";
+    case RoughnessConvention::kSquared:
+      return "square of the microfacet width, (0, 1]";
   }
   return "";
 }

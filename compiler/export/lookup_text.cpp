@@ -48,6 +48,9 @@ void add_convention(Head& head, const std::string& column, remap::RoughnessConve
     case remap::RoughnessConvention::kGlossiness:
       head.add(column, "(1 - glossiness)^2");
       break;
+    case remap::RoughnessConvention::kSquared:
+      head.add(column, "sqrt(squared)");
+      break;
   }
 }
 

@@ -78,6 +78,9 @@ void to_alpha(RoughnessConvention convention, Row& row) noexcept {
     case RoughnessConvention::kGlossiness:
       for (float& own : row) own = (1.0f - own) * (1.0f - own);
       return;
+    case RoughnessConvention::kSquared:
+      for (float& own : row) own = std::sqrt(own);
+      return;
   }
 }
 
@@ -93,6 +96,9 @@ void from_alpha(RoughnessConvention convention, Row& row) noexcept {
       return;
     case RoughnessConvention::kGlossiness:
       for (float& alpha : row) alpha = 1.0f - std::sqrt(alpha);
+      return;
+    case RoughnessConvention::kSquared:
+      for (float& alpha : row) alpha = alpha * alpha;
       return;
   }
 }

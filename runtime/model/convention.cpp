@@ -7,7 +7,8 @@ namespace remap {
 namespace {
 
 constexpr std::array kConventions = {RoughnessConvention::kAlpha, RoughnessConvention::kRoughness,
-                                     RoughnessConvention::kExponent, RoughnessConvention::kGlossiness};
+                                     RoughnessConvention::kExponent, RoughnessConvention::kGlossiness,
+                                     RoughnessConvention::kSquared};
 
 }  // namespace
 
@@ -21,6 +22,8 @@ double to_alpha(RoughnessConvention convention, double own) {
       return std::sqrt(2.0 / (own + 2.0));
     case RoughnessConvention::kGlossiness:
       return (1.0 - own) * (1.0 - own);
+    case RoughnessConvention::kSquared:
+      return std::sqrt(own);
   }
   return own;
 }
@@ -35,6 +38,8 @@ double from_alpha(RoughnessConvention convention, double alpha) {
       return 2.0 / (alpha * alpha) - 2.0;
     case RoughnessConvention::kGlossiness:
       return 1.0 - std::sqrt(alpha);
+    case RoughnessConvention::kSquared:
+      return alpha * alpha;
   }
   return alpha;
 }
@@ -49,6 +54,8 @@ std::string_view convention_name(RoughnessConvention convention) {
       return "exponent";
     case RoughnessConvention::kGlossiness:
       return "glossiness";
+    case RoughnessConvention::kSquared:
+      return "squared";
   }
   return "alpha";
 }

@@ -18,7 +18,7 @@ inline Range read_range(const Field& field) {
 inline ModelSide read_side(const Field& field) {
   const std::string name = field["roughness"].text();
   const auto convention = convention_from_name(name);
-  field["roughness"].require(convention.has_value(), "alpha, roughness, exponent or glossiness");
+  field["roughness"].require(convention.has_value(), "alpha, roughness, exponent, glossiness or squared");
   const std::string specular = field["specular"].text();
   field["specular"].require(is_valid_specular(specular), "an identifier that names no width");
   const std::string model = field["model"].text();

@@ -155,5 +155,6 @@ TEST_CASE("convention: every one is its own inverse on (0, 1]") {
   CHECK(from_alpha(RoughnessConvention::kRoughness, 0.25) == 0.5);
   CHECK(from_alpha(RoughnessConvention::kExponent, 0.5) == 6.0);
   CHECK(from_alpha(RoughnessConvention::kGlossiness, 0.25) == 0.5);
+  CHECK(from_alpha(RoughnessConvention::kSquared, 0.5) == 0.25);
   CHECK_FALSE(convention_from_name("shininess").has_value());
 }

@@ -146,6 +146,8 @@ std::vector<Subject> subjects() {
         Mlp{smooth_network(activation, 1), smooth_network(activation, 2)}, true);
   add("from_roughness", RoughnessConvention::kRoughness, RoughnessConvention::kGlossiness, paper);
   add("from_glossiness", RoughnessConvention::kGlossiness, RoughnessConvention::kRoughness, full);
+  add("to_squared", kAlpha, RoughnessConvention::kSquared, paper);
+  add("from_squared", RoughnessConvention::kSquared, kAlpha, full);
   add("to_exponent", kAlpha, RoughnessConvention::kExponent, paper);
   add("from_exponent", RoughnessConvention::kExponent, kAlpha, full);
   // Kinks cost the lowered form a table of some size; as fitted they are any other activation.
