@@ -59,6 +59,7 @@ class ImageReader {
 
  private:
   friend class ImageWriter;
+  friend std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name);
   struct State;  // image_library.hpp
   std::unique_ptr<State> state_;
 };
@@ -69,8 +70,12 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;  // name and 
 struct ImageChanges {
   std::optional<PixelType> type;                     // of all channels
   std::optional<std::vector<std::string>> channels;  // other channels, all of the type of the first
+  bool is_linear = false;                            // the values follow no curve, whatever the model's do
   Metadata metadata;                                 // to add; TIFF and JPEG keep it in the tag Software
 };
+
+// What an earlier run noted as its metadata under `name`, in the file itself or in its tag Software.
+std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name);
 
 // Writes an image that follows another in everything but `changes`: pixel types, compression, tiling, channel
 // names, metadata and windows, as far as the format (chosen by the extension of `path`) can hold them. Works

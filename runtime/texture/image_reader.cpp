@@ -13,7 +13,7 @@ namespace {
 
 // The compression, where it changes values.
 std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& format) {
-  if (format == "jpeg") return format;
+  if (format == "jpeg" || format == "hdr") return format;
   const std::string compression = spec.get_string_attribute("Compression");
   for (const std::string_view lossy : {"dwaa", "dwab", "b44", "pxr24", "jpeg"}) {
     if (compression.starts_with(lossy)) return compression;
@@ -124,6 +124,16 @@ void ImageReader::read_rows(int first_row, int row_count, std::byte* texels) {
   if (!read || !message.empty())
     state_->fail("rows " + std::to_string(first_row) + " to " + std::to_string(first_row + row_count - 1) +
                  " cannot be read: " + first_line(message, "unknown reason") + "; expected a whole file");
+}
+
+std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name) {
+  const OIIO::ImageSpec& spec = reader.state_->spec;
+  if (const std::string value = spec.get_string_attribute(name); !value.empty()) return value;
+  const std::string software = spec.get_string_attribute("Software"), key = name + "=";
+  const std::size_t begin = software.find(key);
+  if (begin == std::string::npos) return std::nullopt;
+  const std::size_t end = software.find(';', begin);
+  return software.substr(begin + key.size(), end == std::string::npos ? end : end - begin - key.size());
 }
 
 }  // namespace remap

@@ -27,6 +27,7 @@ std::optional<PixelType> stored_type(std::string_view format, PixelType type) {
     return byte_count(type) == 1 ? PixelType::kHalf : PixelType::kFloat;
   }
   if (format == "tiff") return type == PixelType::kHalf ? PixelType::kFloat : type;
+  if (format == "hdr") return PixelType::kFloat;  // three values that share an exponent
   if (format == "png") return type == PixelType::kUint8 ? type : PixelType::kUint16;
   if (format == "jpeg" || format == "targa" || format == "bmp") return PixelType::kUint8;
   return std::nullopt;
@@ -108,6 +109,10 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
   if (!is_mixed && type_desc(*stored) != model.format) spec.erase_attribute("oiio:BitsPerSample");
   if (!is_mixed) spec.set_format(type_desc(*stored));
 
+  // A curve belongs to whole numbers; floats are linear.
+  const bool loses_curve =
+      !is_mixed && is_integer(pixel_type_from_name(model.format.c_str()).value()) && !is_integer(*stored);
+  if (changes.is_linear || loses_curve) spec.attribute("oiio:ColorSpace", "Linear");
   if (format != model_format) leave_coding_behind(spec, output);
   suit_format(spec, format);
   note_metadata(spec, format, changes.metadata);

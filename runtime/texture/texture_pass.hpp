@@ -5,46 +5,52 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "convert/converter.hpp"
+#include "texture/convert_maps.hpp"
 #include "texture/image_io.hpp"
 #include "texture/texture_set.hpp"
 
 namespace remap {
 
-// The maps that a pass makes.
-struct TargetMaps {
-  ImageWriter roughness;
-  ImageWriter specular;
+// What a channel of a result holds.
+struct TargetChannel {
+  enum class Content { kRoughness, kSpecular, kCopy, kMask };
+  Content content = Content::kCopy;
+  std::size_t index = 0;  // of specular's channel
+  ChannelPlace from;      // of a copy
 };
 
-// What was met on the way. Texels count once in each line that applies to them.
-struct PassStatistics {
-  std::size_t texel_count = 0;
-  std::size_t out_of_domain_count = 0;  // texels, as the converter counts them
-  std::size_t nan_count = 0;            // texels with a NaN in roughness or specular
-  std::size_t infinite_count = 0;       // texels with an infinity there
-  std::size_t negative_count = 0;       // texels with a value below 0 there
-  std::size_t clipped_count = 0;        // values, not texels, that an integer pixel type cut to its range
-
-  PassStatistics& operator+=(const PassStatistics& other) noexcept;
+// One file that a pass makes.
+struct TargetMap {
+  ImageWriter writer;
+  std::vector<TargetChannel> channels;             // as many as the file has
+  Transfer specular_transfer = Transfer::kLinear;  // of its specular
 };
+
+// How the values of specular are stored in a file of this layout: as in the source, where both hold whole
+// numbers.
+Transfer stored_transfer(const TextureSet& set, PixelType type) noexcept;
 
 struct PassOptions {
   int thread_count = 1;  // of the conversion; more than 1 also reads ahead and writes behind
   // Bytes that one band of the set may take; whole tiles come first. Two such bands are in memory, three
   // where pixel types change.
   std::size_t band_bytes = std::size_t{8} << 20;
+  std::optional<RoughnessConvention> target_convention;  // of the results; none: the model's own
+  BadTexels bad_texels = BadTexels::kKeep;
+  bool dither = false;
+  bool histogram = false;
   std::function<void(std::size_t rows_done)> progress;
   const std::atomic<bool>* cancelled = nullptr;  // looked at between bands
 };
 
-// Converts `set` into `target`, finishes both files and gives them their names. The values equal
+// Converts `set` into `targets`, finishes the files and gives them their names. The values equal
 // Converter::convert applied texel by texel, whatever the thread count and the band size, rounded to the
-// pixel type of the file. Throws what the files throw; kInput where a roughness file of several channels is
-// not grey; kInterrupted when cancelled. After an exception neither file has appeared (after a failing
-// rename of the second, the first has).
-PassStatistics run_texture_pass(TextureSet& set, TargetMaps& target, const Converter& converter,
-                                const PassOptions& options);
+// pixel type of the file. Throws what the files and convert_maps throw; kInterrupted when cancelled. After an
+// exception no file has appeared (after a failing rename, those renamed before it have).
+MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
+                               const PassOptions& options);
 
 }  // namespace remap

@@ -25,10 +25,41 @@ std::string listed(std::span<const std::string> names) {
   return text;
 }
 
+std::vector<std::string> split_at_commas(std::string_view text) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    parts.emplace_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+// None where one of them is no number.
+std::optional<std::vector<float>> numbers(std::string_view text) {
+  std::vector<float> values;
+  for (const std::string& part : split_at_commas(text)) {
+    const auto number = parse_number(part);
+    if (!number) return std::nullopt;
+    values.push_back(static_cast<float>(*number));
+  }
+  return values;
+}
+
+void require_usable(std::string_view option, std::string_view text, const std::vector<float>& values,
+                    const std::string& expected) {
+  const bool usable = std::all_of(values.begin(), values.end(),
+                                  [](float value) { return std::isfinite(value) && value >= 0.0f; });
+  if (usable && (values.size() == 1 || values.size() == 3)) return;
+  throw Error(ErrorKind::kUsage,
+              std::string(option) + ": is " + std::string(text) + "; expected " + expected);
+}
+
 std::optional<std::size_t> find_channel(const ImageLayout& layout, std::string_view name) {
   const auto same = [&](const Channel& channel) {
-    return std::equal(channel.name.begin(), channel.name.end(), name.begin(), name.end(),
-                      [](char a, char b) { return std::toupper(static_cast<unsigned char>(a)) == b; });
+    return std::equal(channel.name.begin(), channel.name.end(), name.begin(), name.end(), [](char a, char b) {
+      return std::toupper(static_cast<unsigned char>(a)) == std::toupper(static_cast<unsigned char>(b));
+    });
   };
   const auto found = std::find_if(layout.channels.begin(), layout.channels.end(), same);
   if (found == layout.channels.end()) return std::nullopt;
@@ -46,36 +77,16 @@ std::vector<std::size_t> colour_channels(const ImageLayout& layout) {
   return {layout.alpha_channel == 0 && has_alpha ? std::size_t{1} : std::size_t{0}};
 }
 
-[[noreturn]] void fail_missing(const ImageReader& reader, const std::string& expected) {
-  throw Error(ErrorKind::kInput, reader.path().string() + ": has the channels " +
-                                     listed(channel_names(reader.layout())) + "; expected " + expected);
-}
-
-SourceMap open_roughness(const TextureSetRequest& request) {
-  SourceMap map{ImageReader(request.roughness), {}, false};
-  const ImageLayout& layout = map.reader.layout();
-  if (request.roughness_channel) {
-    const std::vector<std::string> names = channel_names(layout);
-    const auto found = std::find(names.begin(), names.end(), *request.roughness_channel);
-    if (found == names.end())
-      throw Error(ErrorKind::kUsage, request.roughness.string() + ": has no channel " +
-                                         *request.roughness_channel +
-                                         suggestion(*request.roughness_channel, names));
-    map.channels = {static_cast<std::size_t>(found - names.begin())};
-    return map;
+std::vector<std::size_t> named_channels(const ImageReader& reader, const std::vector<std::string>& asked) {
+  std::vector<std::size_t> channels;
+  for (const std::string& name : asked) {
+    const std::optional<std::size_t> found = find_channel(reader.layout(), name);
+    if (!found)
+      throw Error(ErrorKind::kUsage, reader.path().string() + ": has no channel " + name +
+                                         suggestion(name, channel_names(reader.layout())));
+    channels.push_back(*found);
   }
-  map.channels = colour_channels(layout);
-  if (map.channels.empty())
-    fail_missing(map.reader, "one channel, Y, or R, G and B; --roughness-channel NAME picks one");
-  map.copies = map.channels.size() > 1;
-  return map;
-}
-
-SourceMap open_specular(const fs::path& path) {
-  SourceMap map{ImageReader(path), {}, false};
-  map.channels = colour_channels(map.reader.layout());
-  if (map.channels.empty()) fail_missing(map.reader, "R, G and B, or one channel");
-  return map;
+  return channels;
 }
 
 std::string window_text(const ImageLayout& layout) {
@@ -85,54 +96,112 @@ std::string window_text(const ImageLayout& layout) {
   return text;
 }
 
-void require_same_texels(const ImageReader& roughness, const ImageReader& specular) {
-  const ImageLayout &a = roughness.layout(), &b = specular.layout();
+void require_same_texels(const ImageReader& first, const ImageReader& other) {
+  const ImageLayout &a = first.layout(), &b = other.layout();
   if (a.width == b.width && a.height == b.height && a.x == b.x && a.y == b.y) return;
-  throw Error(ErrorKind::kInput, specular.path().string() + ": is " + window_text(b) +
-                                     "; expected the size of " + roughness.path().string() + ", " +
+  throw Error(ErrorKind::kInput, other.path().string() + ": is " + window_text(b) +
+                                     "; expected the size of " + first.path().string() + ", " +
                                      window_text(a));
+}
+
+// The index of the file among the maps of the set, which opens it where it is not there.
+std::size_t open_map(const fs::path& file, TextureSet& set) {
+  for (std::size_t i = 0; i < set.maps.size(); ++i) {
+    std::error_code none;
+    if (set.maps[i].path() == file || fs::equivalent(set.maps[i].path(), file, none)) return i;
+  }
+  set.maps.emplace_back(file);
+  require_same_texels(set.maps.front(), set.maps.back());
+  return set.maps.size() - 1;
+}
+
+// Colour in whole numbers follows the curve that its file names; a single channel is data.
+Transfer guessed_transfer(const ImageLayout& layout, const std::vector<std::size_t>& channels) {
+  const bool is_colour = channels.size() == 3 && is_integer(layout.channels[channels.front()].type);
+  return is_colour && layout.is_tagged_nonlinear ? Transfer::kSrgb : Transfer::kLinear;
+}
+
+SetParameter open_parameter(const ParameterRequest& request, const std::string& expected, TextureSet& set) {
+  SetParameter parameter;
+  parameter.factors = request.factors;
+  if (const auto* constants = std::get_if<ConstantValues>(&request.source)) {
+    parameter.constants = *constants;
+    return parameter;
+  }
+  const MapName& name = std::get<MapName>(request.source);
+  const std::size_t map = open_map(name.file, set);
+  const ImageReader& reader = set.maps[map];
+  const std::vector<std::size_t> channels =
+      name.channels.empty() ? colour_channels(reader.layout()) : named_channels(reader, name.channels);
+  if (channels.empty())
+    throw Error(ErrorKind::kInput, reader.path().string() + ": has the channels " +
+                                       listed(channel_names(reader.layout())) + "; expected " + expected +
+                                       ", or FILE:CHANNEL");
+  for (const std::size_t channel : channels) parameter.channels.push_back({map, channel});
+  parameter.transfer = request.transfer.value_or(guessed_transfer(reader.layout(), channels));
+  return parameter;
+}
+
+void require_factors(std::string_view option, const SetParameter& parameter) {
+  if (parameter.factors.size() > 1 && parameter.factors.size() != parameter.channel_count())
+    throw Error(ErrorKind::kUsage, std::string(option) + ": has " + std::to_string(parameter.factors.size()) +
+                                       " values; expected one, or one each for the " +
+                                       std::to_string(parameter.channel_count()) + " channels");
 }
 
 }  // namespace
 
-SpecularSource specular_source(std::string_view text) {
-  ConstantSpecular values;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const auto number = parse_number(text.substr(begin, end - begin));
-    if (!number) return fs::path(text);
-    values.push_back(static_cast<float>(*number));
-    begin = end + 1;
+std::variant<MapName, ConstantValues> parameter_source(std::string_view option, std::string_view text) {
+  if (const auto values = numbers(text)) {
+    require_usable(option, text, *values, "a file, or one or three finite values from 0");
+    return *values;
   }
-  const bool usable = std::all_of(values.begin(), values.end(),
-                                  [](float value) { return std::isfinite(value) && value >= 0.0f; });
-  if (!usable || (values.size() != 1 && values.size() != 3))
-    throw Error(ErrorKind::kUsage, "--specular: is " + std::string(text) +
-                                       "; expected a file, or one or three finite values from 0");
-  return values;
+  std::error_code none;
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos || colon == 0 || text.find('/', colon) != std::string_view::npos ||
+      fs::exists(fs::path(text), none))
+    return MapName{fs::path(text), {}};
+  const std::vector<std::string> channels = split_at_commas(text.substr(colon + 1));
+  const bool named = std::none_of(channels.begin(), channels.end(), [](auto& name) { return name.empty(); });
+  if (!named || (channels.size() != 1 && channels.size() != 3))
+    throw Error(ErrorKind::kUsage, std::string(option) + ": is " + std::string(text) +
+                                       "; expected FILE:CHANNEL, or FILE:R,G,B with three channels");
+  return MapName{fs::path(text.substr(0, colon)), channels};
 }
 
-std::size_t TextureSet::specular_channel_count() const noexcept {
-  if (const auto* map = std::get_if<SourceMap>(&specular)) return map->channels.size();
-  return std::get_if<ConstantSpecular>(&specular)->size();
+std::vector<float> parse_factors(std::string_view option, std::string_view text) {
+  const std::string expected = "one or three finite factors from 0";
+  const auto values = numbers(text);
+  require_usable(option, text, values.value_or(std::vector<float>{}), expected);
+  return *values;
 }
 
 TextureSet open_texture_set(const TextureSetRequest& request) {
-  SourceMap roughness = open_roughness(request);
-  if (const auto* constant = std::get_if<ConstantSpecular>(&request.specular))
-    return {std::move(roughness), *constant};
-  SourceMap specular = open_specular(std::get<fs::path>(request.specular));
-  require_same_texels(roughness.reader, specular.reader);
-  return {std::move(roughness), std::move(specular)};
+  TextureSet set;
+  set.roughness = open_parameter(request.roughness, "one channel, Y, or R, G and B", set);
+  set.specular = open_parameter(request.specular, "R, G and B, or one channel", set);
+  set.convention = request.convention;
+  if (!request.roughness.transfer)
+    set.roughness.transfer = Transfer::kLinear;  // data, whatever the file says
+  if (set.maps.empty())
+    throw Error(ErrorKind::kUsage, "--roughness, --specular: are both constants; expected a map");
+  if (!set.roughness.is_map() && set.roughness.constants.size() != 1)
+    throw Error(ErrorKind::kUsage, "--roughness: has three values; expected one");
+  require_factors("--roughness-factor", set.roughness);
+  require_factors("--specular-factor", set.specular);
+  return set;
 }
 
-std::vector<std::string> doubts(const TextureSet& set) {
+std::vector<std::string> remarks(const TextureSet& set) {
   std::vector<std::string> messages;
-  const auto* specular = std::get_if<SourceMap>(&set.specular);
-  if (specular == nullptr) return messages;
-  const ImageLayout& layout = specular->reader.layout();
-  if (layout.is_tagged_nonlinear && is_integer(layout.channels[specular->channels.front()].type))
-    messages.push_back(specular->reader.path().string() +
+  if (!set.specular.is_map()) return messages;
+  const ImageReader& reader = set.maps[set.specular.channels.front().map];
+  const bool is_whole = is_integer(reader.layout().channels[set.specular.channels.front().channel].type);
+  if (set.specular.transfer == Transfer::kSrgb)
+    messages.push_back(reader.path().string() +
+                       ": specular is read as colour in sRGB; --color-space linear " + "reads it as data");
+  else if (is_whole && reader.layout().is_tagged_nonlinear && set.specular.channels.size() == 3)
+    messages.push_back(reader.path().string() +
                        ": is tagged as not linear (sRGB); its values are read as linear");
   return messages;
 }

@@ -9,48 +9,78 @@
 #include <variant>
 #include <vector>
 
+#include "model/convention.hpp"
 #include "texture/image_io.hpp"
+#include "texture/transfer.hpp"
 
 namespace remap {
 
-// Linear specular without a map: one value for grey, or one each for red, green and blue.
-using ConstantSpecular = std::vector<float>;
-using SpecularSource = std::variant<std::filesystem::path, ConstantSpecular>;
+// Linear values without a map: one, or one each for red, green and blue.
+using ConstantValues = std::vector<float>;
 
-// `0.5` or `0.9,0.6,0.2` is a constant, anything else a file. Throws kUsage for a list of numbers that is
-// neither one nor three long or that holds a negative or infinite one.
-SpecularSource specular_source(std::string_view text);
+// A file, and the channels of it by name; none: those that hold colour, or the only one.
+struct MapName {
+  std::filesystem::path file;
+  std::vector<std::string> channels;
+};
 
-// What a caller names.
+// One parameter as a caller names it.
+struct ParameterRequest {
+  std::variant<MapName, ConstantValues> source;
+  std::vector<float> factors;        // of the linear values: none, one, or one a channel
+  std::optional<Transfer> transfer;  // of the stored values; none: as the file says
+};
+
+// `0.5` and `0.9,0.6,0.2` are constants; `maps.png:G` and `maps.exr:R,G,B` channels of a file, unless there
+// is a file of that whole name; anything else is a file. Throws kUsage, naming `option`, for a list of
+// numbers that is neither one nor three long or that holds a negative or infinite one.
+std::variant<MapName, ConstantValues> parameter_source(std::string_view option, std::string_view text);
+
+// One or three finite factors from 0; throws as above.
+std::vector<float> parse_factors(std::string_view option, std::string_view text);
+
 struct TextureSetRequest {
-  std::filesystem::path roughness;
-  SpecularSource specular;
-  std::optional<std::string> roughness_channel;  // by name, where the roughness file holds more than one
+  ParameterRequest roughness;
+  ParameterRequest specular;
+  std::optional<RoughnessConvention> convention;  // of the roughness map; none: the model's own
 };
 
-// One file of a set and its channels that are converted; every other channel passes through.
-struct SourceMap {
-  ImageReader reader;
-  std::vector<std::size_t> channels;  // indices into reader.layout().channels
-  // The channels are copies of one value: read the first, check the others, write all.
-  bool copies = false;
+// Where the values of a channel lie: in a map of the set.
+struct ChannelPlace {
+  std::size_t map = 0;
+  std::size_t channel = 0;  // index into its layout's channels
+  bool operator==(const ChannelPlace&) const = default;
 };
 
-// An open set: every texel has one roughness and one or three specular values.
+// One parameter of an open set.
+struct SetParameter {
+  std::vector<ChannelPlace> channels;  // empty: constant. Of the roughness: copies of one value where several
+  ConstantValues constants;
+  std::vector<float> factors;
+  Transfer transfer = Transfer::kLinear;
+
+  bool is_map() const noexcept { return !channels.empty(); }
+  std::size_t channel_count() const noexcept { return is_map() ? channels.size() : constants.size(); }
+};
+
+// An open set: every texel has one roughness and one or three specular values. Files that are named twice are
+// opened once. At least one of the parameters is a map.
 struct TextureSet {
-  SourceMap roughness;
-  std::variant<SourceMap, ConstantSpecular> specular;
+  std::vector<ImageReader> maps;
+  SetParameter roughness;
+  SetParameter specular;
+  std::optional<RoughnessConvention> convention;
 
-  int width() const noexcept { return roughness.reader.layout().width; }
-  int height() const noexcept { return roughness.reader.layout().height; }
-  std::size_t specular_channel_count() const noexcept;
+  int width() const noexcept { return maps.front().layout().width; }
+  int height() const noexcept { return maps.front().layout().height; }
 };
 
 // Opens the files and finds the channels. Throws kInput where a file cannot be read, where a channel is
-// missing, and where two maps do not cover the same texels; kUsage for an unknown `roughness_channel`.
+// missing, and where two maps do not cover the same texels; kUsage for the name of a channel that a file does
+// not have and where no parameter is a map.
 TextureSet open_texture_set(const TextureSetRequest& request);
 
 // What a person should know about the set before trusting the result; one message each, without place.
-std::vector<std::string> doubts(const TextureSet& set);
+std::vector<std::string> remarks(const TextureSet& set);
 
 }  // namespace remap

@@ -70,7 +70,7 @@ TEST_CASE("texremap: unknown values of options are wrong usage") {
   check_failure(session.convert("r.exr", "s.exr", {"--type", "hlaf"}), 2, "did you mean half?");
   check_failure(session.convert("r.exr", "s.exr", {"--format", "pgn"}), 2, "did you mean png?");
   check_failure(session.convert("r.exr", "s.exr", {"--threads", "many"}), 2, "--threads");
-  check_failure(session.convert("r.exr", "s.exr", {"--roughness-channel", "X"}), 2, "has no channel X");
+  check_failure(session.convert("r.exr:X", "s.exr"), 2, "has no channel X");
   CHECK_FALSE(fs::exists(session.path("out")));
 }
 
@@ -119,11 +119,11 @@ TEST_CASE("texremap: a roughness map that is not grey needs a channel") {
   const Session session;
   session.write_pair("exr");
   const ProcessResult result = session.convert("s.exr", "s.exr");
-  check_failure(result, 2, "would be the name of both results");
+  check_failure(result, 2, "channel R is both roughness and specular; expected FILE:CHANNEL");
   fs::copy_file(session.path("s.exr"), session.path("colour.exr"));
   check_failure(session.convert("colour.exr", "s.exr"), 1, "is not grey");
   CHECK(session.file_count() == 0);
-  CHECK(session.convert("colour.exr", "s.exr", {"--roughness-channel", "G"}).exit_code == 0);
+  CHECK(session.convert("colour.exr:G", "s.exr").exit_code == 0);
   const TestImage in = read_image(session.path("colour.exr")),
                   out = read_image(session.path("out/colour.exr"));
   CHECK(out.at(3, 4, 0) == in.at(3, 4, 0));

@@ -10,6 +10,7 @@
 #include "support/example_fit.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
+#include "texture/target_plan.hpp"
 
 using namespace remap;
 
@@ -37,8 +38,8 @@ Texel converted(const Converter& converter, const Texel& texel) {
 struct Scene {
   TemporaryFolder folder;
   std::filesystem::path roughness = folder.path() / "r.exr", specular = folder.path() / "s.exr";
-  std::filesystem::path roughness_out = folder.path() / "r_out.exr",
-                        specular_out = folder.path() / "s_out.exr";
+  std::filesystem::path roughness_out = folder.path() / "out/r.exr",
+                        specular_out = folder.path() / "out/s.exr";
 
   explicit Scene(int tile = 0) {
     auto spec = test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeFloat);
@@ -47,11 +48,16 @@ struct Scene {
     spec.tile_width = spec.tile_height = tile;
     write_image(specular, spec, [](int x, int y, int c) { return noise(x, y, c + 1); });
   }
-  PassStatistics pass(const Converter& converter, const PassOptions& options) const {
-    TextureSet set = open_texture_set({roughness, specular, {}});
-    TargetMaps target{ImageWriter(roughness_out, set.roughness.reader, {}),
-                      ImageWriter(specular_out, std::get<SourceMap>(set.specular).reader, {})};
-    return run_texture_pass(set, target, converter, options);
+  MapStatistics pass(const Converter& converter, const PassOptions& options) const {
+    TextureSetRequest request;
+    request.roughness.source = MapName{roughness, {}};
+    request.specular.source = MapName{specular, {}};
+    TextureSet set = open_texture_set(request);
+    TargetChoice choice;
+    choice.folder = folder.path() / "out";
+    choice.force = true;
+    std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice), choice);
+    return run_texture_pass(set, targets, converter, options);
   }
 };
 
@@ -87,7 +93,7 @@ TEST_CASE("texture pass: equals the converter texel by texel, whatever the threa
         CHECK(rows > last);
         last = rows;
       };
-      const PassStatistics statistics = scene.pass(*converter, options);
+      const MapStatistics statistics = scene.pass(*converter, options);
       CHECK(statistics.texel_count == kWidth * kHeight);
       CHECK(last == kHeight);
       check_every_texel(scene, *converter);
@@ -117,7 +123,10 @@ TEST_CASE("texture pass: odd values are counted by texel") {
                 return 0.25f;
               });
   const auto converter = make_interpreted_converter(example_fit());
-  const PassStatistics statistics = scene.pass(*converter, {});
+  const MapStatistics statistics = scene.pass(*converter, {});
+  REQUIRE(statistics.first_bad.has_value());
+  CHECK(statistics.first_bad->x == 0);
+  CHECK(statistics.first_bad->y == 7);
   CHECK(statistics.nan_count == 4);
   CHECK(statistics.infinite_count == 3);
   CHECK(statistics.negative_count == 5);
@@ -142,8 +151,9 @@ TEST_CASE("texture pass: cancelled, it says so and leaves no file") {
     CHECK(error.kind() == ErrorKind::kInterrupted);
   }
   std::size_t files = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(scene.folder.path())) ++files;
-  CHECK(files == 2);
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(scene.folder.path() / "out"))
+    ++files;
+  CHECK(files == 0);
 }
 
 TEST_CASE("texture pass: a roughness map that is not grey is refused with the texel") {

@@ -24,64 +24,121 @@ struct Files {
   }
 };
 
-std::vector<std::size_t> roughness_channels(const TextureSetRequest& request) {
-  return open_texture_set(request).roughness.channels;
+using Source = std::variant<MapName, ConstantValues>;
+
+const Source kGrey = ConstantValues{0.5f};
+
+TextureSet opened(Source roughness, Source specular) {
+  TextureSetRequest request;
+  request.roughness.source = std::move(roughness);
+  request.specular.source = std::move(specular);
+  return open_texture_set(request);
 }
+
+std::vector<std::size_t> roughness_channels(const std::filesystem::path& file,
+                                            const std::vector<std::string>& names = {}) {
+  std::vector<std::size_t> channels;
+  for (const ChannelPlace& place : opened(MapName{file, names}, kGrey).roughness.channels)
+    channels.push_back(place.channel);
+  return channels;
+}
+
+ConstantValues constants(const char* text) {
+  return std::get<ConstantValues>(parameter_source("--specular", text));
+}
+MapName map(const std::string& text) { return std::get<MapName>(parameter_source("--specular", text)); }
 
 }  // namespace
 
-TEST_CASE("texture set: numbers are a constant specular, anything else a file") {
-  CHECK(std::get<ConstantSpecular>(specular_source("0.5")) == ConstantSpecular{0.5f});
-  CHECK(std::get<ConstantSpecular>(specular_source("0.9,0.6,0.2")) == ConstantSpecular{0.9f, 0.6f, 0.2f});
-  CHECK(std::get<std::filesystem::path>(specular_source("0.5.exr")) == "0.5.exr");
-  CHECK(std::get<std::filesystem::path>(specular_source("a,b.exr")) == "a,b.exr");
-  CHECK(std::get<std::filesystem::path>(specular_source("")) == "");
+TEST_CASE("texture set: numbers are constants, anything else a file") {
+  CHECK(constants("0.5") == ConstantValues{0.5f});
+  CHECK(constants("0.9,0.6,0.2") == ConstantValues{0.9f, 0.6f, 0.2f});
+  CHECK(map("0.5.exr").file == "0.5.exr");
+  CHECK(map("a,b.exr").file == "a,b.exr");
+  CHECK(map("").file == "");
   for (const char* bad : {"0.5,0.5", "-1", "1,2,3,4", "inf", "nan"})
-    CHECK_THROWS_AS(specular_source(bad), Error);
+    CHECK_THROWS_WITH(constants(bad), Contains("--specular: is ") && Contains("expected a file"));
+}
+
+TEST_CASE("texture set: a file and its channels are told apart at the last colon") {
+  CHECK(map("orm.png:G").file == "orm.png");
+  CHECK(map("orm.png:G").channels == std::vector<std::string>{"G"});
+  CHECK(map("a:b/c.exr:R,G,B").file == "a:b/c.exr");
+  CHECK(map("a:b/c.exr:R,G,B").channels == std::vector<std::string>{"R", "G", "B"});
+  CHECK(map("a:b/c.exr").file == "a:b/c.exr");
+  CHECK(map("layers.exr:base.specular.R").channels == std::vector<std::string>{"base.specular.R"});
+  CHECK(map(":G").file == ":G");
+  for (const char* bad : {"a.png:", "a.png:R,G", "a.png:R,,B"}) CHECK_THROWS_AS(map(bad), Error);
+  // A file of the whole name comes first.
+  const Files files;
+  const std::string odd = files.image("odd:G.exr", {"Y"}).string();
+  CHECK(map(odd).file == odd);
+}
+
+TEST_CASE("texture set: factors are one or three numbers from 0") {
+  CHECK(parse_factors("--specular-factor", "0.5") == std::vector<float>{0.5f});
+  CHECK(parse_factors("--specular-factor", "1,0.5,0").size() == 3);
+  for (const char* bad : {"x", "-1", "1,2", "inf", ""})
+    CHECK_THROWS_WITH(parse_factors("--specular-factor", bad), Contains("--specular-factor: is "));
+  const Files files;
+  TextureSetRequest request;
+  request.roughness.source = MapName{files.image("r.exr", {"Y"}), {}};
+  request.specular = {kGrey, {1.0f, 1.0f, 1.0f}, std::nullopt};
+  CHECK_THROWS_WITH(open_texture_set(request), Contains("--specular-factor: has 3 values; expected one"));
 }
 
 TEST_CASE("texture set: the roughness is the only channel, Y, or equal colours") {
   const Files files;
-  const ConstantSpecular grey = {0.5f};
-  CHECK(roughness_channels({files.image("1.exr", {"width"}), grey, {}}) == std::vector<std::size_t>{0});
-  CHECK(roughness_channels({files.image("2.exr", {"Y", "A"}), grey, {}}) == std::vector<std::size_t>{0});
-  CHECK(roughness_channels({files.image("3.exr", {"r", "g", "b"}), grey, {}}) ==
-        std::vector<std::size_t>{0, 1, 2});
-  CHECK(roughness_channels({files.image("4.exr", {"R", "G", "B"}), grey, "G"}) ==
-        std::vector<std::size_t>{1});
-  CHECK(open_texture_set({files.image("5.exr", {"R", "G", "B"}), grey, {}}).roughness.copies);
+  CHECK(roughness_channels(files.image("1.exr", {"width"})) == std::vector<std::size_t>{0});
+  CHECK(roughness_channels(files.image("2.exr", {"Y", "A"})) == std::vector<std::size_t>{0});
+  CHECK(roughness_channels(files.image("3.exr", {"r", "g", "b"})) == std::vector<std::size_t>{0, 1, 2});
+  CHECK(roughness_channels(files.image("4.exr", {"R", "G", "B"}), {"G"}) == std::vector<std::size_t>{1});
+  CHECK(roughness_channels(files.image("5.exr", {"R", "G", "B"}), {"g"}) == std::vector<std::size_t>{1});
+}
+
+TEST_CASE("texture set: a packed file is opened once") {
+  const Files files;
+  const auto packed = files.image("packed.exr", {"R", "G", "B", "A"});
+  const TextureSet set =
+      opened(MapName{packed, {"A"}}, MapName{files.folder.path() / "." / "packed.exr", {"R", "G", "B"}});
+  CHECK(set.maps.size() == 1);
+  CHECK(set.roughness.channels == std::vector<ChannelPlace>{{0, 3}});
+  CHECK(set.specular.channels == std::vector<ChannelPlace>{{0, 0}, {0, 1}, {0, 2}});
 }
 
 TEST_CASE("texture set: a missing channel is answered with those that are there") {
   const Files files;
   const auto odd = files.image("odd.exr", {"first", "second"});
   const auto plain = files.image("plain.exr", {"Y"});
-  CHECK_THROWS_WITH(open_texture_set({odd, ConstantSpecular{0.5f}, {}}),
-                    Contains("has the channels first, second") && Contains("--roughness-channel"));
-  CHECK_THROWS_WITH(open_texture_set({plain, odd, {}}),
+  CHECK_THROWS_WITH(opened(MapName{odd, {}}, kGrey),
+                    Contains("has the channels first, second") && Contains("FILE:CHANNEL"));
+  CHECK_THROWS_WITH(opened(MapName{plain, {}}, MapName{odd, {}}),
                     Contains("odd.exr: has the channels first, second; expected R, G and B"));
-  CHECK_THROWS_WITH(open_texture_set({odd, ConstantSpecular{0.5f}, "secand"}),
-                    Contains("did you mean second?"));
+  CHECK_THROWS_WITH(opened(MapName{odd, {"secand"}}, kGrey), Contains("did you mean second?"));
 }
 
 TEST_CASE("texture set: maps of different size are refused with both sizes") {
   const Files files;
-  CHECK_THROWS_WITH(
-      open_texture_set({files.image("r.exr", {"Y"}, 4, 3), files.image("s.exr", {"R", "G", "B"}, 8, 6), {}}),
-      Contains("8 x 6") && Contains("4 x 3"));
+  CHECK_THROWS_WITH(opened(MapName{files.image("r.exr", {"Y"}, 4, 3), {}},
+                           MapName{files.image("s.exr", {"R", "G", "B"}, 8, 6), {}}),
+                    Contains("8 x 6") && Contains("4 x 3"));
 }
 
-TEST_CASE("texture set: an integer specular map tagged sRGB is a doubt, a float one is none") {
+TEST_CASE("texture set: colour in whole numbers tagged sRGB is read as such, and said") {
   const Files files;
   auto spec = test_spec(4, 3, {"R", "G", "B"}, OIIO::TypeUInt8);
   const auto png = files.folder.path() / "s.png";
   spec.attribute("oiio:ColorSpace", "sRGB");
   write_image(png, spec, noise);
   const auto roughness = files.image("r.exr", {"Y"});
-  const TextureSet tagged = open_texture_set({roughness, png, {}});
-  REQUIRE(doubts(tagged).size() == 1);
-  CHECK_THAT(doubts(tagged).front(), Contains("read as linear"));
-  CHECK(doubts(open_texture_set({roughness, files.image("s.exr", {"R", "G", "B"}), {}})).empty());
+  const TextureSet tagged = opened(MapName{roughness, {}}, MapName{png, {}});
+  CHECK(tagged.specular.transfer == Transfer::kSrgb);
+  REQUIRE(remarks(tagged).size() == 1);
+  CHECK_THAT(remarks(tagged).front(), Contains("is read as colour in sRGB"));
+  // One channel of it is data, and so are floats and every roughness.
+  CHECK(opened(MapName{roughness, {}}, MapName{png, {"G"}}).specular.transfer == Transfer::kLinear);
+  CHECK(opened(MapName{png, {}}, kGrey).roughness.transfer == Transfer::kLinear);
+  CHECK(remarks(opened(MapName{roughness, {}}, MapName{files.image("s.exr", {"R", "G", "B"}), {}})).empty());
 }
 
 TEST_CASE("image reader: parts, mip levels and folders are refused with the reason") {

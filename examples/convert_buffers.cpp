@@ -1,0 +1,47 @@
+// Converts the maps of a material in memory, as an asset pipeline would: an 8-bit RGBA buffer with specular
+// in its colours (sRGB) and glossiness in its alpha, in place. No files, no image library.
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "convert/chained_converter.hpp"
+#include "convert/path.hpp"
+#include "error.hpp"
+#include "texture/convert_maps.hpp"
+
+int main() try {
+  constexpr std::size_t kWidth = 256, kHeight = 256;
+  std::vector<std::uint8_t> texels(kWidth * kHeight * 4);
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<std::uint8_t>(i * 7 / 256);
+
+  // The path of least expected error from one model to the other, as texremap takes it.
+  const remap::ConverterPath path =
+      remap::compiled_graph().find_paths({"mitsuba/ward", "cycles-2.7/ggx", {}}).front();
+  const auto converter = remap::make_chained_converter(path.steps);
+
+  const auto channel = [&](std::size_t c) {
+    return remap::ChannelView{reinterpret_cast<std::byte*>(texels.data() + c), remap::PixelType::kUint8, 4,
+                              static_cast<std::ptrdiff_t>(4 * kWidth)};
+  };
+  remap::MapConversion maps;
+  maps.width = kWidth;
+  maps.height = kHeight;
+  for (std::size_t c = 0; c < 3; ++c) {
+    maps.specular.channels.push_back(channel(c));
+    maps.specular_out.channels.push_back(channel(c));
+  }
+  maps.specular.transfer = maps.specular_out.transfer = remap::Transfer::kSrgb;
+  maps.roughness.channels = {channel(3)};
+  maps.roughness_out.channels = {channel(3)};
+  maps.source_convention = maps.target_convention = remap::RoughnessConvention::kGlossiness;
+
+  const remap::MapStatistics done = remap::convert_maps(*converter, maps, 2);
+  std::printf("%zu texels, %zu out of domain, specular %.3f to %.3f\n", done.texel_count,
+              done.out_of_domain_count, static_cast<double>(done.specular_out.min),
+              static_cast<double>(done.specular_out.max));
+  return 0;
+} catch (const remap::Error& error) {
+  std::fprintf(stderr, "convert_buffers: %s\n", error.what());
+  return 1;
+}

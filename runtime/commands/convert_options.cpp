@@ -1,0 +1,171 @@
+#include "commands/convert_options.hpp"
+
+#include <algorithm>
+#include <array>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "error.hpp"
+#include "nearest_name.hpp"
+
+namespace remap {
+namespace {
+
+[[noreturn]] void fail_unknown(const std::string& option, const std::string& word,
+                               const std::vector<std::string>& known) {
+  throw Error(ErrorKind::kUsage, option + ": is " + word + suggestion(word, known));
+}
+
+std::optional<RoughnessConvention> convention_of(const std::string& option, const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  const auto convention = convention_from_name(word);
+  if (!convention) fail_unknown(option, word, convention_names());
+  return convention;
+}
+
+std::optional<Transfer> transfer_of(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  const auto transfer = transfer_from_name(word);
+  if (!transfer) fail_unknown("--color-space", word, transfer_names());
+  return transfer;
+}
+
+std::optional<PixelType> chosen_type(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  const std::vector<std::string> known = {"uint8", "uint16", "half", "float"};
+  if (std::find(known.begin(), known.end(), name) == known.end()) fail_unknown("--type", name, known);
+  return pixel_type_from_name(name);
+}
+
+BadTexels bad_texels_of(const std::string& word) {
+  if (word == "keep") return BadTexels::kKeep;
+  if (word == "clamp") return BadTexels::kClamp;
+  if (word == "fail") return BadTexels::kFail;
+  fail_unknown("--bad-texels", word, {"keep", "clamp", "fail"});
+}
+
+std::vector<float> factors_of(const std::string& option, const std::string& text) {
+  return text.empty() ? std::vector<float>{} : parse_factors(option, text);
+}
+
+void add_input_options(CLI::App& command, ConvertOptions& options) {
+  CLI::Option* roughness =
+      command.add_option("--roughness", options.roughness,
+                         "Roughness of the source model: a map, FILE:CHANNEL of a packed one, or a number");
+  command
+      .add_option("--glossiness", options.glossiness,
+                  "The same as glossiness, 1 - sqrt(alpha): --roughness with --roughness-encoding glossiness")
+      ->excludes(roughness);
+  command
+      .add_option("--specular", options.specular,
+                  "Specular: a map, FILE:CHANNEL or FILE:R,G,B, or linear numbers: 0.5, or 0.9,0.6,0.2")
+      ->required();
+  command.add_option("--roughness-factor", options.roughness_factor,
+                     "Multiplies the roughness map (or the glossiness map) before it is read");
+  command.add_option("--specular-factor", options.specular_factor,
+                     "Multiplies linear specular: one number, or three");
+  command.add_option("--roughness-encoding", options.encoding,
+                     "What the roughness map holds: alpha, roughness (its square root), squared, glossiness, "
+                     "exponent; the default is the source model's own");
+  command.add_option(
+      "--color-space", options.color_space,
+      "Of a specular map: srgb or linear. The default: sRGB for colour in whole numbers that the "
+      "file says to be sRGB (PNG, JPEG, TGA), else linear");
+  command
+      .add_option("--bad-texels", options.bad_texels,
+                  "NaN, infinite and negative values: keep, clamp to what the converter covers, or fail")
+      ->capture_default_str();
+}
+
+void add_output_options(CLI::App& command, ConvertOptions& options) {
+  command.add_option("-o,--output", options.output, "Folder of the results; their names are the inputs'");
+  command.add_option("--only", options.only, "Convert roughness or specular alone, the other one only read");
+  command.add_option("--output-encoding", options.output_encoding,
+                     "What the roughness results hold; the default is the target model's own");
+  command.add_option("--mask", options.mask, "Name of a map to write as well: 1 for texels out of domain");
+  command.add_option("--format", options.format, "Extension of the results: exr, tif, png, ...");
+  command.add_option("--type", options.type, "Pixel type of the results: uint8, uint16, half, float");
+  command.add_flag("--dither", options.dither,
+                   "Noise of half a step where results have 8 bits; the same in every run");
+  command.add_flag("--force", options.force,
+                   "Replace results that exist (never an input); convert converted maps");
+}
+
+}  // namespace
+
+void add_convert_options(CLI::App& command, ConvertOptions& options) {
+  command.add_option("--from", options.from, "Source model, e.g. mitsuba/ward");
+  command.add_option("--to", options.to, "Target model, e.g. mitsuba/as");
+  CLI::Option* via =
+      command
+          .add_option("--via", options.via,
+                      "Model that the path must go through; give it again for more, in their order")
+          ->allow_extra_args(false);
+  command.add_option("--fit", options.fit, "Lower this fit (JSON) instead of taking compiled converters")
+      ->excludes(via);
+  add_input_options(command, options);
+  add_output_options(command, options);
+  command.add_option("--threads", options.thread_count, "Threads; 0, the default, is one a core")
+      ->check(CLI::Range(0, 1024));
+  command.add_option("--instructions", options.instructions,
+                     "baseline, avx2 or avx512; the default is the widest of this processor. The results "
+                     "are the same");
+  command.add_flag("--json", options.json, "Machine-readable result on standard output, with histograms");
+  command.add_flag("--quiet", options.quiet, "Nothing on standard error but failures");
+}
+
+TextureSetRequest set_request(const ConvertOptions& options) {
+  const bool glossy = !options.glossiness.empty();
+  if (options.roughness.empty() && !glossy)
+    throw Error(ErrorKind::kUsage, "--roughness: is missing; expected a map or a number, or --glossiness");
+  if (glossy && !options.encoding.empty())
+    throw Error(ErrorKind::kUsage,
+                "--roughness-encoding: does not go with --glossiness; expected --roughness");
+  TextureSetRequest request;
+  request.roughness.source = glossy ? parameter_source("--glossiness", options.glossiness)
+                                    : parameter_source("--roughness", options.roughness);
+  request.roughness.factors = factors_of("--roughness-factor", options.roughness_factor);
+  request.specular.source = parameter_source("--specular", options.specular);
+  request.specular.factors = factors_of("--specular-factor", options.specular_factor);
+  request.specular.transfer = transfer_of(options.color_space);
+  request.convention =
+      glossy ? RoughnessConvention::kGlossiness : convention_of("--roughness-encoding", options.encoding);
+  return request;
+}
+
+TargetChoice target_choice(const ConvertOptions& options) {
+  if (!options.only.empty() && options.only != "roughness" && options.only != "specular")
+    fail_unknown("--only", options.only, {"roughness", "specular"});
+  TargetChoice choice;
+  choice.folder = options.output;
+  choice.extension = options.format;
+  choice.type = chosen_type(options.type);
+  if (!options.mask.empty()) choice.mask = options.mask;
+  choice.roughness = options.only != "specular";
+  choice.specular = options.only != "roughness";
+  choice.force = options.force;
+  return choice;
+}
+
+PassOptions pass_options(const ConvertOptions& options) {
+  PassOptions pass;
+  pass.thread_count = thread_count(options);
+  pass.target_convention = convention_of("--output-encoding", options.output_encoding);
+  pass.bad_texels = bad_texels_of(options.bad_texels);
+  pass.dither = options.dither;
+  pass.histogram = options.json;
+  return pass;
+}
+
+InstructionSet chosen_instructions(const ConvertOptions& options) {
+  if (options.instructions.empty()) return best_instruction_set();
+  return instruction_set_from_name("--instructions", options.instructions);
+}
+
+int thread_count(const ConvertOptions& options) {
+  if (options.thread_count > 0) return options.thread_count;
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+}  // namespace remap

@@ -1,0 +1,54 @@
+// The words of `texremap convert` and what they ask for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "convert/instruction_set.hpp"
+#include "texture/target_plan.hpp"
+#include "texture/texture_pass.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace remap {
+
+struct ConvertOptions {
+  std::string from;
+  std::string to;
+  std::vector<std::string> via;
+  std::string fit;
+  std::string roughness;
+  std::string glossiness;
+  std::string specular;
+  std::string roughness_factor;
+  std::string specular_factor;
+  std::string encoding;
+  std::string output_encoding;
+  std::string color_space;
+  std::string only;
+  std::string bad_texels = "keep";
+  std::string mask;
+  std::string output;
+  std::string format;
+  std::string type;
+  std::string instructions;
+  int thread_count = 0;
+  bool dither = false;
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+void add_convert_options(CLI::App& command, ConvertOptions& options);
+
+// Each throws kUsage, naming the option, for what there is not.
+TextureSetRequest set_request(const ConvertOptions& options);
+TargetChoice target_choice(const ConvertOptions& options);
+PassOptions pass_options(const ConvertOptions& options);
+InstructionSet chosen_instructions(const ConvertOptions& options);
+int thread_count(const ConvertOptions& options);
+
+}  // namespace remap

@@ -1,0 +1,127 @@
+// The conversion of maps that lie in memory, without any file: what texremap runs on each band of its files,
+// and what a program calls on buffers of its own (examples/convert_buffers.cpp).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "convert/converter.hpp"
+#include "model/convention.hpp"
+#include "texture/pixel_type.hpp"
+#include "texture/transfer.hpp"
+
+namespace remap {
+
+// One channel of a map in memory. The value of texel (x, y) lies at first + y row_stride + x texel_stride and
+// need not be aligned. Strides are in bytes; a negative row stride is an image that begins at its bottom.
+template <typename Byte>
+struct BasicChannelView {
+  Byte* first = nullptr;
+  PixelType type = PixelType::kFloat;
+  std::ptrdiff_t texel_stride = 0;
+  std::ptrdiff_t row_stride = 0;
+
+  operator BasicChannelView<const Byte>() const noexcept  // what can be written can be read
+      requires(!std::is_const_v<Byte>) {
+    return {first, type, texel_stride, row_stride};
+  }
+};
+using ChannelView = BasicChannelView<std::byte>;
+using ConstChannelView = BasicChannelView<const std::byte>;
+
+// A channel of packed rows of `width` texels of floats with `values_a_texel` values each, `first` being its
+// value in the first texel.
+ChannelView float_channel(float* first, std::size_t width, std::size_t values_a_texel = 1) noexcept;
+ConstChannelView float_channel(const float* first, std::size_t width,
+                               std::size_t values_a_texel = 1) noexcept;
+
+// Where the values of one parameter come from: a channel each, or a constant each where there is no map.
+struct SourceParameter {
+  std::vector<ConstChannelView> channels;
+  std::vector<float> constants;            // linear; used where `channels` is empty
+  std::vector<float> factors;              // of the linear values; none, one, or one a channel
+  Transfer transfer = Transfer::kLinear;   // of the stored values
+  std::string name;                        // for messages: a file, a buffer
+  std::vector<std::string> channel_names;  // for messages; as many as channels
+};
+
+// Where they go to. No channels: the parameter is not wanted.
+struct TargetParameter {
+  std::vector<ChannelView> channels;
+  Transfer transfer = Transfer::kLinear;
+};
+
+// What to do with values that no material has: NaN, infinite and negative ones.
+enum class BadTexels {
+  kKeep,   // NaN and infinity stay, where the pixel type can hold them; widths below the covered range are
+           // held at its edge, specular below 0 at 0
+  kClamp,  // NaN and negative values become the lowest that the converter covers, infinity the highest
+  kFail,   // the first one ends the conversion
+};
+
+struct MapConversion {
+  std::size_t width = 0;
+  std::size_t height = 0;
+  // One channel, or copies of one value, which is required: kInput names the first texel where they differ.
+  SourceParameter roughness;
+  SourceParameter specular;       // 1 or 3 channels or constants
+  TargetParameter roughness_out;  // every channel gets the value
+  TargetParameter specular_out;   // as many channels as the source has; may be the source's own memory
+  // Of the values in the maps; the model's own where there is none.
+  std::optional<RoughnessConvention> source_convention;
+  std::optional<RoughnessConvention> target_convention;
+  std::optional<ChannelView> mask;  // gets 1 for texels out of domain, else 0
+  BadTexels bad_texels = BadTexels::kKeep;
+  bool dither = false;        // values for 8-bit integers: noise of half a step, the same in every run
+  bool histogram = false;     // fill in the histograms of the statistics
+  std::size_t first_row = 0;  // position of row 0 in the whole map: for messages, `first_bad` and dithering
+};
+
+// The values of one parameter, as the map has them (linear, in the encoding of the map), all channels
+// together.
+struct ParameterStatistics {
+  static constexpr std::size_t kBins = 32;
+  float min = 0.0f;  // of finite values; both 0 where there is none
+  float max = 0.0f;
+  std::size_t finite_count = 0;
+  std::array<std::size_t, kBins> histogram{};  // [0, 1] in equal parts; values beyond count in the outermost
+
+  ParameterStatistics& operator+=(const ParameterStatistics& other) noexcept;
+};
+
+struct TexelPosition {
+  std::size_t x = 0;
+  std::size_t y = 0;
+};
+
+// What was met on the way. Texels count once in each line that applies to them.
+struct MapStatistics {
+  std::size_t texel_count = 0;
+  std::size_t out_of_domain_count = 0;     // texels, as the converter counts them
+  std::size_t nan_count = 0;               // texels with a NaN in roughness or specular
+  std::size_t infinite_count = 0;          // texels with an infinity there
+  std::size_t negative_count = 0;          // texels with a value below 0 there
+  std::size_t clipped_count = 0;           // values, not texels, that an integer pixel type cut to its range
+  std::optional<TexelPosition> first_bad;  // the first, row by row, of those with NaN, infinity or below 0
+  ParameterStatistics roughness, specular, roughness_out, specular_out;
+
+  // `other`: of rows below.
+  MapStatistics& operator+=(const MapStatistics& other) noexcept;
+};
+
+// Converts every texel. The results are those of Converter::convert texel by texel, whatever the thread
+// count. Throws kInput where a roughness of several channels is not grey and, asked to, for the first bad
+// texel; kUsage where the channels do not fit together.
+MapStatistics convert_maps(const Converter& converter, const MapConversion& maps, int thread_count = 1);
+
+// Copies a channel of another map: bit for bit where the pixel types are the same, else by way of floats.
+// Returns how many values an integer pixel type cut to its range.
+std::size_t copy_channel(const ConstChannelView& from, const ChannelView& to, std::size_t width,
+                         std::size_t height);
+
+}  // namespace remap

@@ -1,0 +1,43 @@
+// Which files a conversion makes, what their channels hold, and the refusals that keep other files safe.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "texture/texture_pass.hpp"
+
+namespace remap {
+
+// A result before it is opened.
+struct PlannedMap {
+  std::filesystem::path path;
+  std::size_t model = 0;  // the map of the set that it follows
+  ImageChanges changes;
+  std::vector<TargetChannel> channels;
+};
+
+struct TargetChoice {
+  std::filesystem::path folder;
+  std::string extension;            // of all files; empty: as the inputs
+  std::optional<PixelType> type;    // of all files
+  std::optional<std::string> mask;  // name of the file that marks texels out of domain
+  bool roughness = true;            // whether it is wanted
+  bool specular = true;
+  bool force = false;  // may replace files that exist
+  Metadata metadata;
+};
+
+// Every map of the set that holds something converted gives a file of its name, in which only that is
+// changed; a constant gives a map of its own (`roughness`, `specular`), like the first map of the set. Throws
+// kUsage where two results would have one name, where one is an input, where one channel is two things, and
+// for an unknown extension; kOutput where one exists and `force` is not set or where the folder is a file.
+std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& choice);
+
+// Throws kOutput where the folder of the results is not there and cannot be made, and where one cannot be
+// opened.
+std::vector<TargetMap> open_targets(const TextureSet& set, const std::vector<PlannedMap>& planned,
+                                    const TargetChoice& choice);
+
+}  // namespace remap

@@ -1,0 +1,291 @@
+// Inputs of texremap as people have them: packed channels, glossiness, numbers, factors, colour in sRGB,
+// values that no material has.
+#include <cmath>
+#include <cstring>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/texremap_session.hpp"
+#include "support/shared_data.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kSize = 40;
+
+// From mitsuba/ward to mitsuba/as, into `out`.
+ProcessResult convert(const Session& session, std::vector<std::string> words) {
+  words.insert(words.begin(), {"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as"});
+  return session.texremap(words);
+}
+
+std::vector<std::string> maps(const Session& session, const std::string& roughness,
+                              const std::string& specular) {
+  return {"--roughness", session.path(roughness), "--specular", session.path(specular),
+          "-o",          session.path("out")};
+}
+
+// The definition of sRGB, IEC 61966-2-1.
+float linear(float stored) {
+  return stored <= 0.04045f
+             ? stored / 12.92f
+             : static_cast<float>(std::pow((static_cast<double>(stored) + 0.055) / 1.055, 2.4));
+}
+float stored(float linear) {
+  return linear <= 0.0031308f
+             ? 12.92f * linear
+             : static_cast<float>(1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055);
+}
+
+void require_success(const ProcessResult& result) {
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+}
+
+bool same_channel(const TestImage& a, const TestImage& b, int channel) {
+  for (int y = 0; y < a.spec.height; ++y)
+    for (int x = 0; x < a.spec.width; ++x)
+      if (a.at(x, y, channel) != b.at(x, y, channel)) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("texremap inputs: one channel of a packed map is converted, the others stay bit for bit") {
+  const Session session;
+  write_image(session.path("orm.png"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  require_success(convert(session, {"--roughness", session.path("orm.png") + ":G", "--specular", "0.4",
+                                    "--only", "roughness", "-o", session.path("out")}));
+  CHECK(session.file_count() == 1);
+  const TestImage in = read_image(session.path("orm.png")), out = read_image(session.path("out/orm.png"));
+  CHECK(same_channel(in, out, 0));
+  CHECK(same_channel(in, out, 2));
+  for (int x = 0; x < kSize; ++x)
+    CHECK(out.at(x, 7, 1) ==
+          as_stored(converted_texel(in.at(x, 7, 1), {0.4f, 0.4f, 0.4f})[0], OIIO::TypeUInt8));
+}
+
+TEST_CASE("texremap inputs: the ORM map of BoomBox keeps occlusion and metallic") {
+  const fs::path map = shared_data("textures/BoomBox_occlusionRoughnessMetallic.png");
+  if (map.empty()) return;
+  const Session session;
+  require_success(convert(
+      session, {"--roughness", map.string() + ":G", "--roughness-encoding", "roughness", "--output-encoding",
+                "roughness", "--specular", "0.04", "--only", "roughness", "-o", session.path("out")}));
+  const TestImage in = read_image(map), out = read_image(session.path("out") / map.filename());
+  CHECK(same_channel(in, out, 0));
+  CHECK(same_channel(in, out, 2));
+  for (int x = 0; x < in.spec.width; x += 3) {
+    const float alpha = in.at(x, 900, 1) * in.at(x, 900, 1);
+    const float expected = std::sqrt(converted_texel(alpha, {0.04f, 0.04f, 0.04f})[0]);
+    CHECK(out.at(x, 900, 1) == Approx(expected).margin(0.501 / 255.0));
+  }
+}
+
+TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data throughout") {
+  const Session session;
+  const std::string name = "sg." + std::string(GENERATE("png", "tga", "tif", "exr"));
+  // Alpha far below the colours, and 0: multiplication by it would be seen, and division by it even more.
+  write_image(session.path(name), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
+              [](int x, int y, int c) {
+                return c < 3 ? noise(x, y, c) : x < 5 ? 0.0f : 0.3f * noise(x, y, c);
+              });
+  const std::string path = session.path(name);
+  require_success(convert(session, {"--glossiness", path + ":A", "--specular", path, "--color-space",
+                                    "linear", "--output-encoding", "glossiness", "-o", session.path("out")}));
+  const TestImage in = read_image(path), out = read_image(session.path("out/" + name));
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const float roughness = 1.0f - in.at(x, y, 3);
+      const std::array<float, 4> expected =
+          converted_texel(roughness * roughness, {in.at(x, y, 0), in.at(x, y, 1), in.at(x, y, 2)});
+      REQUIRE(out.at(x, y, 3) == Approx(1.0f - std::sqrt(expected[0])).margin(0.501 / 255.0));
+      for (int c = 0; c < 3; ++c)
+        REQUIRE(out.at(x, y, c) ==
+                Approx(as_stored(expected[static_cast<std::size_t>(c) + 1], out.spec.format)).margin(1e-3));
+    }
+}
+
+TEST_CASE("texremap inputs: a constant roughness becomes a map beside the specular one") {
+  const Session session;
+  session.write_pair("exr", kSize);
+  require_success(convert(
+      session, {"--roughness", "0.3", "--specular", session.path("s.exr"), "-o", session.path("out")}));
+  const TestImage in = read_image(session.path("s.exr")), out = read_image(session.path("out/s.exr")),
+                  roughness = read_image(session.path("out/roughness.exr"));
+  CHECK(roughness.spec.channelnames == std::vector<std::string>{"Y"});
+  for (int x = 0; x < kSize; ++x) {
+    const auto expected = converted_texel(0.3f, {in.at(x, 2, 0), in.at(x, 2, 1), in.at(x, 2, 2)});
+    CHECK(roughness.at(x, 2, 0) == as_stored(expected[0], OIIO::TypeHalf));
+    CHECK(out.at(x, 2, 1) == as_stored(expected[2], OIIO::TypeHalf));
+  }
+}
+
+TEST_CASE("texremap inputs: numbers alone are converted and printed") {
+  const Session session;
+  const auto expected = converted_texel(0.3f, {0.04f, 0.5f, 0.2f});
+  const ProcessResult text = convert(session, {"--roughness", "0.3", "--specular", "0.04,0.5,0.2"});
+  require_success(text);
+  CHECK_THAT(text.output, Contains("alpha 0.") && Contains("\nf0 0."));
+  const ProcessResult result =
+      convert(session, {"--roughness", "0.3", "--specular", "0.04,0.5,0.2", "--json"});
+  const auto values = nlohmann::json::parse(result.output)["values"];
+  CHECK(values["alpha"].get<float>() == expected[0]);
+  CHECK(values["f0"].get<std::vector<float>>() == std::vector<float>{expected[1], expected[2], expected[3]});
+  const ProcessResult squared =
+      convert(session, {"--roughness", "0.09", "--roughness-encoding", "squared", "--output-encoding",
+                        "roughness", "--specular", "0.04,0.5,0.2", "--json"});
+  CHECK(nlohmann::json::parse(squared.output)["values"]["roughness"].get<double>() ==
+        Approx(std::sqrt(static_cast<double>(expected[0]))).epsilon(1e-6));
+}
+
+TEST_CASE("texremap inputs: factors are baked in once") {
+  const Session session;
+  session.write_pair("exr", kSize);
+  std::vector<std::string> words = maps(session, "r.exr", "s.exr");
+  words.insert(words.end(), {"--roughness-factor", "0.5", "--specular-factor", "1,0.5,0.25"});
+  require_success(convert(session, words));
+  const TestImage r = read_image(session.path("r.exr")), s = read_image(session.path("s.exr")),
+                  out = read_image(session.path("out/s.exr")), width = read_image(session.path("out/r.exr"));
+  for (int x = 0; x < kSize; ++x) {
+    const auto expected =
+        converted_texel(0.5f * r.at(x, 3, 0), {s.at(x, 3, 0), 0.5f * s.at(x, 3, 1), 0.25f * s.at(x, 3, 2)});
+    CHECK(width.at(x, 3, 0) == as_stored(expected[0], OIIO::TypeHalf));
+    for (int c = 0; c < 3; ++c)
+      CHECK(out.at(x, 3, c) == as_stored(expected[static_cast<std::size_t>(c) + 1], OIIO::TypeHalf));
+  }
+}
+
+TEST_CASE("texremap inputs: colour in sRGB is converted as light and written in sRGB again") {
+  const Session session;
+  OIIO::ImageSpec spec = test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  write_image(session.path("s.png"), spec, noise);
+  write_image(session.path("r.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
+  const std::string format = GENERATE("png", "exr");
+  std::vector<std::string> words = maps(session, "r.png", "s.png");
+  words.insert(words.end(), {"--format", format, "--json"});
+  const ProcessResult result = convert(session, words);
+  require_success(result);
+  CHECK(nlohmann::json::parse(result.output)["specular_color_space"] == "srgb");
+  CHECK_THAT(result.errors, Contains("s.png: specular is read as colour in sRGB"));
+  const TestImage r = read_image(session.path("r.png")), s = read_image(session.path("s.png")),
+                  out = read_image(session.path("out/s." + format));
+  CHECK(out.spec.get_string_attribute("oiio:ColorSpace", "Linear") == (format == "png" ? "sRGB" : "Linear"));
+  for (int x = 0; x < kSize; ++x) {
+    const auto expected =
+        converted_texel(r.at(x, 9, 0), {linear(s.at(x, 9, 0)), linear(s.at(x, 9, 1)), linear(s.at(x, 9, 2))});
+    for (int c = 0; c < 3; ++c) {
+      const float value = expected[static_cast<std::size_t>(c) + 1];
+      if (format == "png")
+        CHECK(out.at(x, 9, c) == Approx(std::min(stored(value), 1.0f)).margin(0.501 / 255.0));
+      else
+        CHECK(out.at(x, 9, c) == Approx(value).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("texremap inputs: bad texels are kept, clamped, or the end") {
+  const Session session;
+  session.write_pair("exr", kSize);
+  write_image(session.path("s.exr"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat),
+              [](int x, int y, int c) {
+                if (y == 4 && c == 1) return x == 6 ? NAN : x == 7 ? INFINITY : x == 8 ? -2.0f : 0.2f;
+                return 0.2f;
+              });
+  std::vector<std::string> words = maps(session, "r.exr", "s.exr");
+  words.insert(words.end(), {"--json", "--force", "--bad-texels", "keep"});
+  const ProcessResult kept = convert(session, words);
+  require_success(kept);
+  CHECK(nlohmann::json::parse(kept.output)["first_bad"] == std::vector<int>{6, 4});
+  CHECK_THAT(kept.errors, Contains("1 texels with NaN; the first bad texel is (6, 4)"));
+  CHECK(std::isnan(read_image(session.path("out/s.exr")).at(6, 4, 1)));
+
+  words.back() = "clamp";
+  require_success(convert(session, words));
+  const TestImage out = read_image(session.path("out/s.exr")), r = read_image(session.path("r.exr"));
+  const float edge = static_cast<float>(find_converter("mitsuba/ward", "mitsuba/as").info().specular.max);
+  for (const auto& [x, green] : {std::pair{6, 0.0f}, {7, edge}, {8, 0.0f}})
+    CHECK(out.at(x, 4, 1) == converted_texel(r.at(x, 4, 0), {0.2f, green, 0.2f})[2]);
+
+  words.back() = "fail";
+  fs::remove_all(session.path("out"));
+  const ProcessResult failed = convert(session, words);
+  CHECK(failed.exit_code == 1);
+  CHECK_THAT(
+      failed.last_error(),
+      Contains("s.exr: G of texel (6, 4) is nan; expected finite values from 0, or --bad-texels clamp"));
+  CHECK(session.file_count() == 0);
+}
+
+TEST_CASE("texremap inputs: the mask marks the texels that were counted") {
+  const Session session;
+  session.write_pair("exr", kSize);
+  write_image(session.path("r.exr"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeHalf),
+              [](int x, int y, int c) { return 1.3f * noise(x, y, c); });
+  std::vector<std::string> words = maps(session, "r.exr", "s.exr");
+  words.insert(words.end(), {"--json", "--mask", "outside.png"});
+  const ProcessResult result = convert(session, words);
+  require_success(result);
+  const TestImage mask = read_image(session.path("out/outside.png")), in = read_image(session.path("r.exr"));
+  const Range covered = find_converter("mitsuba/ward", "mitsuba/as").info().roughness;
+  std::size_t marked = 0;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      REQUIRE(mask.at(x, y, 0) == (covered.contains(static_cast<double>(in.at(x, y, 0))) ? 0.0f : 1.0f));
+      marked += mask.at(x, y, 0) == 1.0f;
+    }
+  CHECK(marked > 0);
+  CHECK(nlohmann::json::parse(result.output)["out_of_domain"] == marked);
+}
+
+TEST_CASE("texremap inputs: a map that was converted is not converted again") {
+  const Session session;
+  const std::string extension = GENERATE("exr", "tif");
+  session.write_pair(extension, kSize);
+  const std::string r = "r." + extension, s = "s." + extension;
+  require_success(session.convert(r, s));
+  std::vector<std::string> again = maps(session, "out/" + r, "out/" + s);
+  again.back() = session.path("again");
+  const ProcessResult refused = convert(session, again);
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.last_error(),
+             Contains("was converted to mitsuba/as already; expected a map of mitsuba/ward"));
+  CHECK_FALSE(fs::exists(session.path("again")));
+  // Onwards from what it is now.
+  std::vector<std::string> onwards = again;
+  onwards.insert(onwards.begin(), {"convert", "--from", "mitsuba/as", "--to", "mitsuba/ggx"});
+  CHECK(session.texremap(onwards).exit_code == 0);
+  again.push_back("--force");
+  CHECK(convert(session, again).exit_code == 0);
+}
+
+TEST_CASE("texremap inputs: what does not fit together is wrong usage") {
+  const Session session;
+  session.write_pair("exr", kSize);
+  const auto refused = [&](std::vector<std::string> words, const std::string& message) {
+    const ProcessResult result = convert(session, words);
+    INFO(result.errors);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.last_error(), Contains(message));
+    CHECK_FALSE(fs::exists(session.path("out")));
+  };
+  const std::string r = session.path("r.exr"), s = session.path("s.exr"), out = session.path("out");
+  refused({"--specular", s, "-o", out},
+          "--roughness: is missing; expected a map or a number, or --glossiness");
+  refused({"--roughness", r, "--specular", s}, "--output: is missing");
+  refused({"--roughness", "0.1,0.2,0.3", "--specular", s, "-o", out},
+          "--roughness: has three values; expected one");
+  refused({"--roughness", r, "--specular", s + ":R,G", "-o", out}, "expected FILE:CHANNEL");
+  refused({"--roughness", r, "--specular", s, "-o", out, "--roughness-encoding", "rouhgness"},
+          "did you mean roughness?");
+  refused({"--roughness", r, "--specular", s, "-o", out, "--color-space", "srbg"}, "did you mean srgb?");
+  refused({"--roughness", r, "--specular", s, "-o", out, "--bad-texels", "drop"}, "--bad-texels: is drop");
+  refused({"--roughness", r, "--specular", s, "-o", out, "--only", "specualr"}, "did you mean specular?");
+  refused({"--glossiness", r, "--specular", s, "-o", out, "--roughness-encoding", "alpha"},
+          "does not go with");
+}
