@@ -1,0 +1,46 @@
+// File names cut at the characters that people put between the parts of a name.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace remap {
+
+inline bool is_separator(char c) noexcept { return c == '_' || c == '-' || c == '.' || c == ' '; }
+inline bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
+inline bool is_lower(char c) noexcept { return c >= 'a' && c <= 'z'; }
+inline bool is_upper(char c) noexcept { return c >= 'A' && c <= 'Z'; }
+
+// ASCII letters in lower case, every other byte as it is: the same in every locale, and safe for UTF-8.
+inline char lower(char c) noexcept { return is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c; }
+inline std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = lower(c);
+  return result;
+}
+
+// The bytes [begin, end) of a name between two separators; never empty.
+struct NamePiece {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  std::string_view in(std::string_view name) const noexcept { return name.substr(begin, end - begin); }
+};
+
+inline std::vector<NamePiece> name_pieces(std::string_view name) {
+  std::vector<NamePiece> pieces;
+  for (std::size_t i = 0; i < name.size();) {
+    if (is_separator(name[i])) {
+      ++i;
+      continue;
+    }
+    const std::size_t begin = i;
+    while (i < name.size() && !is_separator(name[i])) ++i;
+    pieces.push_back({begin, i});
+  }
+  return pieces;
+}
+
+}  // namespace remap

@@ -1,0 +1,49 @@
+// A tree of empty files, and what is found in it.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+
+#include "sets/discovery.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace remap {
+
+class SetSession {
+ public:
+  SetSession() = default;
+  SetSession(std::initializer_list<std::string> files) {
+    for (const std::string& file : files) add(file);
+  }
+
+  const std::filesystem::path& root() const { return folder_.path(); }
+  void add(const std::string& file) const {
+    const std::filesystem::path path = root() / file;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path).put('x');
+  }
+  Discovery find(DiscoveryOptions options = {}) const { return find_sets(root(), options); }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+// The set at `path`, folder and name; throws where it is not there.
+inline const FoundSet& set_at(const Discovery& discovery, const std::string& path) {
+  for (const FoundSet& set : discovery.sets)
+    if ((set.folder / set.name).string() == path) return set;
+  throw std::runtime_error("no set " + path);
+}
+
+// `roughness in G of a_orm.png`; `-` for none.
+inline std::string use_text(const FoundSet& set, const std::optional<MapUse>& use) {
+  if (!use) return "-";
+  std::string text(role_name(use->role));
+  if (use->channels != Channels::kWhole) text += " in " + std::string(channels_name(use->channels));
+  return text + " of " + set.maps[use->map].path.string();
+}
+
+}  // namespace remap
