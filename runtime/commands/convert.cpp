@@ -1,5 +1,6 @@
-// `texremap convert`: one texture set through one converter, or through a path of them. Checks everything
-// that can be checked before the first texel is read.
+// `texremap convert`: texture sets through one converter, or through a path of them. Checks everything that
+// can be checked before the first texel is read.
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -8,18 +9,15 @@
 
 #include <CLI/CLI.hpp>
 
-#include "command_line/interruption.hpp"
-#include "command_line/progress.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "commands/convert_options.hpp"
 #include "commands/convert_report.hpp"
 #include "commands/converter_text.hpp"
+#include "commands/job_run.hpp"
 #include "convert/chained_converter.hpp"
 #include "error.hpp"
 #include "model/fit_json.hpp"
-#include "texture/target_plan.hpp"
-#include "version.hpp"
 
 namespace remap {
 namespace {
@@ -70,38 +68,6 @@ ChosenConverter choose_converter(const ConvertOptions& options) {
   return chosen;
 }
 
-Metadata metadata_of(const ChosenConverter& chosen) {
-  const ConverterInfo& info = chosen.converter->info();
-  std::string ids;
-  for (const Converter* step : chosen.path.steps) ids += (ids.empty() ? "" : " ") + step->info().id;
-  return {{"remap:converter", ids},
-          {"remap:source", info.source.model},
-          {"remap:target", info.target.model},
-          {"remap:version", kVersion}};
-}
-
-// A map that was converted already holds parameters of another model, unless that is the one to start from.
-void require_not_converted(const TextureSet& set, const std::string& source, bool force) {
-  if (force) return;
-  for (const ImageReader& map : set.maps) {
-    const std::optional<std::string> model = noted_metadata(map, "remap:target");
-    if (model && *model != source)
-      throw Error(ErrorKind::kUsage, map.path().string() + ": was converted to " + *model +
-                                         " already; expected a map of " + source + ", or --force");
-  }
-}
-
-void warn_of_doubts(const ConvertOptions& options, const TextureSet& set,
-                    const std::vector<TargetMap>& targets) {
-  if (options.color_space.empty())
-    for (const std::string& remark : remarks(set)) warn(options, remark);
-  for (const TargetMap& target : targets) {
-    if (const std::string& lossy = target.writer.layout().lossy_compression; !lossy.empty())
-      warn(options, target.writer.path().string() + ": " + lossy +
-                        " compression changes values; --format png or exr keeps them");
-  }
-}
-
 bool is_constant(const ParameterRequest& request) {
   return std::holds_alternative<ConstantValues>(request.source);
 }
@@ -135,36 +101,50 @@ void convert_values(const ConvertOptions& options, const ChosenConverter& chosen
                values, options.json);
 }
 
-void convert(const ConvertOptions& options) {
+// What a folder's roughness maps are taken for, where that is not what most tools write.
+void warn_of_encoding(const ConvertOptions& options, const JobList& list, const ModelSide& source) {
+  if (options.folder.empty() || !options.encoding.empty() ||
+      source.roughness == RoughnessConvention::kRoughness)
+    return;
+  const bool matters = std::any_of(list.jobs.begin(), list.jobs.end(),
+                                   [](const ConversionJob& job) { return !job.request.convention; });
+  if (matters)
+    warn(options, "roughness maps are read as " + std::string(convention_name(source.roughness)) + ", as " +
+                      source.model +
+                      " has it; --roughness-encoding roughness where they hold its square root");
+}
+
+void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chosen) {
   const auto start = std::chrono::steady_clock::now();
-  const ChosenConverter chosen = choose_converter(options);
-  const ConverterInfo& info = chosen.converter->info();
-  const TextureSetRequest request = set_request(options);
-  if (is_constant(request.roughness) && is_constant(request.specular))
-    return convert_values(options, chosen, request);
   if (options.output.empty())
     throw Error(ErrorKind::kUsage, "--output: is missing; expected a folder for the results");
-  TargetChoice choice = target_choice(options);
-  choice.metadata = metadata_of(chosen);
-  PassOptions pass = pass_options(options);
-
-  set_image_thread_count(pass.thread_count);
-  TextureSet set = open_texture_set(request);
-  require_not_converted(set, info.source.model, options.force);
-  const std::vector<PlannedMap> planned = plan_targets(set, choice);
-  std::vector<TargetMap> targets = open_targets(set, planned, choice);
-  warn_of_doubts(options, set, targets);
-
-  pass.cancelled = &interruption();
-  Outcome outcome{chosen, set, targets, {}, 0.0};
-  {
-    Progress progress(info.id, static_cast<std::size_t>(set.height()), !options.quiet);
-    pass.progress = [&](std::size_t rows) { progress.advance_to(rows); };
-    outcome.statistics = run_texture_pass(set, targets, *chosen.converter, pass);
-  }
+  const JobList list = conversion_jobs(options);
+  warn_of_encoding(options, list, chosen.converter->info().source);
+  Outcome outcome{chosen, list, run_jobs(list, chosen, options), options.dry_run, 0.0};
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!options.quiet) print_summary(kProgram, outcome);
+  if (!list.is_tree) outcome.reports.front().seconds = outcome.seconds;
+  if (!options.quiet) {
+    for (const JobReport& report : outcome.reports) print_job(kProgram, outcome, report);
+    print_summary(kProgram, outcome);
+  }
   if (options.json) print_json(outcome);
+  if (const std::size_t failed = outcome.failed_count(); failed > 0)
+    throw Error(ErrorKind::kInput, std::to_string(failed) + " of " +
+                                       std::to_string(outcome.reports.size() + list.left_out.size()) +
+                                       " sets failed; expected none");
+}
+
+void convert(const ConvertOptions& options) {
+  (void)pass_options(options);  // wrong words before anything is looked at
+  (void)target_choice(options);
+  if (options.folder.empty()) (void)set_request(options);
+  const ChosenConverter chosen = choose_converter(options);
+  if (options.folder.empty()) {
+    const TextureSetRequest request = set_request(options);
+    if (is_constant(request.roughness) && is_constant(request.specular))
+      return convert_values(options, chosen, request);
+  }
+  convert_maps_of(options, chosen);
 }
 
 }  // namespace
@@ -174,13 +154,21 @@ void add_convert_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("convert", "Convert the roughness and specular maps of a material");
   add_convert_options(*command, *options);
   command->footer(
-      "Results have the names of the inputs. A packed map keeps its other channels bit for bit. Two numbers\n"
-      "instead of maps are converted and printed.\n\n"
+      "Results have the names of the inputs. A packed map keeps its other channels bit for bit. <UDIM>, "
+      "%(UDIM)d,\n"
+      "<UVTILE>, %04d and #### in the names of maps stand for all tiles or frames. Two numbers instead of "
+      "maps are\n"
+      "converted and printed. With DIR, every set whose maps are named as Substance Painter, Poly Haven,\n"
+      "ambientCG, Quixel Megascans, glTF exporters or Mari name them is converted; one that fails does not "
+      "stop\n"
+      "the others, and makes the exit code 1.\n\n"
       "Example:\n"
       "  texremap convert --from mitsuba/ward --to mitsuba/as --roughness r.exr --specular s.exr -o out\n"
       "  texremap convert --from mitsuba/ggx --to mitsuba/ward --roughness orm.png:G --roughness-encoding "
       "\\\n"
       "    roughness --specular 0.04 --only roughness -o out\n"
+      "  texremap convert assets --recursive --from mitsuba/ward --to mitsuba/ggx --specular 0.04 -o "
+      "converted\n"
       "  texremap convert --from mitsuba/ward --to mitsuba/ggx --roughness 0.3 --specular 0.04");
   command->callback([options] { convert(*options); });
 }

@@ -50,6 +50,11 @@ std::vector<float> factors_of(const std::string& option, const std::string& text
 }
 
 void add_input_options(CLI::App& command, ConvertOptions& options) {
+  command.add_option("DIR", options.folder, "Folder of texture sets, found by the names of their maps");
+  command.add_flag("-r,--recursive", options.recursive,
+                   "The folders below DIR, too; results mirror the tree");
+  command.add_option("--names", options.names,
+                     "Naming habits of your own (JSON), besides those of common tools");
   CLI::Option* roughness =
       command.add_option("--roughness", options.roughness,
                          "Roughness of the source model: a map, FILE:CHANNEL of a packed one, or a number");
@@ -57,10 +62,10 @@ void add_input_options(CLI::App& command, ConvertOptions& options) {
       .add_option("--glossiness", options.glossiness,
                   "The same as glossiness, 1 - sqrt(alpha): --roughness with --roughness-encoding glossiness")
       ->excludes(roughness);
-  command
-      .add_option("--specular", options.specular,
-                  "Specular: a map, FILE:CHANNEL or FILE:R,G,B, or linear numbers: 0.5, or 0.9,0.6,0.2")
-      ->required();
+  command.add_option(
+      "--specular", options.specular,
+      "Specular: a map, FILE:CHANNEL or FILE:R,G,B, or linear numbers: 0.5, or 0.9,0.6,0.2; with "
+      "DIR for the sets that have no such map");
   command.add_option("--roughness-factor", options.roughness_factor,
                      "Multiplies the roughness map (or the glossiness map) before it is read");
   command.add_option("--specular-factor", options.specular_factor,
@@ -81,13 +86,16 @@ void add_input_options(CLI::App& command, ConvertOptions& options) {
 void add_output_options(CLI::App& command, ConvertOptions& options) {
   command.add_option("-o,--output", options.output, "Folder of the results; their names are the inputs'");
   command.add_option("--only", options.only, "Convert roughness or specular alone, the other one only read");
-  command.add_option("--output-encoding", options.output_encoding,
-                     "What the roughness results hold; the default is the target model's own");
+  command.add_option(
+      "--output-encoding", options.output_encoding,
+      "What the roughness results hold; the default is what --roughness-encoding or the name of the "
+      "map says, else the target model's own");
   command.add_option("--mask", options.mask, "Name of a map to write as well: 1 for texels out of domain");
   command.add_option("--format", options.format, "Extension of the results: exr, tif, png, ...");
   command.add_option("--type", options.type, "Pixel type of the results: uint8, uint16, half, float");
   command.add_flag("--dither", options.dither,
                    "Noise of half a step where results have 8 bits; the same in every run");
+  command.add_flag("--dry-run", options.dry_run, "Say what would be written, and write nothing");
   command.add_flag("--force", options.force,
                    "Replace results that exist (never an input); convert converted maps");
 }
@@ -116,9 +124,19 @@ void add_convert_options(CLI::App& command, ConvertOptions& options) {
 }
 
 TextureSetRequest set_request(const ConvertOptions& options) {
-  const bool glossy = !options.glossiness.empty();
-  if (options.roughness.empty() && !glossy)
+  const bool glossy = !options.glossiness.empty(), is_tree = !options.folder.empty();
+  if (is_tree && (glossy || !options.roughness.empty()))
+    throw Error(ErrorKind::kUsage, options.folder +
+                                       ": its sets are found by their names; expected no --roughness " +
+                                       "and no --glossiness beside it");
+  if (!is_tree && (options.recursive || !options.names.empty()))
+    throw Error(ErrorKind::kUsage, std::string(options.recursive ? "--recursive" : "--names") +
+                                       ": is for a folder of sets; expected DIR");
+  if (!is_tree && options.roughness.empty() && !glossy)
     throw Error(ErrorKind::kUsage, "--roughness: is missing; expected a map or a number, or --glossiness");
+  if (!is_tree && options.specular.empty())
+    throw Error(ErrorKind::kUsage,
+                "--specular: is missing; expected a map or a number (0.04 for most that is no metal)");
   if (glossy && !options.encoding.empty())
     throw Error(ErrorKind::kUsage,
                 "--roughness-encoding: does not go with --glossiness; expected --roughness");
@@ -126,7 +144,11 @@ TextureSetRequest set_request(const ConvertOptions& options) {
   request.roughness.source = glossy ? parameter_source("--glossiness", options.glossiness)
                                     : parameter_source("--roughness", options.roughness);
   request.roughness.factors = factors_of("--roughness-factor", options.roughness_factor);
-  request.specular.source = parameter_source("--specular", options.specular);
+  if (!options.specular.empty()) request.specular.source = parameter_source("--specular", options.specular);
+  if (is_tree && !std::holds_alternative<ConstantValues>(request.specular.source) &&
+      !options.specular.empty())
+    throw Error(ErrorKind::kUsage,
+                "--specular: is the map " + options.specular + "; expected numbers beside a folder of sets");
   request.specular.factors = factors_of("--specular-factor", options.specular_factor);
   request.specular.transfer = transfer_of(options.color_space);
   request.convention =
@@ -150,7 +172,6 @@ TargetChoice target_choice(const ConvertOptions& options) {
 
 PassOptions pass_options(const ConvertOptions& options) {
   PassOptions pass;
-  pass.thread_count = thread_count(options);
   pass.target_convention = convention_of("--output-encoding", options.output_encoding);
   pass.bad_texels = bad_texels_of(options.bad_texels);
   pass.dither = options.dither;

@@ -16,6 +16,10 @@ class App;
 namespace remap {
 
 struct ConvertOptions {
+  std::string folder;  // of sets; empty: the set that the options name
+  std::string names;
+  bool recursive = false;
+  bool dry_run = false;
   std::string from;
   std::string to;
   std::vector<std::string> via;

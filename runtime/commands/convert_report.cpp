@@ -1,5 +1,6 @@
 #include "commands/convert_report.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <iomanip>
@@ -10,8 +11,6 @@
 
 namespace remap {
 namespace {
-
-using Content = TargetChannel::Content;
 
 // The id of one converter; the models of a path.
 std::string converter_text(const ChosenConverter& chosen) {
@@ -32,16 +31,10 @@ std::string first_text(const MapStatistics& counts) {
          std::to_string(counts.first_bad->y) + ")";
 }
 
-bool holds(const TargetMap& target, Content content) {
-  for (const TargetChannel& channel : target.channels)
-    if (channel.content == content) return true;
-  return false;
-}
-
 // The file that holds it; null where there is none.
-Json file_json(const Outcome& outcome, Content content) {
-  for (const TargetMap& target : outcome.targets)
-    if (holds(target, content)) return target.writer.path().string();
+Json file_json(const JobReport& report, bool JobReport::Result::*content) {
+  for (const JobReport::Result& result : report.results)
+    if (result.*content) return result.path.string();
   return {};
 }
 
@@ -64,20 +57,120 @@ void print(const Json& json) {
   std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string seconds_text(double seconds) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.2f s", seconds);
+  return text.data();
+}
+
+std::string files_text(const std::vector<JobReport::Result>& results) {
+  constexpr std::size_t kShown = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(results.size(), kShown); ++i)
+    text += (i == 0 ? "" : ", ") + results[i].path.string();
+  if (results.size() > kShown) text += " and " + std::to_string(results.size() - kShown) + " more";
+  return text;
+}
+
+Json counts_json(const MapStatistics& counts) {
+  return {{"texels", counts.texel_count},
+          {"out_of_domain", counts.out_of_domain_count},
+          {"nan", counts.nan_count},
+          {"infinite", counts.infinite_count},
+          {"negative", counts.negative_count},
+          {"first_bad", counts.first_bad ? Json{counts.first_bad->x, counts.first_bad->y} : Json()},
+          {"clipped_values", counts.clipped_count}};
+}
+
+Json job_json(const JobReport& report) {
+  using Result = JobReport::Result;
+  const MapStatistics& counts = report.statistics;
+  Json json = {{"roughness", file_json(report, &Result::roughness)},
+               {"specular", file_json(report, &Result::specular)},
+               {"mask", file_json(report, &Result::mask)},
+               {"specular_color_space", transfer_name(report.specular_transfer)}};
+  json.update(counts_json(counts));
+  json["values"] = {
+      {"roughness",
+       {{"source", values_json(counts.roughness)}, {"target", values_json(counts.roughness_out)}}},
+      {"specular", {{"source", values_json(counts.specular)}, {"target", values_json(counts.specular_out)}}}};
+  json["seconds"] = report.seconds;
+  return json;
+}
+
+// Of one set among many.
+Json set_json(const JobReport& report, bool dry_run) {
+  Json json = {{"name", report.name},
+               {"state", report.failure ? "failed"
+                         : dry_run      ? "planned"
+                                        : "converted"},
+               {"failure", report.failure ? Json(*report.failure) : Json()},
+               {"tiles", report.tiles},
+               {"results", Json::array()},
+               {"inputs", Json::array()}};
+  for (const auto& input : report.inputs) json["inputs"].push_back(input.string());
+  for (const JobReport::Result& result : report.results) json["results"].push_back(result.path.string());
+  json.update(job_json(report));
+  return json;
+}
+
+Json tree_json(const Outcome& outcome) {
+  Json sets = Json::array(), left_out = Json::array();
+  for (const JobReport& report : outcome.reports) sets.push_back(set_json(report, outcome.dry_run));
+  for (const LeftOut& entry : outcome.list.left_out)
+    left_out.push_back({{"message", entry.message}, {"is_failure", entry.is_failure}});
+  return {{"sets", sets}, {"left_out", left_out}, {"unrecognised_images", outcome.list.unrecognised_count}};
+}
+
 }  // namespace
 
-void print_summary(const std::string& program, const Outcome& outcome) {
-  const MapStatistics& counts = outcome.statistics;
-  const auto line = [&](std::size_t count, const std::string& what) {
-    if (count > 0) print_message(program, std::to_string(count) + what);
+JobReport& JobReport::operator+=(const JobReport& other) {
+  const auto append = [](auto& all, const auto& more) {
+    for (const auto& entry : more)
+      if (std::find(all.begin(), all.end(), entry) == all.end()) all.push_back(entry);
   };
-  std::array<char, 32> seconds;
-  std::snprintf(seconds.data(), seconds.size(), "%.2f", outcome.seconds);
-  std::string files;
-  for (const TargetMap& target : outcome.targets)
-    files += (files.empty() ? "" : ", ") + target.writer.path().string();
-  line(counts.texel_count, " texels in " + std::string(seconds.data()) + " s by " +
-                               converter_text(outcome.chosen) + ": " + files);
+  append(tiles, other.tiles);
+  append(inputs, other.inputs);
+  append(warnings, other.warnings);
+  results.insert(results.end(), other.results.begin(), other.results.end());
+  if (other.failure) failure = failure ? *failure + "; " + *other.failure : other.failure;
+  statistics += other.statistics;
+  seconds += other.seconds;
+  return *this;
+}
+
+std::size_t Outcome::failed_count() const {
+  std::size_t count = 0;
+  for (const JobReport& report : reports) count += report.failure.has_value();
+  for (const LeftOut& entry : list.left_out) count += entry.is_failure;
+  return count;
+}
+
+void print_job(const std::string& program, const Outcome& outcome, const JobReport& report) {
+  std::string place = report.name.empty() ? "" : report.name + ": ";
+  if (!report.tiles.empty()) place += counted(report.tiles.size(), "tile") + ": ";
+  for (const std::string& warning : report.warnings) print_message(program, "warning: " + warning);
+  if (report.failure) {
+    print_message(program, place + "failed: " + *report.failure);
+    return;
+  }
+  if (outcome.dry_run) {
+    print_message(program, place + "would make " + files_text(report.results) + " of " +
+                               std::to_string(report.inputs.size()) + " files, the first " +
+                               report.inputs.front().string());
+    return;
+  }
+  const MapStatistics& counts = report.statistics;
+  const auto line = [&](std::size_t count, const std::string& what) {
+    if (count > 0) print_message(program, place + std::to_string(count) + what);
+  };
+  const std::string by = outcome.list.is_tree ? "" : " by " + converter_text(outcome.chosen);
+  line(counts.texel_count,
+       " texels in " + seconds_text(report.seconds) + by + ": " + files_text(report.results));
   line(counts.out_of_domain_count, " texels outside " + outside_text(outcome.chosen) +
                                        ": width clamped, specular extrapolated in proportion");
   line(counts.nan_count, " texels with NaN" + first_text(counts));
@@ -86,24 +179,28 @@ void print_summary(const std::string& program, const Outcome& outcome) {
   line(counts.clipped_count, " values clipped to [0, 1] by an integer pixel type");
 }
 
+void print_summary(const std::string& program, const Outcome& outcome) {
+  if (!outcome.list.is_tree) return;
+  std::size_t texels = 0, done = 0;
+  for (const JobReport& report : outcome.reports) {
+    done += !report.failure;
+    texels += report.statistics.texel_count;
+  }
+  for (const LeftOut& entry : outcome.list.left_out)
+    print_message(program, (entry.is_failure ? "failed: " : "left out: ") + entry.message);
+  std::string text = counted(done, "set") + (outcome.dry_run ? " would be converted by " : " converted by ") +
+                     converter_text(outcome.chosen) + ", " + std::to_string(outcome.failed_count()) +
+                     " failed";
+  if (!outcome.dry_run) text += "; " + std::to_string(texels) + " texels in " + seconds_text(outcome.seconds);
+  if (outcome.list.unrecognised_count > 0)
+    text +=
+        "; " + counted(outcome.list.unrecognised_count, "image") + " that no naming habit knows left alone";
+  print_message(program, text);
+}
+
 void print_json(const Outcome& outcome) {
-  const MapStatistics& counts = outcome.statistics;
   Json result = converter_json(outcome.chosen);
-  result["roughness"] = file_json(outcome, Content::kRoughness);
-  result["specular"] = file_json(outcome, Content::kSpecular);
-  result["mask"] = file_json(outcome, Content::kMask);
-  result["specular_color_space"] = transfer_name(outcome.set.specular.transfer);
-  result["texels"] = counts.texel_count;
-  result["out_of_domain"] = counts.out_of_domain_count;
-  result["nan"] = counts.nan_count;
-  result["infinite"] = counts.infinite_count;
-  result["negative"] = counts.negative_count;
-  result["first_bad"] = counts.first_bad ? Json{counts.first_bad->x, counts.first_bad->y} : Json();
-  result["clipped_values"] = counts.clipped_count;
-  result["values"] = {
-      {"roughness",
-       {{"source", values_json(counts.roughness)}, {"target", values_json(counts.roughness_out)}}},
-      {"specular", {{"source", values_json(counts.specular)}, {"target", values_json(counts.specular_out)}}}};
+  result.update(outcome.list.is_tree ? tree_json(outcome) : job_json(outcome.reports.front()));
   result["instructions"] = std::string(instruction_set_name(outcome.chosen.converter->info().instructions));
   result["seconds"] = outcome.seconds;
   print(result);

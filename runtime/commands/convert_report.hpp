@@ -1,9 +1,13 @@
 // What `texremap convert` says of a conversion that is done, to people and to scripts.
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "commands/conversion_jobs.hpp"
 #include "convert/path.hpp"
 #include "texture/texture_pass.hpp"
 
@@ -16,14 +20,40 @@ struct ChosenConverter {
   ConverterPath path;
 };
 
-struct Outcome {
-  const ChosenConverter& chosen;
-  const TextureSet& set;
-  const std::vector<TargetMap>& targets;
+// What came of one set, of all its tiles.
+struct JobReport {
+  struct Result {
+    std::filesystem::path path;
+    bool roughness = false, specular = false, mask = false;  // what it holds
+  };
+  std::string name;                // empty for the one set of a command line
+  std::vector<std::string> tiles;  // those that were converted; empty where the set has none
+  std::vector<std::filesystem::path> inputs;
+  std::vector<Result> results;  // those that would be, in a dry run and after a failure
+  Transfer specular_transfer = Transfer::kLinear;
+  std::vector<std::string> warnings;
+  std::optional<std::string> failure;
   MapStatistics statistics;
-  double seconds = 0.0;
+  double seconds = 0.0;  // of all tiles together, whatever ran at once
+
+  // `other`: of the next tile of the set.
+  JobReport& operator+=(const JobReport& other);
 };
 
+// All of them.
+struct Outcome {
+  const ChosenConverter& chosen;
+  const JobList& list;
+  std::vector<JobReport> reports;  // one a set
+  bool dry_run = false;
+  double seconds = 0.0;
+
+  std::size_t failed_count() const;  // sets, and what was left out and should not have been
+};
+
+// The lines for one set: on standard error, to people.
+void print_job(const std::string& program, const Outcome& outcome, const JobReport& report);
+// The line for all: sets, texels, time.
 void print_summary(const std::string& program, const Outcome& outcome);
 void print_json(const Outcome& outcome);
 

@@ -151,8 +151,13 @@ void Conversion::require_grey(const Segment& segment, Scratch& scratch) const {
   for (std::size_t c = 1; c < channels.size(); ++c) {
     load(channels[c], segment, scratch.other.data());
     if (std::memcmp(scratch.other.data(), first.data(), segment.count * sizeof(float)) == 0) continue;
+    const auto differs = [&](std::size_t i) {
+      return std::memcmp(&scratch.other[i], &first[i], sizeof(float)) != 0 &&
+             !(std::fabs(scratch.other[i] - first[i]) <= maps_.roughness.grey_tolerance);
+    };
     std::size_t i = 0;
-    while (std::memcmp(&scratch.other[i], &first[i], sizeof(float)) == 0) ++i;
+    while (i < segment.count && !differs(i)) ++i;
+    if (i == segment.count) continue;
     const auto name = [&](std::size_t channel) {
       return channel < maps_.roughness.channel_names.size() ? maps_.roughness.channel_names[channel]
                                                             : "channel " + std::to_string(channel);

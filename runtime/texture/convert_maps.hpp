@@ -46,6 +46,7 @@ struct SourceParameter {
   std::vector<float> constants;            // linear; used where `channels` is empty
   std::vector<float> factors;              // of the linear values; none, one, or one a channel
   Transfer transfer = Transfer::kLinear;   // of the stored values
+  float grey_tolerance = 0.0f;             // of the roughness: how far copies of one value may be apart
   std::string name;                        // for messages: a file, a buffer
   std::vector<std::string> channel_names;  // for messages; as many as channels
 };
@@ -67,7 +68,8 @@ enum class BadTexels {
 struct MapConversion {
   std::size_t width = 0;
   std::size_t height = 0;
-  // One channel, or copies of one value, which is required: kInput names the first texel where they differ.
+  // One channel, or copies of one value, which is required: kInput names the first texel where they differ by
+  // more than the tolerance; the first channel counts.
   SourceParameter roughness;
   SourceParameter specular;       // 1 or 3 channels or constants
   TargetParameter roughness_out;  // every channel gets the value

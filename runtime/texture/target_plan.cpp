@@ -92,11 +92,16 @@ ImageChanges changes_of(const TargetChoice& choice) {
   return changes;
 }
 
+std::string own_name(const std::string& name, const TextureSet& set, const TargetChoice& choice) {
+  const std::string extension =
+      choice.extension.empty() ? set.maps.front().path().extension().string() : "." + choice.extension;
+  return choice.names.before + name + choice.names.after + extension;
+}
+
 // A map of its own, for what is a constant in the set or is not in it at all.
 PlannedMap new_map(const std::string& name, Content content, std::size_t channel_count, const TextureSet& set,
                    const TargetChoice& choice) {
-  const fs::path file = fs::path(name).replace_extension(set.maps.front().path().extension());
-  PlannedMap planned{result_path(file, choice), 0, changes_of(choice), {}};
+  PlannedMap planned{choice.folder / own_name(name, set, choice), 0, changes_of(choice), {}};
   planned.changes.channels =
       channel_count == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
   planned.changes.is_linear = true;
@@ -121,7 +126,9 @@ std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& 
     all.push_back(new_map("specular", Content::kSpecular, set.specular.channel_count(), set, choice));
   if (choice.mask) {
     PlannedMap mask = new_map("mask", Content::kMask, 1, set, choice);
-    mask.path = choice.folder / *choice.mask;
+    const fs::path name = *choice.mask;
+    mask.path = choice.folder /
+                (choice.names.before + name.stem().string() + choice.names.after + name.extension().string());
     mask.changes.type = std::nullopt;
     all.push_back(mask);
   }

@@ -18,12 +18,19 @@ struct PlannedMap {
   std::vector<TargetChannel> channels;
 };
 
+// What stands before and behind the names of results that have no input: `wood_` specular `.1001`.
+struct ResultNames {
+  std::string before;
+  std::string after;
+};
+
 struct TargetChoice {
   std::filesystem::path folder;
   std::string extension;            // of all files; empty: as the inputs
   std::optional<PixelType> type;    // of all files
   std::optional<std::string> mask;  // name of the file that marks texels out of domain
-  bool roughness = true;            // whether it is wanted
+  ResultNames names;
+  bool roughness = true;  // whether it is wanted
   bool specular = true;
   bool force = false;  // may replace files that exist
   Metadata metadata;

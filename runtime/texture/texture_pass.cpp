@@ -16,6 +16,8 @@ using Content = TargetChannel::Content;
 // Rows that EXR compresses together are 1, 16 or 32 (256 for dwab): bands do not cut them.
 constexpr std::size_t kChunkRows = 32;
 
+constexpr float kLossyGrey = 4.0f / 255.0f;
+
 // Rows [first_row, first_row + row_count) of every map, as the files hold them.
 struct Band {
   int first_row = 0;
@@ -188,6 +190,8 @@ SourceParameter Pass::source_of(const SetParameter& parameter, const std::string
     source.channels.push_back(view_of(band.maps[place.map].data(), reader.layout(), place.channel));
     source.channel_names.push_back(reader.layout().channels[place.channel].name);
     source.name = reader.path().string();
+    // Colour transforms of lossy files round grey to colours that are a step or two apart.
+    if (!reader.layout().lossy_compression.empty()) source.grey_tolerance = kLossyGrey;
   }
   return source;
 }

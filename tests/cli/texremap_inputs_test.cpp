@@ -289,3 +289,19 @@ TEST_CASE("texremap inputs: what does not fit together is wrong usage") {
   refused({"--glossiness", r, "--specular", s, "-o", out, "--roughness-encoding", "alpha"},
           "does not go with");
 }
+
+TEST_CASE("texremap inputs: grey in a JPEG may be a step from grey") {
+  const Session session;
+  const auto write = [&](float red) {
+    write_image(session.path("r.jpg"), test_spec(64, 64, {"R", "G", "B"}, OIIO::TypeUInt8),
+                [&](int x, int y, int c) { return 0.7f * noise(x / 8, y / 8, 0) + (c == 0 ? red : 0.0f); });
+  };
+  const std::vector<std::string> words = {"--roughness", session.path("r.jpg"), "--specular", "0.5",
+                                          "-o",          session.path("out"),   "--force"};
+  write(1.0f / 255.0f);
+  CHECK(convert(session, words).exit_code == 0);
+  write(0.2f);
+  const ProcessResult refused = convert(session, words);
+  CHECK(refused.exit_code == 1);
+  CHECK_THAT(refused.last_error(), Contains("is not grey"));
+}

@@ -1,0 +1,214 @@
+#include "commands/conversion_jobs.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "error.hpp"
+#include "sets/discovery.hpp"
+#include "sets/shown_path.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+std::vector<std::string> channel_names(Channels channels) {
+  if (channels == Channels::kWhole) return {};
+  if (channels == Channels::kRgb) return {"R", "G", "B"};
+  return {std::string(channels_name(channels))};
+}
+
+// What a map of this role holds; none: what the model calls roughness.
+std::optional<RoughnessConvention> convention_of(Role role) {
+  if (role == Role::kGlossiness) return RoughnessConvention::kGlossiness;
+  if (role == Role::kAlphaWidth) return RoughnessConvention::kAlpha;
+  return std::nullopt;
+}
+
+// The file of `map` for a tile; a map that is one file serves every tile. None where the tile is missing.
+std::optional<fs::path> file_of(const FoundMap& map, int tile) {
+  if (map.tiles.empty()) return map.path;
+  for (const Tile& candidate : map.tiles)
+    if (candidate.number == tile) return candidate.path;
+  return std::nullopt;
+}
+
+std::vector<int> tiles_of(const FoundSet& set) {
+  std::set<int> numbers;
+  for (const FoundMap& map : set.maps)
+    for (const Tile& tile : map.tiles) numbers.insert(tile.number);
+  if (numbers.empty()) return {0};
+  return {numbers.begin(), numbers.end()};
+}
+
+// The folder of sets turned into jobs.
+class TreeJobs {
+ public:
+  TreeJobs(const ConvertOptions& options, const TextureSetRequest& stand_ins)
+      : options_(options), stand_ins_(stand_ins), root_(options.folder) {}
+
+  JobList list();
+
+ private:
+  void add(const FoundSet& set);
+  void add_tile(const FoundSet& set, int tile);
+  void require_no_collisions(const Discovery& found) const;
+  std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
+
+  const ConvertOptions& options_;
+  const TextureSetRequest& stand_ins_;  // for what sets do not have, and factors for all
+  fs::path root_;
+  JobList jobs_;
+};
+
+JobList TreeJobs::list() {
+  const Naming naming = options_.names.empty() ? built_in_naming() : read_naming(options_.names);
+  DiscoveryOptions discovery;
+  discovery.recursive = options_.recursive;
+  discovery.naming = &naming;
+  if (!options_.output.empty()) discovery.excluded = {options_.output};
+  const Discovery found = find_sets(root_, discovery);
+  jobs_.is_tree = true;
+  jobs_.unrecognised_count = found.unrecognised.size();
+  for (const WalkProblem& problem : found.problems) jobs_.left_out.push_back({problem.message, true});
+  for (const FoundSet& set : found.sets) {
+    if (set.state == SetState::kReady)
+      add(set);
+    else
+      for (const std::string& remark : set.remarks)
+        jobs_.left_out.push_back({remark, set.state == SetState::kFaulty});
+  }
+  require_no_collisions(found);
+  if (jobs_.jobs.empty() && jobs_.left_out.empty())
+    throw Error(ErrorKind::kUsage, root_.string() +
+                                       ": has no texture set that is known by its names; expected " +
+                                       (options_.recursive ? "" : "--recursive for folders below it, or ") +
+                                       "--names FILE for other names");
+  return std::move(jobs_);
+}
+
+void TreeJobs::add(const FoundSet& set) {
+  if (!set.specular && options_.specular.empty()) {
+    jobs_.left_out.push_back(
+        {place(set) + ": has no specular map; expected one, or --specular VALUE for such sets", true});
+    return;
+  }
+  for (const int tile : tiles_of(set)) add_tile(set, tile);
+}
+
+void TreeJobs::add_tile(const FoundSet& set, int tile) {
+  const std::string number = tile == 0 ? "" : std::to_string(tile);
+  ConversionJob job{place(set),
+                    number,
+                    stand_ins_,
+                    fs::path(options_.output) / set.folder,
+                    {set.name + "_", tile == 0 ? "" : "." + number}};
+  const auto source = [&](const MapUse& use) -> std::optional<MapName> {
+    const std::optional<fs::path> file = file_of(set.maps[use.map], tile);
+    if (!file) {
+      jobs_.left_out.push_back({job.name + (number.empty() ? "" : ", tile " + number) + ": has no " +
+                                    std::string(role_name(use.role)) + " map; expected a tile " +
+                                    shown(set.maps[use.map].path.filename()),
+                                true});
+      return std::nullopt;
+    }
+    return MapName{root_ / *file, channel_names(use.channels)};
+  };
+  const std::optional<MapName> width = source(*set.width);
+  if (!width) return;
+  job.request.roughness.source = *width;
+  if (!job.request.convention) job.request.convention = convention_of(set.width->role);
+  if (set.specular) {
+    const std::optional<MapName> specular = source(*set.specular);
+    if (!specular) return;
+    job.request.specular.source = *specular;
+  }
+  jobs_.jobs.push_back(std::move(job));
+}
+
+void TreeJobs::require_no_collisions(const Discovery& found) const {
+  const auto outputs = [&](const FoundSet& set) {
+    std::vector<PlannedOutput> planned;
+    std::set<std::size_t> used = {set.width->map};
+    if (set.specular) used.insert(set.specular->map);
+    for (const std::size_t map : used) {
+      fs::path path = set.maps[map].path;
+      if (!options_.format.empty()) path.replace_extension(options_.format);
+      planned.push_back({path, set.maps[map].path});
+    }
+    return planned;
+  };
+  const std::vector<OutputCollision> collisions = output_collisions(found.sets, outputs);
+  if (collisions.empty()) return;
+  const OutputCollision& first = collisions.front();
+  throw Error(ErrorKind::kUsage, shown(fs::path(options_.output) / first.path) +
+                                     ": would be made from both " + shown(root_ / first.first_source) +
+                                     " and " + shown(root_ / first.second_source) +
+                                     "; expected names of their own");
+}
+
+const MapName* map_of(const ParameterRequest& parameter) { return std::get_if<MapName>(&parameter.source); }
+
+// The pattern of tiles that a file name is; none where there is a file of that name.
+std::optional<TilePattern> pattern_of(const ParameterRequest& parameter) {
+  const MapName* map = map_of(parameter);
+  std::error_code ignored;
+  if (map == nullptr || fs::exists(map->file, ignored)) return std::nullopt;
+  return tile_pattern(map->file.filename().string());
+}
+
+std::vector<int> numbers_of(const MapName& map) {
+  std::vector<int> numbers;
+  for (const Tile& tile : existing_tiles(map.file)) numbers.push_back(tile.number);
+  return numbers;
+}
+
+// The tiles that either map has; one that the other map lacks is left out, with a message.
+JobList tile_jobs(const ConvertOptions& options, const TextureSetRequest& request) {
+  JobList list;
+  list.is_tree = true;
+  const std::vector<const ParameterRequest*> parameters = {&request.roughness, &request.specular};
+  std::set<int> numbers;
+  std::string set_name;
+  for (const ParameterRequest* parameter : parameters) {
+    if (!pattern_of(*parameter)) continue;
+    const std::vector<int> own = numbers_of(*map_of(*parameter));
+    if (own.empty())
+      throw Error(ErrorKind::kInput,
+                  map_of(*parameter)->file.string() + ": has no tile; expected at least one file");
+    numbers.insert(own.begin(), own.end());
+    if (set_name.empty()) set_name = shown(map_of(*parameter)->file);
+  }
+  for (const int number : numbers) {
+    const std::string text = std::to_string(number);
+    ConversionJob job{set_name, text, request, options.output, {"", "." + text}};
+    bool whole = true;
+    for (ParameterRequest* parameter : {&job.request.roughness, &job.request.specular}) {
+      const std::optional<TilePattern> pattern = pattern_of(*parameter);
+      if (!pattern) continue;
+      MapName& map = std::get<MapName>(parameter->source);
+      const fs::path file = map.file.parent_path() / tile_name(*pattern, number);
+      std::error_code ignored;
+      if (fs::exists(file, ignored)) {
+        map.file = file;
+        continue;
+      }
+      list.left_out.push_back({file.string() + ": is missing; expected every tile of the set", true});
+      whole = false;
+    }
+    if (whole) list.jobs.push_back(std::move(job));
+  }
+  return list;
+}
+
+}  // namespace
+
+JobList conversion_jobs(const ConvertOptions& options) {
+  const TextureSetRequest request = set_request(options);
+  if (!options.folder.empty()) return TreeJobs(options, request).list();
+  if (pattern_of(request.roughness) || pattern_of(request.specular)) return tile_jobs(options, request);
+  JobList list;
+  list.jobs.push_back({"", "", request, options.output, {}});
+  return list;
+}
+
+}  // namespace remap

@@ -1,0 +1,153 @@
+#include "commands/job_run.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+
+#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
+#include "error.hpp"
+#include "parallel.hpp"
+#include "texture/target_plan.hpp"
+#include "texture/texture_pass.hpp"
+#include "version.hpp"
+
+namespace remap {
+namespace {
+
+// A set's share of the progress line, whatever its size.
+constexpr std::size_t kSetProgress = 1000;
+
+Metadata metadata_of(const ChosenConverter& chosen) {
+  const ConverterInfo& info = chosen.converter->info();
+  std::string ids;
+  for (const Converter* step : chosen.path.steps) ids += (ids.empty() ? "" : " ") + step->info().id;
+  return {{"remap:converter", ids},
+          {"remap:source", info.source.model},
+          {"remap:target", info.target.model},
+          {"remap:version", kVersion}};
+}
+
+// A map that was converted already holds parameters of another model, unless that is the one to start from.
+void require_not_converted(const TextureSet& set, const std::string& source, bool force) {
+  if (force) return;
+  for (const ImageReader& map : set.maps) {
+    const std::optional<std::string> model = noted_metadata(map, "remap:target");
+    if (model && *model != source)
+      throw Error(ErrorKind::kUsage, map.path().string() + ": was converted to " + *model +
+                                         " already; expected a map of " + source + ", or --force");
+  }
+}
+
+JobReport::Result result_of(const PlannedMap& planned) {
+  using Content = TargetChannel::Content;
+  JobReport::Result result{planned.path};
+  for (const TargetChannel& channel : planned.channels) {
+    result.roughness |= channel.content == Content::kRoughness;
+    result.specular |= channel.content == Content::kSpecular;
+    result.mask |= channel.content == Content::kMask;
+  }
+  return result;
+}
+
+class JobRunner {
+ public:
+  JobRunner(const ChosenConverter& chosen, const ConvertOptions& options, int threads_a_job)
+      : chosen_(chosen), options_(options), pass_(pass_options(options)) {
+    pass_.thread_count = threads_a_job;
+    pass_.cancelled = &interruption();
+  }
+
+  // `progress`: rows done and rows of all, where it is watched.
+  void run(const ConversionJob& job, const std::function<void(double)>& progress, JobReport& report) const;
+
+ private:
+  void note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) const;
+
+  const ChosenConverter& chosen_;
+  const ConvertOptions& options_;
+  PassOptions pass_;
+};
+
+void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets,
+                            JobReport& report) const {
+  if (options_.color_space.empty()) report.warnings = remarks(set);
+  for (const TargetMap& target : targets) {
+    if (const std::string& lossy = target.writer.layout().lossy_compression; !lossy.empty())
+      report.warnings.push_back(target.writer.path().string() + ": " + lossy +
+                                " compression changes values; --format png or exr keeps them");
+  }
+}
+
+void JobRunner::run(const ConversionJob& job, const std::function<void(double)>& progress,
+                    JobReport& report) const {
+  const auto start = std::chrono::steady_clock::now();
+  TextureSet set = open_texture_set(job.request);
+  for (const ImageReader& map : set.maps) report.inputs.push_back(map.path());
+  report.specular_transfer = set.specular.transfer;
+  require_not_converted(set, chosen_.converter->info().source.model, options_.force);
+
+  TargetChoice choice = target_choice(options_);
+  choice.folder = job.folder;
+  choice.names = job.names;
+  choice.metadata = metadata_of(chosen_);
+  const std::vector<PlannedMap> planned = plan_targets(set, choice);
+  for (const PlannedMap& map : planned) report.results.push_back(result_of(map));
+  if (options_.dry_run) return;
+
+  std::vector<TargetMap> targets = open_targets(set, planned, choice);
+  note_doubts(set, targets, report);
+  PassOptions pass = pass_;
+  // Results hold what the inputs hold, where that was named.
+  if (!pass.target_convention) pass.target_convention = job.request.convention;
+  pass.progress = [&](std::size_t rows) { progress(static_cast<double>(rows) / set.height()); };
+  report.statistics = run_texture_pass(set, targets, *chosen_.converter, pass);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Tiles of one set, which follow one another, as one report.
+std::vector<JobReport> merged(std::vector<JobReport> tiles) {
+  std::vector<JobReport> sets;
+  for (JobReport& tile : tiles) {
+    if (!sets.empty() && !tile.name.empty() && sets.back().name == tile.name)
+      sets.back() += tile;
+    else
+      sets.push_back(std::move(tile));
+  }
+  return sets;
+}
+
+}  // namespace
+
+std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chosen,
+                                const ConvertOptions& options) {
+  const int threads = thread_count(options);
+  const int at_once =
+      static_cast<int>(std::clamp<std::size_t>(list.jobs.size(), 1, static_cast<std::size_t>(threads)));
+  const JobRunner runner(chosen, options, threads / at_once);
+  set_image_thread_count(threads / at_once);
+  Progress line(list.is_tree ? std::to_string(list.jobs.size()) + " sets" : chosen.converter->info().id,
+                list.jobs.size() * kSetProgress, !options.quiet);
+  std::vector<JobReport> reports(list.jobs.size());
+  run_parallel(list.jobs.size(), static_cast<unsigned>(at_once), [&](std::size_t i) {
+    reports[i].name = list.jobs[i].name;
+    if (!list.jobs[i].tile.empty()) reports[i].tiles = {list.jobs[i].tile};
+    std::size_t shown = 0;
+    const auto advance = [&](double share) {
+      const auto now = static_cast<std::size_t>(share * kSetProgress);
+      line.advance(now - shown);
+      shown = now;
+    };
+    try {
+      runner.run(list.jobs[i], advance, reports[i]);
+    } catch (const Error& error) {
+      if (!list.is_tree || error.kind() == ErrorKind::kInterrupted) throw;
+      reports[i].failure = error.what();
+      reports[i].tiles.clear();
+    }
+    advance(1.0);
+  });
+  return merged(std::move(reports));
+}
+
+}  // namespace remap

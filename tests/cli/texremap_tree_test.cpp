@@ -1,0 +1,236 @@
+// Folders of texture sets, tiles and frames: what is found, what is written, what happens when one fails.
+#include <algorithm>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/texremap_session.hpp"
+#include "support/shared_data.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kSize = 24;
+
+class Tree : public Session {
+ public:
+  void map(const std::string& name, const std::vector<std::string>& channels,
+           OIIO::TypeDesc type = OIIO::TypeUInt8, int size = kSize) const {
+    fs::create_directories(fs::path(path(name)).parent_path());
+    write_image(path(name), test_spec(size, size, channels, type), noise);
+  }
+  ProcessResult convert_tree(std::vector<std::string> more = {}) const {
+    std::vector<std::string> words = {"convert",    path("in"),      "--from", "mitsuba/ward", "--to",
+                                      "mitsuba/as", "--color-space", "linear", "-o",           path("out")};
+    words.insert(words.end(), more.begin(), more.end());
+    return texremap(words);
+  }
+  // Every file below `out`, relative to it.
+  std::vector<std::string> results() const {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : fs::recursive_directory_iterator(path("out"), none))
+      if (entry.is_regular_file()) names.push_back(fs::relative(entry.path(), path("out")).string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+const std::vector<std::string> kGrey = {"Y"}, kColour = {"R", "G", "B"}, kWithAlpha = {"R", "G", "B", "A"};
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("texremap tree: sets of every habit are converted, each by the meaning of its names") {
+  const Tree tree;
+  tree.map("in/hero_Roughness.png", kGrey);
+  tree.map("in/hero_Specular.png", kColour);
+  tree.map("in/hero_Normal.png", kColour);
+  tree.map("in/wood/planks_rough_4k.png", kGrey);
+  tree.map("in/wood/planks_spec_4k.png", kGrey);
+  tree.map("in/stone/Stone 012_2K-PNG_Roughness.png", kGrey);
+  tree.map("in/quixel/abc_4K_Gloss.tga", kGrey);
+  tree.map("in/quixel/abc_4K_Specular.tga", kColour);
+  tree.map("in/gltf/lamp_occlusionRoughnessMetallic.png", kColour);
+  tree.map("in/gltf/chair_specularGlossiness.png", kWithAlpha);
+  std::ofstream(tree.path("in/notes.txt")) << "not an image";
+
+  const ProcessResult flat = tree.convert_tree({"--specular", "0.04", "--dry-run", "--json"});
+  INFO(flat.errors);
+  REQUIRE(flat.exit_code == 0);
+  CHECK(nlohmann::json::parse(flat.output)["sets"].size() == 1);
+  CHECK(tree.results().empty());
+
+  const ProcessResult result = tree.convert_tree({"--recursive", "--specular", "0.04", "--json"});
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(tree.results() ==
+        Names{"gltf/chair_specularGlossiness.png", "gltf/lamp_occlusionRoughnessMetallic.png",
+              "gltf/lamp_specular.png", "hero_Roughness.png", "hero_Specular.png", "quixel/abc_4K_Gloss.tga",
+              "quixel/abc_4K_Specular.tga", "stone/Stone 012_2K-PNG_Roughness.png",
+              "stone/Stone 012_specular.png", "wood/planks_rough_4k.png", "wood/planks_spec_4k.png"});
+  const auto json = nlohmann::json::parse(result.output);
+  REQUIRE(json["sets"].size() == 6);
+  for (const auto& set : json["sets"]) {
+    CHECK(set["state"] == "converted");
+    CHECK(set["texels"] == kSize * kSize);
+  }
+  CHECK_THAT(result.errors, Contains("6 sets converted by mitsuba_ward_to_mitsuba_as, 0 failed"));
+  CHECK_THAT(result.errors, Contains("roughness maps are read as alpha, as mitsuba/ward has it"));
+
+  // The set of specular and glossiness by hand: glossiness stays glossiness.
+  const std::string name = "gltf/chair_specularGlossiness.png";
+  const TestImage in = read_image(tree.path("in/" + name)), out = read_image(tree.path("out/" + name));
+  for (int x = 0; x < kSize; ++x) {
+    const float roughness = 1.0f - in.at(x, 5, 3);
+    const auto expected =
+        converted_texel(roughness * roughness, {in.at(x, 5, 0), in.at(x, 5, 1), in.at(x, 5, 2)});
+    CHECK(out.at(x, 5, 3) == Approx(1.0f - std::sqrt(expected[0])).margin(0.501 / 255.0));
+    CHECK(out.at(x, 5, 0) == as_stored(expected[1], OIIO::TypeUInt8));
+  }
+}
+
+TEST_CASE("texremap tree: one that fails does not stop the others, and the exit code tells") {
+  const Tree tree;
+  tree.map("in/a_rough.png", kGrey);
+  tree.map("in/a_spec.png", kGrey);
+  tree.map("in/b_rough.png", kGrey);
+  tree.map("in/b_spec.png", kGrey, OIIO::TypeUInt8, 2 * kSize);
+  tree.map("in/c_rough.png", kGrey);
+  tree.map("in/d_rough.png", kGrey);
+  tree.map("in/d_Roughness.exr", kGrey, OIIO::TypeHalf);
+  tree.map("in/e_rough.png", kGrey);
+  tree.map("in/e_spec.png", kGrey);
+  fs::resize_file(tree.path("in/e_rough.png"), fs::file_size(tree.path("in/e_rough.png")) / 2);
+  tree.map("in/f_normal.png", kColour);
+  const ProcessResult result = tree.convert_tree({"--json"});
+  CHECK(result.exit_code == 1);
+  CHECK(tree.results() == Names{"a_rough.png", "a_spec.png"});
+  const auto json = nlohmann::json::parse(result.output);
+  REQUIRE(json["sets"].size() == 3);
+  CHECK(json["sets"][0]["state"] == "converted");
+  CHECK_THAT(json["sets"][1]["failure"].get<std::string>(), Contains("48 x 48; expected the size of"));
+  CHECK_THAT(json["sets"][2]["failure"].get<std::string>(), Contains("e_rough.png"));
+  CHECK_THAT(result.errors, Contains("/in/c: has no specular map; expected one, or --specular VALUE"));
+  CHECK_THAT(result.errors, Contains("2 maps for the width of the highlight: d_Roughness.exr (roughness), "
+                                     "d_rough.png (roughness); expected one"));
+  CHECK_THAT(result.errors, Contains("left out: ") && Contains("f: no map of roughness or glossiness"));
+  CHECK_THAT(result.last_error(), Contains("4 of 6 sets failed"));
+}
+
+TEST_CASE("texremap tree: results inside the tree are not found again, and kept") {
+  const Tree tree;
+  tree.map("in/a_rough.png", kGrey);
+  tree.map("in/a_spec.png", kGrey);
+  std::vector<std::string> words = {"--recursive"};
+  const auto convert = [&] {
+    return tree.texremap({"convert", tree.path("in"), "--recursive", "--from", "mitsuba/ward", "--to",
+                          "mitsuba/as", "-o", tree.path("in/converted")});
+  };
+  REQUIRE(convert().exit_code == 0);
+  const ProcessResult again = convert();
+  CHECK(again.exit_code == 1);
+  CHECK_THAT(again.errors, Contains("a_rough.png: exists; expected a name that is free, or --force"));
+  CHECK_THAT(again.last_error(), Contains("1 of 1 sets failed"));
+}
+
+TEST_CASE("texremap tree: names of one's own") {
+  const Tree tree;
+  tree.map("in/a_zzz.png", kGrey);
+  write_file(tree.path("names.json"),
+             R"({"habits": [{"name": "ours", "rules": [{"words": ["zzz"], "role": "roughness"}]}]})");
+  const ProcessResult unknown = tree.convert_tree({"--specular", "0.04"});
+  CHECK(unknown.exit_code == 2);
+  CHECK_THAT(unknown.last_error(),
+             Contains("has no texture set that is known by its names; expected --recursive"));
+  REQUIRE(tree.convert_tree({"--specular", "0.04", "--names", tree.path("names.json")}).exit_code == 0);
+  CHECK(tree.results() == Names{"a_specular.png", "a_zzz.png"});
+}
+
+TEST_CASE("texremap tree: the tiles of a set are one set") {
+  const Tree tree;
+  for (const char* tile : {"1001", "1002", "1011"}) {
+    tree.map(std::string("in/hero_Roughness.") + tile + ".exr", kGrey, OIIO::TypeHalf);
+    if (std::string(tile) != "1011")
+      tree.map(std::string("in/hero_Specular.") + tile + ".exr", kColour, OIIO::TypeHalf);
+  }
+  const ProcessResult found = tree.convert_tree({"--json"});
+  CHECK(found.exit_code == 1);
+  const auto json = nlohmann::json::parse(found.output);
+  REQUIRE(json["sets"].size() == 1);
+  CHECK(json["sets"][0]["tiles"] == Names{"1001", "1002"});
+  CHECK(json["sets"][0]["texels"] == 2 * kSize * kSize);
+  CHECK_THAT(found.errors,
+             Contains("hero, tile 1011: has no specular map; expected a tile hero_Specular.<UDIM>.exr"));
+  CHECK(tree.results().size() == 4);
+
+  // The same by a pattern; the constant serves every tile.
+  const ProcessResult named = tree.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as",
+                                             "--roughness", tree.path("in/hero_Roughness.<UDIM>.exr"),
+                                             "--specular", "0.04", "--json", "-o", tree.path("named")});
+  INFO(named.errors);
+  REQUIRE(named.exit_code == 0);
+  CHECK(nlohmann::json::parse(named.output)["sets"][0]["tiles"] == Names{"1001", "1002", "1011"});
+  CHECK(fs::exists(tree.path("named/hero_Roughness.1011.exr")));
+  CHECK(fs::exists(tree.path("named/specular.1011.exr")));
+  const ProcessResult missing =
+      tree.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
+                     tree.path("in/hero_Roughness.%(UDIM)d.exr"), "--specular",
+                     tree.path("in/hero_Specular.%(UDIM)d.exr"), "-o", tree.path("missing")});
+  CHECK(missing.exit_code == 1);
+  CHECK_THAT(missing.errors, Contains("hero_Specular.1011.exr: is missing; expected every tile of the set"));
+  CHECK(fs::exists(tree.path("missing/hero_Specular.1002.exr")));
+}
+
+TEST_CASE("texremap tree: six tiles as a UDIM set has them") {
+  const fs::path tiles = shared_data("textures/grid_udim");
+  if (tiles.empty()) return;
+  const Tree tree;
+  const ProcessResult result =
+      tree.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
+                     (tiles / "grid.<UDIM>.png").string() + ":R", "--specular", "0.04", "--only", "roughness",
+                     "--json", "-o", tree.path("out")});
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(nlohmann::json::parse(result.output)["sets"][0]["tiles"].size() == 6);
+  CHECK(tree.results().size() == 6);
+}
+
+TEST_CASE("texremap tree: the number of threads changes no bit") {
+  const Tree tree;
+  for (int i = 0; i < 7; ++i) {
+    const std::string name = "in/m" + std::to_string(i);
+    tree.map(name + "_rough.exr", kGrey, OIIO::TypeHalf);
+    tree.map(name + "_spec.exr", kColour, OIIO::TypeHalf);
+  }
+  std::vector<std::string> contents;
+  for (const char* threads : {"1", "3", "16"}) {
+    REQUIRE(tree.convert_tree({"--threads", threads, "--force"}).exit_code == 0);
+    std::string all;
+    for (const std::string& name : tree.results()) all += read_file(tree.path("out/" + name));
+    contents.push_back(all);
+    CHECK(contents.back() == contents.front());
+  }
+  CHECK(tree.results().size() == 14);
+}
+
+TEST_CASE("texremap tree: options that do not go together are wrong usage") {
+  const Tree tree;
+  tree.map("in/a_rough.png", kGrey);
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& message) {
+    const ProcessResult result = tree.convert_tree(more);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.last_error(), Contains(message));
+    CHECK_FALSE(fs::exists(tree.path("out")));
+  };
+  refused({"--roughness", tree.path("in/a_rough.png")}, "its sets are found by their names");
+  refused({"--specular", tree.path("in/a_rough.png")}, "expected numbers beside a folder of sets");
+  const ProcessResult result = tree.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as",
+                                              "--recursive", "--roughness", "0.4", "--specular", "0.04"});
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.last_error(), Contains("--recursive: is for a folder of sets; expected DIR"));
+}
