@@ -51,6 +51,7 @@ class TreeJobs {
  private:
   void add(const FoundSet& set);
   void add_tile(const FoundSet& set, int tile);
+  void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
   void require_no_collisions(const Discovery& found) const;
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
 
@@ -122,7 +123,25 @@ void TreeJobs::add_tile(const FoundSet& set, int tile) {
     if (!specular) return;
     job.request.specular.source = *specular;
   }
+  if (options_.layout != layout_name(Layout::kAsInputs)) carry(set, tile, job.request);
   jobs_.jobs.push_back(std::move(job));
+}
+
+// What a layout has a place for, from the maps that are not converted.
+void TreeJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
+  for (const std::vector<FoundMap>* maps : {&set.maps, &set.bystanders})
+    for (const FoundMap& map : *maps)
+      for (const ChannelMeaning& entry : map.meaning) {
+        if (entry.role != Role::kOcclusion && entry.role != Role::kMetallic) continue;
+        const std::string name(role_name(entry.role));
+        const std::optional<fs::path> file = file_of(map, tile);
+        const bool is_named =
+            std::any_of(request.carried.begin(), request.carried.end(),
+                        [&](const CarriedRequest& carried) { return carried.name == name; });
+        if (file && !is_named)
+          request.carried.push_back(
+              {name, {MapName{root_ / *file, channel_names(entry.channels)}, {}, Transfer::kLinear}});
+      }
 }
 
 void TreeJobs::require_no_collisions(const Discovery& found) const {

@@ -66,6 +66,9 @@ void add_input_options(CLI::App& command, ConvertOptions& options) {
       "--specular", options.specular,
       "Specular: a map, FILE:CHANNEL or FILE:R,G,B, or linear numbers: 0.5, or 0.9,0.6,0.2; with "
       "DIR for the sets that have no such map");
+  command.add_option("--occlusion", options.occlusion,
+                     "Ambient occlusion, which is not converted, for --layout");
+  command.add_option("--metallic", options.metallic, "Metallic, which is not converted, for --layout");
   command.add_option("--roughness-factor", options.roughness_factor,
                      "Multiplies the roughness map (or the glossiness map) before it is read");
   command.add_option("--specular-factor", options.specular_factor,
@@ -85,6 +88,12 @@ void add_input_options(CLI::App& command, ConvertOptions& options) {
 
 void add_output_options(CLI::App& command, ConvertOptions& options) {
   command.add_option("-o,--output", options.output, "Folder of the results; their names are the inputs'");
+  command
+      .add_option(
+          "--layout", options.layout,
+          "Files of the results: as-inputs; separate (a file each); orm or arm (occlusion, roughness, "
+          "metallic; and specular); specgloss (specular, and glossiness in alpha)")
+      ->capture_default_str();
   command.add_option("--only", options.only, "Convert roughness or specular alone, the other one only read");
   command.add_option(
       "--output-encoding", options.output_encoding,
@@ -151,6 +160,12 @@ TextureSetRequest set_request(const ConvertOptions& options) {
                 "--specular: is the map " + options.specular + "; expected numbers beside a folder of sets");
   request.specular.factors = factors_of("--specular-factor", options.specular_factor);
   request.specular.transfer = transfer_of(options.color_space);
+  const auto carry = [&](const std::string& name, const std::string& text) {
+    if (!text.empty())
+      request.carried.push_back({name, {parameter_source("--" + name, text), {}, Transfer::kLinear}});
+  };
+  carry("occlusion", options.occlusion);
+  carry("metallic", options.metallic);
   request.convention =
       glossy ? RoughnessConvention::kGlossiness : convention_of("--roughness-encoding", options.encoding);
   return request;
@@ -161,6 +176,9 @@ TargetChoice target_choice(const ConvertOptions& options) {
     fail_unknown("--only", options.only, {"roughness", "specular"});
   TargetChoice choice;
   choice.folder = options.output;
+  const auto layout = layout_from_name(options.layout);
+  if (!layout) fail_unknown("--layout", options.layout, layout_names());
+  choice.layout = *layout;
   choice.extension = options.format;
   choice.type = chosen_type(options.type);
   if (!options.mask.empty()) choice.mask = options.mask;

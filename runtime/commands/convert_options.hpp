@@ -27,6 +27,9 @@ struct ConvertOptions {
   std::string roughness;
   std::string glossiness;
   std::string specular;
+  std::string occlusion;
+  std::string metallic;
+  std::string layout = "as-inputs";
   std::string roughness_factor;
   std::string specular_factor;
   std::string encoding;

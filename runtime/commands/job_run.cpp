@@ -72,6 +72,15 @@ class JobRunner {
 void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets,
                             JobReport& report) const {
   if (options_.color_space.empty()) report.warnings = remarks(set);
+  const Layout layout = target_choice(options_).layout;
+  if (layout == Layout::kOrm || layout == Layout::kArm) {
+    for (const auto& [name, value] : {std::pair{"occlusion", 1}, {"metallic", 0}}) {
+      const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };
+      if (std::none_of(set.carried.begin(), set.carried.end(), has_name))
+        report.warnings.push_back(targets.front().writer.path().string() + ": has no " + name + " map; " +
+                                  name + " is " + std::to_string(value));
+    }
+  }
   for (const TargetMap& target : targets) {
     if (const std::string& lossy = target.writer.layout().lossy_compression; !lossy.empty())
       report.warnings.push_back(target.writer.path().string() + ": " + lossy +
@@ -99,6 +108,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   note_doubts(set, targets, report);
   PassOptions pass = pass_;
   // Results hold what the inputs hold, where that was named.
+  if (choice.layout == Layout::kSpecGloss) pass.target_convention = RoughnessConvention::kGlossiness;
   if (!pass.target_convention) pass.target_convention = job.request.convention;
   pass.progress = [&](std::size_t rows) { progress(static_cast<double>(rows) / set.height()); };
   report.statistics = run_texture_pass(set, targets, *chosen_.converter, pass);

@@ -122,7 +122,8 @@ void Conversion::require_fitting() const {
     fail("the roughness has no channel; expected one, or one constant");
   if (channels_ != 1 && channels_ != kMaxChannels)
     fail("specular has " + std::to_string(channels_) + " channels; expected 1 or 3");
-  if (!maps_.specular_out.channels.empty() && maps_.specular_out.channels.size() != channels_)
+  const std::size_t written = maps_.specular_out.channels.size();
+  if (written != 0 && written != channels_ && !(channels_ == 1 && written == kMaxChannels))
     fail("the specular to write has " + std::to_string(maps_.specular_out.channels.size()) +
          " channels; expected the " + std::to_string(channels_) + " of the source");
   if (!fits(maps_.roughness, 1) || !fits(maps_.specular, channels_))
@@ -300,9 +301,10 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
   statistics.clipped_count += clipped;
   for (std::size_t c = 0; c < channels_; ++c) {
     include({specular[c], count}, maps_.histogram, statistics.specular_out);
-    if (!maps_.specular_out.channels.empty())
-      statistics.clipped_count += store_parameter(maps_.specular_out, c, segment, specular[c], scratch.other);
   }
+  for (std::size_t c = 0; c < maps_.specular_out.channels.size(); ++c)
+    statistics.clipped_count +=
+        store_parameter(maps_.specular_out, c, segment, specular[channels_ == 1 ? 0 : c], scratch.other);
 }
 
 MapStatistics Conversion::convert_rows(std::size_t begin, std::size_t end) const {

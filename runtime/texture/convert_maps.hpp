@@ -73,7 +73,8 @@ struct MapConversion {
   SourceParameter roughness;
   SourceParameter specular;       // 1 or 3 channels or constants
   TargetParameter roughness_out;  // every channel gets the value
-  TargetParameter specular_out;   // as many channels as the source has; may be the source's own memory
+  // As many channels as the source has, or three for grey; may be the source's own memory.
+  TargetParameter specular_out;
   // Of the values in the maps; the model's own where there is none.
   std::optional<RoughnessConvention> source_convention;
   std::optional<RoughnessConvention> target_convention;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "texture/pixel_type.hpp"
+#include "texture/transfer.hpp"
 
 namespace remap {
 
@@ -70,7 +71,7 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;  // name and 
 struct ImageChanges {
   std::optional<PixelType> type;                     // of all channels
   std::optional<std::vector<std::string>> channels;  // other channels, all of the type of the first
-  bool is_linear = false;                            // the values follow no curve, whatever the model's do
+  std::optional<Transfer> transfer;                  // the values follow no curve, whatever the model's do
   Metadata metadata;                                 // to add; TIFF and JPEG keep it in the tag Software
 };
 

@@ -1,5 +1,6 @@
 // How a new file follows another: what is kept, what the change of pixels or format makes untrue, and what
 // each format can hold.
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -37,7 +38,9 @@ void choose_channels(OIIO::ImageSpec& spec, const std::vector<std::string>& name
   spec.set_format(spec.channelformat(0));  // and drops the types of single channels
   spec.nchannels = static_cast<int>(names.size());
   spec.channelnames = names;
-  spec.alpha_channel = -1;
+  const auto alpha = std::find(names.begin(), names.end(), "A");
+  spec.alpha_channel = alpha == names.end() ? -1 : static_cast<int>(alpha - names.begin());
+  if (spec.alpha_channel >= 0) spec.attribute(kUnassociatedAlpha, 1);  // it is data
   spec.z_channel = -1;
   // A profile belongs to a number of channels.
   spec.erase_attribute("ICCProfile.*");
@@ -112,7 +115,9 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
   // A curve belongs to whole numbers; floats are linear.
   const bool loses_curve =
       !is_mixed && is_integer(pixel_type_from_name(model.format.c_str()).value()) && !is_integer(*stored);
-  if (changes.is_linear || loses_curve) spec.attribute("oiio:ColorSpace", "Linear");
+  if (changes.transfer)
+    spec.attribute("oiio:ColorSpace", *changes.transfer == Transfer::kSrgb ? "sRGB" : "Linear");
+  if (loses_curve) spec.attribute("oiio:ColorSpace", "Linear");
   if (format != model_format) leave_coding_behind(spec, output);
   suit_format(spec, format);
   note_metadata(spec, format, changes.metadata);

@@ -92,27 +92,85 @@ ImageChanges changes_of(const TargetChoice& choice) {
   return changes;
 }
 
+const std::vector<std::string> kGrey = {"Y"}, kColour = {"R", "G", "B"},
+                               kColourAndAlpha = {"R", "G", "B", "A"};
+
+// The map that a new one follows: that of the roughness, if there is one.
+std::size_t model_of(const TextureSet& set) {
+  return set.roughness.is_map() ? set.roughness.channels.front().map : 0;
+}
+
 std::string own_name(const std::string& name, const TextureSet& set, const TargetChoice& choice) {
   const std::string extension =
-      choice.extension.empty() ? set.maps.front().path().extension().string() : "." + choice.extension;
+      choice.extension.empty() ? set.maps[model_of(set)].path().extension().string() : "." + choice.extension;
   return choice.names.before + name + choice.names.after + extension;
 }
 
-// A map of its own, for what is a constant in the set or is not in it at all.
-PlannedMap new_map(const std::string& name, Content content, std::size_t channel_count, const TextureSet& set,
-                   const TargetChoice& choice) {
-  PlannedMap planned{choice.folder / own_name(name, set, choice), 0, changes_of(choice), {}};
-  planned.changes.channels =
-      channel_count == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
-  planned.changes.is_linear = true;
-  for (std::size_t c = 0; c < channel_count; ++c) planned.channels.push_back({content, c, {}});
+// A map of its own, for what is a constant in the set or has another file there.
+PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
+                   std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
+  PlannedMap planned{choice.folder / own_name(name, set, choice), model_of(set), changes_of(choice),
+                     std::move(channels)};
+  const bool has_specular =
+      std::any_of(planned.channels.begin(), planned.channels.end(),
+                  [](const TargetChannel& channel) { return channel.content == Content::kSpecular; });
+  planned.changes.channels = channel_names;
+  planned.changes.transfer = has_specular ? set.specular.transfer : Transfer::kLinear;
   return planned;
 }
 
-}  // namespace
+PlannedMap roughness_map(const TextureSet& set, const TargetChoice& choice) {
+  return new_map("roughness", kGrey, {{Content::kRoughness, 0, {}}}, set, choice);
+}
 
-std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& choice) {
-  if (!choice.extension.empty()) require_known_extension(choice.extension);
+std::vector<TargetChannel> specular_channels(const TextureSet& set) {
+  std::vector<TargetChannel> channels;
+  for (std::size_t c = 0; c < set.specular.channel_count(); ++c)
+    channels.push_back({Content::kSpecular, c, {}});
+  return channels;
+}
+
+PlannedMap specular_map(const TextureSet& set, const TargetChoice& choice) {
+  const std::vector<TargetChannel> channels = specular_channels(set);
+  PlannedMap planned = new_map("specular", channels.size() == 1 ? kGrey : kColour, channels, set, choice);
+  if (set.specular.is_map()) planned.model = set.specular.channels.front().map;
+  return planned;
+}
+
+TargetChannel carried_channel(const SetParameter& parameter) {
+  if (parameter.is_map()) return {Content::kCopy, 0, parameter.channels.front()};
+  return {Content::kConstant, 0, {}, parameter.constants.front()};
+}
+
+TargetChannel carried_channel(const TextureSet& set, const std::string& name, float otherwise) {
+  for (const CarriedParameter& carried : set.carried)
+    if (carried.name == name) return carried_channel(carried.parameter);
+  return {Content::kConstant, 0, {}, otherwise};
+}
+
+bool has_name(const TextureSet& set, const ChannelPlace& place) {
+  const auto holds = [&](const SetParameter& parameter) {
+    return std::find(parameter.channels.begin(), parameter.channels.end(), place) != parameter.channels.end();
+  };
+  return holds(set.roughness) || holds(set.specular) ||
+         std::any_of(set.carried.begin(), set.carried.end(),
+                     [&](const CarriedParameter& carried) { return holds(carried.parameter); });
+}
+
+// New layouts hold what has a name; nothing of an input is dropped unsaid.
+void require_nothing_lost(const TextureSet& set) {
+  for (std::size_t map = 0; map < set.maps.size(); ++map) {
+    const ImageLayout& layout = set.maps[map].layout();
+    for (std::size_t c = 0; c < layout.channels.size(); ++c) {
+      if (has_name(set, {map, c})) continue;
+      throw Error(ErrorKind::kUsage, set.maps[map].path().string() + ": channel " + layout.channels[c].name +
+                                         " would be lost; expected --occlusion or --metallic FILE:CHANNEL to "
+                                         "name it, or --layout as-inputs");
+    }
+  }
+}
+
+std::vector<PlannedMap> maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   std::vector<PlannedMap> all;
   for (std::size_t map = 0; map < set.maps.size(); ++map) {
     PlannedMap planned{result_path(set.maps[map].path().filename(), choice), map, changes_of(choice), {}};
@@ -120,12 +178,79 @@ std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& 
       planned.channels.push_back(content_of(set, {map, c}, choice));
     if (std::any_of(planned.channels.begin(), planned.channels.end(), is_converted)) all.push_back(planned);
   }
-  if (!set.roughness.is_map() && choice.roughness)
-    all.push_back(new_map("roughness", Content::kRoughness, 1, set, choice));
-  if (!set.specular.is_map() && choice.specular)
-    all.push_back(new_map("specular", Content::kSpecular, set.specular.channel_count(), set, choice));
+  if (!set.roughness.is_map() && choice.roughness) all.push_back(roughness_map(set, choice));
+  if (!set.specular.is_map() && choice.specular) all.push_back(specular_map(set, choice));
+  return all;
+}
+
+std::vector<PlannedMap> separate_maps(const TextureSet& set, const TargetChoice& choice) {
+  std::vector<PlannedMap> all;
+  if (choice.roughness) all.push_back(roughness_map(set, choice));
+  if (choice.specular) all.push_back(specular_map(set, choice));
+  for (const CarriedParameter& carried : set.carried) {
+    all.push_back(new_map(carried.name, kGrey, {carried_channel(carried.parameter)}, set, choice));
+    if (carried.parameter.is_map()) all.back().model = carried.parameter.channels.front().map;
+  }
+  return all;
+}
+
+std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& choice) {
+  if (!choice.roughness || (choice.layout == Layout::kSpecGloss && !choice.specular))
+    throw Error(ErrorKind::kUsage, "--only: leaves a channel of --layout " +
+                                       std::string(layout_name(choice.layout)) + " empty; expected both");
+  if (choice.layout == Layout::kSpecGloss) {
+    std::vector<TargetChannel> channels = specular_channels(set);
+    channels.resize(3, channels.front());  // grey in every colour
+    channels.push_back({Content::kRoughness, 0, {}});
+    return {new_map("specular_glossiness", kColourAndAlpha, channels, set, choice)};
+  }
+  std::vector<PlannedMap> all = {new_map(std::string(layout_name(choice.layout)), kColour,
+                                         {carried_channel(set, "occlusion", 1.0f),
+                                          {Content::kRoughness, 0, {}},
+                                          carried_channel(set, "metallic", 0.0f)},
+                                         set, choice)};
+  if (choice.specular) all.push_back(specular_map(set, choice));
+  return all;
+}
+
+struct NamedLayout {
+  Layout layout;
+  std::string_view name;
+};
+// In the order of the enumeration.
+constexpr std::array<NamedLayout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
+                                                  {Layout::kSeparate, "separate"},
+                                                  {Layout::kOrm, "orm"},
+                                                  {Layout::kArm, "arm"},
+                                                  {Layout::kSpecGloss, "specgloss"}}};
+
+}  // namespace
+
+std::string_view layout_name(Layout layout) { return kLayouts[static_cast<std::size_t>(layout)].name; }
+
+std::optional<Layout> layout_from_name(std::string_view name) {
+  for (const NamedLayout& known : kLayouts)
+    if (known.name == name) return known.layout;
+  return std::nullopt;
+}
+
+std::vector<std::string> layout_names() {
+  std::vector<std::string> names;
+  for (const NamedLayout& known : kLayouts) names.emplace_back(known.name);
+  return names;
+}
+
+std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& choice) {
+  if (!choice.extension.empty()) require_known_extension(choice.extension);
+  std::vector<PlannedMap> all;
+  if (choice.layout == Layout::kAsInputs) {
+    all = maps_as_inputs(set, choice);
+  } else {
+    require_nothing_lost(set);
+    all = choice.layout == Layout::kSeparate ? separate_maps(set, choice) : packed_maps(set, choice);
+  }
   if (choice.mask) {
-    PlannedMap mask = new_map("mask", Content::kMask, 1, set, choice);
+    PlannedMap mask = new_map("mask", kGrey, {{Content::kMask, 0, {}}}, set, choice);
     const fs::path name = *choice.mask;
     mask.path = choice.folder /
                 (choice.names.before + name.stem().string() + choice.names.after + name.extension().string());

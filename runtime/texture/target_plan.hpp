@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "texture/texture_pass.hpp"
@@ -18,6 +19,18 @@ struct PlannedMap {
   std::vector<TargetChannel> channels;
 };
 
+// Which files the results are.
+enum class Layout {
+  kAsInputs,   // every map that holds something converted, under its name
+  kSeparate,   // a file each: roughness, specular, and what is carried
+  kOrm,        // orm: occlusion, roughness, metallic; and specular
+  kArm,        // the same as arm
+  kSpecGloss,  // specular_glossiness: specular, and glossiness in alpha
+};
+std::string_view layout_name(Layout layout);
+std::optional<Layout> layout_from_name(std::string_view name);
+std::vector<std::string> layout_names();
+
 // What stands before and behind the names of results that have no input: `wood_` specular `.1001`.
 struct ResultNames {
   std::string before;
@@ -30,16 +43,18 @@ struct TargetChoice {
   std::optional<PixelType> type;    // of all files
   std::optional<std::string> mask;  // name of the file that marks texels out of domain
   ResultNames names;
+  Layout layout = Layout::kAsInputs;
   bool roughness = true;  // whether it is wanted
   bool specular = true;
   bool force = false;  // may replace files that exist
   Metadata metadata;
 };
 
-// Every map of the set that holds something converted gives a file of its name, in which only that is
-// changed; a constant gives a map of its own (`roughness`, `specular`), like the first map of the set. Throws
-// kUsage where two results would have one name, where one is an input, where one channel is two things, and
-// for an unknown extension; kOutput where one exists and `force` is not set or where the folder is a file.
+// As inputs: every map of the set that holds something converted gives a file of its name, in which only that
+// is changed; a constant gives a map of its own (`roughness`, `specular`). The other layouts name their files
+// themselves. Throws kUsage where two results would have one name, where one is an input, where one channel
+// is two things, where a layout would lose a channel of an input, and for an unknown extension; kOutput where
+// one exists and `force` is not set or where the folder is a file.
 std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& choice);
 
 // Throws kOutput where the folder of the results is not there and cannot be made, and where one cannot be

@@ -82,6 +82,8 @@ int Pass::map_in_place(const TargetMap& target) const {
   const auto& channels = target.channels;
   const auto copy = std::find_if(channels.begin(), channels.end(),
                                  [](const TargetChannel& c) { return c.content == Content::kCopy; });
+  const auto is_constant = [](const TargetChannel& c) { return c.content == Content::kConstant; };
+  if (std::any_of(channels.begin(), channels.end(), is_constant)) return -1;
   const auto follows = [&](std::size_t map) {
     if (!same_storage(set_.maps[map].layout(), target.writer.layout())) return false;
     for (std::size_t c = 0; c < channels.size(); ++c)
@@ -218,9 +220,15 @@ MapStatistics Pass::convert(Band& band) {
       if (channel.content == Content::kRoughness) maps.roughness_out.channels.push_back(view);
       if (channel.content == Content::kMask) maps.mask = view;
       if (channel.content == Content::kSpecular) {
-        maps.specular_out.channels.resize(set_.specular.channel_count());
-        maps.specular_out.channels[channel.index] = view;
+        auto& views = maps.specular_out.channels;
+        const std::size_t place = set_.specular.channel_count() == 1 ? views.size() : channel.index;
+        views.resize(std::max(views.size(), place + 1));
+        views[place] = view;
         maps.specular_out.transfer = targets_[t].specular_transfer;
+      }
+      if (channel.content == Content::kConstant) {
+        const auto* value = reinterpret_cast<const std::byte*>(&channel.value);
+        clipped += copy_channel({value, PixelType::kFloat, 0, 0}, view, maps.width, maps.height);
       }
       if (channel.content == Content::kCopy && in_place_[t] < 0) {
         const ConstChannelView from = view_of(std::as_const(band.maps[channel.from.map]).data(),

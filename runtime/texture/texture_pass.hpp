@@ -16,10 +16,11 @@ namespace remap {
 
 // What a channel of a result holds.
 struct TargetChannel {
-  enum class Content { kRoughness, kSpecular, kCopy, kMask };
+  enum class Content { kRoughness, kSpecular, kCopy, kConstant, kMask };
   Content content = Content::kCopy;
   std::size_t index = 0;  // of specular's channel
   ChannelPlace from;      // of a copy
+  float value = 0.0f;     // of a constant
 };
 
 // One file that a pass makes.

@@ -187,6 +187,13 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
     throw Error(ErrorKind::kUsage, "--roughness, --specular: are both constants; expected a map");
   if (!set.roughness.is_map() && set.roughness.constants.size() != 1)
     throw Error(ErrorKind::kUsage, "--roughness: has three values; expected one");
+  for (const CarriedRequest& carried : request.carried) {
+    SetParameter parameter = open_parameter(carried.parameter, "one channel, Y, or R, G and B", set);
+    if (parameter.is_map()) parameter.channels.resize(1);  // copies of one value
+    if (parameter.channel_count() != 1)
+      throw Error(ErrorKind::kUsage, "--" + carried.name + ": has three values; expected one");
+    set.carried.push_back({carried.name, parameter});
+  }
   require_factors("--roughness-factor", set.roughness);
   require_factors("--specular-factor", set.specular);
   return set;

@@ -39,9 +39,16 @@ std::variant<MapName, ConstantValues> parameter_source(std::string_view option, 
 // One or three finite factors from 0; throws as above.
 std::vector<float> parse_factors(std::string_view option, std::string_view text);
 
+// A parameter that is not converted, and has its place in a layout.
+struct CarriedRequest {
+  std::string name;  // `occlusion`, `metallic`
+  ParameterRequest parameter;
+};
+
 struct TextureSetRequest {
   ParameterRequest roughness;
   ParameterRequest specular;
+  std::vector<CarriedRequest> carried;            // of one channel each
   std::optional<RoughnessConvention> convention;  // of the roughness map; none: the model's own
 };
 
@@ -63,12 +70,18 @@ struct SetParameter {
   std::size_t channel_count() const noexcept { return is_map() ? channels.size() : constants.size(); }
 };
 
+struct CarriedParameter {
+  std::string name;
+  SetParameter parameter;  // one channel or one constant
+};
+
 // An open set: every texel has one roughness and one or three specular values. Files that are named twice are
 // opened once. At least one of the parameters is a map.
 struct TextureSet {
   std::vector<ImageReader> maps;
   SetParameter roughness;
   SetParameter specular;
+  std::vector<CarriedParameter> carried;
   std::optional<RoughnessConvention> convention;
 
   int width() const noexcept { return maps.front().layout().width; }
