@@ -105,6 +105,10 @@ void add_output_options(CLI::App& command, ConvertOptions& options) {
   command.add_flag("--dither", options.dither,
                    "Noise of half a step where results have 8 bits; the same in every run");
   command.add_flag("--dry-run", options.dry_run, "Say what would be written, and write nothing");
+  command.add_flag(
+      "--resume", options.resume,
+      "Leave out sets whose results are there and were made of the same inputs and options; make "
+      "the others");
   command.add_flag("--force", options.force,
                    "Replace results that exist (never an input); convert converted maps");
 }
@@ -195,6 +199,17 @@ PassOptions pass_options(const ConvertOptions& options) {
   pass.dither = options.dither;
   pass.histogram = options.json;
   return pass;
+}
+
+std::string result_options_text(const ConvertOptions& options) {
+  std::string text;
+  for (const std::string* word :
+       {&options.specular, &options.roughness, &options.glossiness, &options.occlusion, &options.metallic,
+        &options.roughness_factor, &options.specular_factor, &options.encoding, &options.output_encoding,
+        &options.color_space, &options.only, &options.bad_texels, &options.layout, &options.format,
+        &options.type})
+    text += *word + '\n';
+  return text + (options.dither ? "dither" : "");
 }
 
 InstructionSet chosen_instructions(const ConvertOptions& options) {

@@ -20,6 +20,7 @@ struct ConvertOptions {
   std::string names;
   bool recursive = false;
   bool dry_run = false;
+  bool resume = false;
   std::string from;
   std::string to;
   std::vector<std::string> via;
@@ -55,6 +56,8 @@ void add_convert_options(CLI::App& command, ConvertOptions& options);
 TextureSetRequest set_request(const ConvertOptions& options);
 TargetChoice target_choice(const ConvertOptions& options);
 PassOptions pass_options(const ConvertOptions& options);
+// The options that results depend on, as one text.
+std::string result_options_text(const ConvertOptions& options);
 InstructionSet chosen_instructions(const ConvertOptions& options);
 int thread_count(const ConvertOptions& options);
 

@@ -102,12 +102,16 @@ Json job_json(const JobReport& report) {
   return json;
 }
 
+std::string_view state_text(const JobReport& report, bool dry_run) {
+  if (report.failure) return "failed";
+  if (report.was_done) return "done before";
+  return dry_run ? "planned" : "converted";
+}
+
 // Of one set among many.
 Json set_json(const JobReport& report, bool dry_run) {
   Json json = {{"name", report.name},
-               {"state", report.failure ? "failed"
-                         : dry_run      ? "planned"
-                                        : "converted"},
+               {"state", state_text(report, dry_run)},
                {"failure", report.failure ? Json(*report.failure) : Json()},
                {"tiles", report.tiles},
                {"results", Json::array()},
@@ -137,6 +141,7 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   append(inputs, other.inputs);
   append(warnings, other.warnings);
   results.insert(results.end(), other.results.begin(), other.results.end());
+  was_done = was_done && other.was_done;
   if (other.failure) failure = failure ? *failure + "; " + *other.failure : other.failure;
   statistics += other.statistics;
   seconds += other.seconds;
@@ -158,6 +163,7 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
     print_message(program, place + "failed: " + *report.failure);
     return;
   }
+  if (report.was_done) return;
   if (outcome.dry_run) {
     print_message(program, place + "would make " + files_text(report.results) + " of " +
                                std::to_string(report.inputs.size()) + " files, the first " +
@@ -181,9 +187,10 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
 
 void print_summary(const std::string& program, const Outcome& outcome) {
   if (!outcome.list.is_tree) return;
-  std::size_t texels = 0, done = 0;
+  std::size_t texels = 0, done = 0, done_before = 0;
   for (const JobReport& report : outcome.reports) {
-    done += !report.failure;
+    done += !report.failure && !report.was_done;
+    done_before += report.was_done;
     texels += report.statistics.texel_count;
   }
   for (const LeftOut& entry : outcome.list.left_out)
@@ -191,6 +198,7 @@ void print_summary(const std::string& program, const Outcome& outcome) {
   std::string text = counted(done, "set") + (outcome.dry_run ? " would be converted by " : " converted by ") +
                      converter_text(outcome.chosen) + ", " + std::to_string(outcome.failed_count()) +
                      " failed";
+  if (done_before > 0) text += ", " + std::to_string(done_before) + " done before";
   if (!outcome.dry_run) text += "; " + std::to_string(texels) + " texels in " + seconds_text(outcome.seconds);
   if (outcome.list.unrecognised_count > 0)
     text +=

@@ -33,6 +33,7 @@ struct JobReport {
   Transfer specular_transfer = Transfer::kLinear;
   std::vector<std::string> warnings;
   std::optional<std::string> failure;
+  bool was_done = false;  // by an earlier run, which this one resumes
   MapStatistics statistics;
   double seconds = 0.0;  // of all tiles together, whatever ran at once
 

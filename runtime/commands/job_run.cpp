@@ -8,6 +8,7 @@
 #include "command_line/progress.hpp"
 #include "error.hpp"
 #include "parallel.hpp"
+#include "texture/content_hash.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_pass.hpp"
 #include "version.hpp"
@@ -18,14 +19,26 @@ namespace {
 // A set's share of the progress line, whatever its size.
 constexpr std::size_t kSetProgress = 1000;
 
-Metadata metadata_of(const ChosenConverter& chosen) {
+// Of what the results of a set are made: the bytes of its files, the converter, the options.
+std::string hash_of(const TextureSet& set, const ChosenConverter& chosen, const ConvertOptions& options) {
+  ContentHash hash;
+  for (const ImageReader& map : set.maps) hash.add_file(map.path());
+  for (const Converter* step : chosen.path.steps) hash.add(step->info().id);
+  if (!options.fit.empty()) hash.add_file(options.fit);
+  hash.add(result_options_text(options));
+  hash.add(kVersion);
+  return hash.hex();
+}
+
+Metadata metadata_of(const ChosenConverter& chosen, const std::string& hash) {
   const ConverterInfo& info = chosen.converter->info();
   std::string ids;
   for (const Converter* step : chosen.path.steps) ids += (ids.empty() ? "" : " ") + step->info().id;
   return {{"remap:converter", ids},
           {"remap:source", info.source.model},
           {"remap:target", info.target.model},
-          {"remap:version", kVersion}};
+          {"remap:version", kVersion},
+          {"remap:inputs", hash}};
 }
 
 // A map that was converted already holds parameters of another model, unless that is the one to start from.
@@ -37,6 +50,33 @@ void require_not_converted(const TextureSet& set, const std::string& source, boo
       throw Error(ErrorKind::kUsage, map.path().string() + ": was converted to " + *model +
                                          " already; expected a map of " + source + ", or --force");
   }
+}
+
+// Whether `path` is a result of these inputs and options. Formats without metadata never are.
+bool is_made_of(const std::filesystem::path& path, const std::string& hash) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  try {
+    return noted_metadata(ImageReader(path), "remap:inputs") == hash;
+  } catch (const Error&) {
+    return false;  // no whole image: somebody else's
+  }
+}
+
+// How many of the results are there already. Throws kOutput for a file that is there and is none of them.
+std::size_t results_done(const std::vector<PlannedMap>& planned, const std::string& hash, bool force) {
+  std::size_t done = 0;
+  for (const PlannedMap& map : planned) {
+    std::error_code ignored;
+    const bool is_ours = is_made_of(map.path, hash);
+    if (!is_ours && !force && std::filesystem::exists(map.path, ignored))
+      throw Error(ErrorKind::kOutput,
+                  map.path.string() +
+                      ": exists, and was not made of these inputs and options; expected a name " +
+                      "that is free, or --force");
+    done += is_ours;
+  }
+  return done;
 }
 
 JobReport::Result result_of(const PlannedMap& planned) {
@@ -99,9 +139,15 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   TargetChoice choice = target_choice(options_);
   choice.folder = job.folder;
   choice.names = job.names;
-  choice.metadata = metadata_of(chosen_);
+  const std::string hash = hash_of(set, chosen_, options_);
+  choice.metadata = metadata_of(chosen_, hash);
+  choice.force = options_.force || options_.resume;  // what is there is looked at below
   const std::vector<PlannedMap> planned = plan_targets(set, choice);
   for (const PlannedMap& map : planned) report.results.push_back(result_of(map));
+  if (options_.resume && results_done(planned, hash, options_.force) == planned.size()) {
+    report.was_done = true;
+    return;
+  }
   if (options_.dry_run) return;
 
   std::vector<TargetMap> targets = open_targets(set, planned, choice);
@@ -151,7 +197,10 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
     try {
       runner.run(list.jobs[i], advance, reports[i]);
     } catch (const Error& error) {
-      if (!list.is_tree || error.kind() == ErrorKind::kInterrupted) throw;
+      if (!list.is_tree) throw;
+      if (error.kind() == ErrorKind::kInterrupted)
+        throw Error(error.kind(),
+                    "interrupted: the sets that were done are whole; --resume makes the others");
       reports[i].failure = error.what();
       reports[i].tiles.clear();
     }

@@ -123,9 +123,10 @@ TEST_CASE("texremap: where a format has no metadata of one's own, the tag Softwa
   const std::string extension = GENERATE("tif", "jpg");
   REQUIRE(session.convert("r.exr", "s.exr", {"--format", extension}).exit_code == 0);
   const OIIO::ImageSpec spec = read_image(session.path("out/s." + extension)).spec;
-  CHECK(spec.get_string_attribute("Software") ==
-        "remap:converter=mitsuba_ward_to_mitsuba_as; remap:source=mitsuba/ward; remap:target=mitsuba/as; "
-        "remap:version=" REMAP_VERSION);
+  CHECK_THAT(
+      std::string(spec.get_string_attribute("Software")),
+      Catch::Matchers::StartsWith("remap:converter=mitsuba_ward_to_mitsuba_as; remap:source=mitsuba/ward; "
+                                  "remap:target=mitsuba/as; remap:version=" REMAP_VERSION "; remap:inputs="));
 }
 
 TEST_CASE("texremap: Exif in a TIFF survives") {

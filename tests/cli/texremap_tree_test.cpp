@@ -234,3 +234,68 @@ TEST_CASE("texremap tree: options that do not go together are wrong usage") {
   CHECK(result.exit_code == 2);
   CHECK_THAT(result.last_error(), Contains("--recursive: is for a folder of sets; expected DIR"));
 }
+
+TEST_CASE("texremap tree: --resume makes what is missing, what changed, and nothing else") {
+  const Tree tree;
+  const std::string extension = GENERATE("exr", "png", "tif");
+  const auto named = [&](const std::string& name) { return name + "." + extension; };
+  for (const char* set : {"a", "b", "c", "d"}) {
+    tree.map(named(std::string("in/") + set + "_rough"), kGrey);
+    tree.map(named(std::string("in/") + set + "_spec"), kColour);
+  }
+  const auto states = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"--resume", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProcessResult result = tree.convert_tree(words);
+    std::string letters;  // c: converted, d: done before, f: failed
+    const auto json = nlohmann::json::parse(result.output);
+    for (const auto& set : json["sets"]) letters += set["state"].get<std::string>().front();
+    return letters;
+  };
+  CHECK(states({}) == "cccc");
+  CHECK(states({}) == "dddd");
+  fs::remove(tree.path(named("out/b_spec")));
+  CHECK(states({}) == "dcdd");
+  // Another input, another option, a file that is not ours.
+  tree.map(named("in/c_rough"), kColour);
+  CHECK(states({}) == "ddfd");
+  write_image(tree.path(named("in/c_rough")), test_spec(kSize, kSize, kGrey, OIIO::TypeUInt8),
+              [](int, int, int) { return 0.5f; });
+  CHECK(states({}) == "ddfd");
+  CHECK(states({"--force"}) == "ddcd");
+  CHECK(states({"--specular-factor", "0.5"}) == "ffff");
+  std::ofstream(tree.path(named("out/d_spec"))) << "precious";
+  CHECK(states({}) == "dddf");
+  CHECK(read_file(tree.path(named("out/d_spec"))) == "precious");
+}
+
+TEST_CASE(
+    "texremap tree: killed at any moment, it leaves whole files, and --resume ends as an unbroken run") {
+  const Tree tree;
+  for (int i = 0; i < 12; ++i) {
+    const std::string name = "in/" + std::to_string(i);
+    tree.map(name + "_rough.exr", kGrey, OIIO::TypeHalf, 256);
+    tree.map(name + "_spec.exr", kColour, OIIO::TypeHalf, 256);
+  }
+  REQUIRE(tree.convert_tree().exit_code == 0);
+  fs::rename(tree.path("out"), tree.path("unbroken"));
+  const auto check_files = [&] {
+    for (const std::string& name : tree.results()) {
+      if (fs::path(name).filename().string().front() == '.') continue;  // unfinished, and named so
+      CHECK(read_file(tree.path("out/" + name)) == read_file(tree.path("unbroken/" + name)));
+    }
+  };
+  for (int kill = 0; kill < 20; ++kill) {
+    if (kill % 5 == 0) fs::remove_all(tree.path("out"));
+    const std::string after = "0." + std::to_string(20 + 97 * kill % 60);
+    run({"/usr/bin/timeout", "-s", "KILL", after, REMAP_TEXREMAP, "convert", tree.path("in"), "--from",
+         "mitsuba/ward", "--to", "mitsuba/as", "--color-space", "linear", "--resume", "-o",
+         tree.path("out")});
+    check_files();
+  }
+  REQUIRE(tree.convert_tree({"--resume"}).exit_code == 0);
+  check_files();
+  std::size_t whole = 0;
+  for (const std::string& name : tree.results()) whole += fs::path(name).filename().string().front() != '.';
+  CHECK(whole == 24);
+}
