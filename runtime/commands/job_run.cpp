@@ -114,12 +114,14 @@ void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>&
   if (options_.color_space.empty()) report.warnings = remarks(set);
   const Layout layout = target_choice(options_).layout;
   if (layout == Layout::kOrm || layout == Layout::kArm) {
-    for (const auto& [name, value] : {std::pair{"occlusion", 1}, {"metallic", 0}}) {
+    const auto note = [&](const std::string& name, const std::string& value) {
       const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };
       if (std::none_of(set.carried.begin(), set.carried.end(), has_name))
         report.warnings.push_back(targets.front().writer.path().string() + ": has no " + name + " map; " +
-                                  name + " is " + std::to_string(value));
-    }
+                                  name + " is " + value);
+    };
+    note("occlusion", "1");
+    note("metallic", "0");
   }
   for (const TargetMap& target : targets) {
     if (const std::string& lossy = target.writer.layout().lossy_compression; !lossy.empty())
