@@ -100,17 +100,19 @@ std::size_t model_of(const TextureSet& set) {
   return set.roughness.is_map() ? set.roughness.channels.front().map : 0;
 }
 
-std::string own_name(const std::string& name, const TextureSet& set, const TargetChoice& choice) {
-  const std::string extension =
+std::string own_name(const std::string& name, bool is_grey, const TextureSet& set,
+                     const TargetChoice& choice) {
+  std::string extension =
       choice.extension.empty() ? set.maps[model_of(set)].path().extension().string() : "." + choice.extension;
+  if (is_grey && extension == ".hdr") extension = ".exr";  // it has three channels or none
   return choice.names.before + name + choice.names.after + extension;
 }
 
 // A map of its own, for what is a constant in the set or has another file there.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
-  PlannedMap planned{choice.folder / own_name(name, set, choice), model_of(set), changes_of(choice),
-                     std::move(channels)};
+  PlannedMap planned{choice.folder / own_name(name, channel_names.size() == 1, set, choice), model_of(set),
+                     changes_of(choice), std::move(channels)};
   const bool has_specular =
       std::any_of(planned.channels.begin(), planned.channels.end(),
                   [](const TargetChannel& channel) { return channel.content == Content::kSpecular; });

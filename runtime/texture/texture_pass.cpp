@@ -16,6 +16,8 @@ using Content = TargetChannel::Content;
 // Rows that EXR compresses together are 1, 16 or 32 (256 for dwab): bands do not cut them.
 constexpr std::size_t kChunkRows = 32;
 
+// More than any image has, and less than a damaged file asks for.
+constexpr std::size_t kLargestBand = std::size_t{2} << 30;
 constexpr float kLossyGrey = 4.0f / 255.0f;
 
 // Rows [first_row, first_row + row_count) of every map, as the files hold them.
@@ -118,7 +120,14 @@ int Pass::rows_of_a_band() const {
   for (const ImageReader& map : set_.maps) add(map.layout());
   const std::size_t source_bytes = std::exchange(row_bytes, 0);
   for (const TargetMap& target : targets_) add(target.writer.layout());
-  const std::size_t units = options_.band_bytes / (unit * std::max(source_bytes, row_bytes));
+  const std::size_t unit_bytes = unit * std::max(source_bytes, row_bytes);
+  if (unit_bytes > kLargestBand)
+    throw Error(ErrorKind::kInput,
+                set_.maps.front().path().string() + ": is " + std::to_string(set_.width()) +
+                    " texels wide, and " + std::to_string(unit) + " rows of the set take " +
+                    std::to_string(unit_bytes >> 20) + " MB; expected " + std::to_string(kLargestBand >> 20) +
+                    " MB at most, or another tile size");
+  const std::size_t units = options_.band_bytes / unit_bytes;
   const std::size_t rows = unit * std::max<std::size_t>(units, 1);
   return static_cast<int>(std::min(rows, static_cast<std::size_t>(set_.height())));
 }

@@ -299,3 +299,22 @@ TEST_CASE(
   for (const std::string& name : tree.results()) whole += fs::path(name).filename().string().front() != '.';
   CHECK(whole == 24);
 }
+
+TEST_CASE("texremap tree: names with spaces, Unicode and line breaks; links that go round") {
+  const Tree tree;
+  const std::string odd = "in/sp ace/\xc3\xbc \n\xe6\x9c\xa8";
+  tree.map(odd + "_rough.png", kGrey);
+  tree.map(odd + "_spec.png", kColour);
+  fs::create_directory_symlink(tree.path("in"), tree.path("in/sp ace/round"));
+  const ProcessResult result = tree.convert_tree({"--recursive", "--json"});
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(nlohmann::json::parse(result.output)["sets"].size() == 1);
+  CHECK(tree.results() == Names{odd.substr(3) + "_rough.png", odd.substr(3) + "_spec.png"});
+  // A message is a line, whatever a name holds.
+  for (std::size_t begin = 0; begin < result.errors.size();) {
+    CHECK(result.errors.compare(begin, 10, "texremap: ") == 0);
+    begin = result.errors.find('\n', begin) + 1;
+    if (begin == 0) break;
+  }
+}
