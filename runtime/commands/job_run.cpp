@@ -82,11 +82,12 @@ std::size_t results_done(const std::vector<PlannedMap>& planned, const std::stri
 JobReport::Result result_of(const PlannedMap& planned) {
   using Content = TargetChannel::Content;
   JobReport::Result result{planned.path};
-  for (const TargetChannel& channel : planned.channels) {
-    result.roughness |= channel.content == Content::kRoughness;
-    result.specular |= channel.content == Content::kSpecular;
-    result.mask |= channel.content == Content::kMask;
-  }
+  for (const PlannedPart& part : planned.parts)
+    for (const TargetChannel& channel : part.channels) {
+      result.roughness |= channel.content == Content::kRoughness;
+      result.specular |= channel.content == Content::kSpecular;
+      result.mask |= channel.content == Content::kMask;
+    }
   return result;
 }
 
@@ -158,7 +159,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   // Results hold what the inputs hold, where that was named.
   if (choice.layout == Layout::kSpecGloss) pass.target_convention = RoughnessConvention::kGlossiness;
   if (!pass.target_convention) pass.target_convention = job.request.convention;
-  pass.progress = [&](std::size_t rows) { progress(static_cast<double>(rows) / set.height()); };
+  pass.progress = progress;
   report.statistics = run_texture_pass(set, targets, *chosen_.converter, pass);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -22,8 +22,8 @@ enum class RoughnessConvention {
 double to_alpha(RoughnessConvention convention, double own);
 double from_alpha(RoughnessConvention convention, double alpha);
 
-// `alpha`, `roughness`, `exponent`, `glossiness`, `squared`: the word in fits and tables, and the name of the parameter
-// in generated headers.
+// `alpha`, `roughness`, `exponent`, `glossiness`, `squared`: the word in fits and tables, and the name of the
+// parameter in generated headers.
 std::string_view convention_name(RoughnessConvention convention);
 std::optional<RoughnessConvention> convention_from_name(std::string_view name);
 std::vector<std::string> convention_names();

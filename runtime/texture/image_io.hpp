@@ -42,17 +42,24 @@ struct ImageLayout {
 // How many threads OpenImageIO and OpenEXR may use in this process, at least 1.
 void set_image_thread_count(int count);
 
-// Reads an image of one part without mip levels. Associated alpha or not, values arrive as they are stored.
-// Every failure is Error kInput and names the file; a file that ends early is a failure.
+// Reads one part of an image; most files have one part of one level. Associated alpha or not, values arrive
+// as they are stored. Every failure is Error kInput and names the file; a file that ends early is a failure.
 class ImageReader {
  public:
-  explicit ImageReader(const std::filesystem::path& path);
+  explicit ImageReader(const std::filesystem::path& path, int part = 0);
   ~ImageReader();
   ImageReader(ImageReader&&) noexcept;
   ImageReader& operator=(ImageReader&&) noexcept;
 
   const std::filesystem::path& path() const noexcept;
-  const ImageLayout& layout() const noexcept;
+  const ImageLayout& layout() const noexcept;  // of the level that is read
+  int part() const noexcept;
+  std::string part_name() const;     // empty where it has none
+  int part_count() const noexcept;   // of the file
+  int level_count() const noexcept;  // of the part: mip levels
+
+  // From now on layout() and read_rows() are about this level; 0, at first, is the whole picture.
+  void select_level(int level);
 
   // Rows [first_row, first_row + row_count), counted from 0 at the top, to `texels`, which holds
   // row_count * layout().row_bytes(). Tiled files: both are multiples of the tile height, or reach the end.
@@ -78,18 +85,33 @@ struct ImageChanges {
 // What an earlier run noted as its metadata under `name`, in the file itself or in its tag Software.
 std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name);
 
-// Writes an image that follows another in everything but `changes`: pixel types, compression, tiling, channel
-// names, metadata and windows, as far as the format (chosen by the extension of `path`) can hold them. Works
-// under a name of its own beside `path`. Every failure is Error kOutput and names `path`: a full disk, too.
+// One part of a new image: it follows a part of another in everything but `changes`.
+struct ImagePart {
+  const ImageReader* model = nullptr;  // only looked at by the constructor below
+  ImageChanges changes;
+};
+
+// Writes an image whose parts follow others: in pixel types, compression, tiling, channel names, metadata and
+// windows, as far as the format (chosen by the extension of `path`) can hold them; in mip levels where the
+// format has them. Works under a name of its own beside `path`. Every failure is Error kOutput and names
+// `path`: a full disk, too.
 class ImageWriter {
  public:
+  ImageWriter(const std::filesystem::path& path, const std::vector<ImagePart>& parts);
   ImageWriter(const std::filesystem::path& path, const ImageReader& model, const ImageChanges& changes);
   ~ImageWriter();  // takes away what was not committed
   ImageWriter(ImageWriter&&) noexcept;
   ImageWriter& operator=(ImageWriter&&) noexcept;
 
   const std::filesystem::path& path() const noexcept;
-  const ImageLayout& layout() const noexcept;
+  const ImageLayout& layout() const noexcept;  // of the plane that is written
+  int part_count() const noexcept;
+  int level_count(int part) const noexcept;
+  ImageLayout layout(int part) const;  // of its level 0
+
+  // Goes on with another plane: all levels of a part, the largest first, then the next part. The plane before
+  // has been written whole. At first it is level 0 of part 0.
+  void select(int part, int level);
 
   // The next rows, from the top; rules as in ImageReader::read_rows.
   void write_rows(int first_row, int row_count, const std::byte* texels);

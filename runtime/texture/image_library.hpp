@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <OpenImageIO/imageio.h>
 
@@ -28,11 +29,15 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
 struct ImageReader::State {
   std::filesystem::path path;
   std::unique_ptr<OIIO::ImageInput> input;
-  OIIO::ImageSpec spec;
-  ImageLayout layout;
+  int part = 0;
+  int part_count = 0;
+  int level = 0;
+  std::vector<OIIO::ImageSpec> levels;  // specs of the part's levels
+  ImageLayout layout;                   // of `level`
 
+  const OIIO::ImageSpec& spec() const { return levels[static_cast<std::size_t>(level)]; }
   void open();
-  void refuse_what_is_not_one_plane();
+  void find_planes();
   [[noreturn]] void fail(const std::string& what) const;
 };
 

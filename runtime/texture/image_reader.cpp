@@ -21,6 +21,9 @@ std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& fo
   return "";
 }
 
+// What no file has, and a damaged one may claim.
+constexpr int kMostParts = 4096;
+
 std::optional<PixelType> pixel_type(OIIO::TypeDesc type) {
   return type.is_array() ? std::nullopt : pixel_type_from_name(type.c_str());
 }
@@ -83,24 +86,26 @@ void ImageReader::State::open() {
   input = OIIO::ImageInput::open(path.string(), &hints);
   if (!input) fail("cannot be read as an image: " + first_line(OIIO::geterror(), "unknown format"));
   (void)input->geterror();  // remarks on odd headers
-  spec = input->spec();
-  refuse_what_is_not_one_plane();
-  layout = layout_of(spec, input->format_name(), path);
+  find_planes();
+  layout = layout_of(spec(), input->format_name(), path);
 }
 
-void ImageReader::State::refuse_what_is_not_one_plane() {
-  if (spec.deep) fail("is a deep image; expected a flat one");
-  if (spec.depth > 1) fail("is a volume; expected a flat image");
-  if (input->seek_subimage(1, 0))
-    fail("has more than one part; expected one (oiiotool --subimage 0 extracts it)");
-  if (input->seek_subimage(0, 1))
-    fail("has mip levels; expected one level (oiiotool --selectmip 0 extracts it)");
+void ImageReader::State::find_planes() {
+  while (part_count < kMostParts && input->seek_subimage(part_count, 0)) ++part_count;
   (void)input->geterror();
-  if (!input->seek_subimage(0, 0)) fail("cannot be read: " + first_line(input->geterror(), "no image in it"));
+  if (part >= part_count)
+    fail("has " + std::to_string(part_count) + " parts; expected a part " + std::to_string(part));
+  for (int number = 0; input->seek_subimage(part, number); ++number) levels.push_back(input->spec());
+  (void)input->geterror();
+  if (!input->seek_subimage(part, 0))
+    fail("cannot be read: " + first_line(input->geterror(), "no image in it"));
+  if (spec().deep) fail("is a deep image; expected a flat one");
+  if (spec().depth > 1) fail("is a volume; expected a flat image");
 }
 
-ImageReader::ImageReader(const fs::path& path) : state_(std::make_unique<State>()) {
+ImageReader::ImageReader(const fs::path& path, int part) : state_(std::make_unique<State>()) {
   state_->path = path;
+  state_->part = part;
   state_->open();
 }
 ImageReader::~ImageReader() = default;
@@ -110,15 +115,28 @@ ImageReader& ImageReader::operator=(ImageReader&&) noexcept = default;
 const fs::path& ImageReader::path() const noexcept { return state_->path; }
 const ImageLayout& ImageReader::layout() const noexcept { return state_->layout; }
 
+int ImageReader::part() const noexcept { return state_->part; }
+std::string ImageReader::part_name() const {
+  return state_->levels.front().get_string_attribute("oiio:subimagename");
+}
+int ImageReader::part_count() const noexcept { return state_->part_count; }
+int ImageReader::level_count() const noexcept { return static_cast<int>(state_->levels.size()); }
+
+void ImageReader::select_level(int level) {
+  state_->level = level;
+  state_->layout = layout_of(state_->spec(), state_->input->format_name(), state_->path);
+}
+
 void ImageReader::read_rows(int first_row, int row_count, std::byte* texels) {
-  const OIIO::ImageSpec& spec = state_->spec;
+  const OIIO::ImageSpec& spec = state_->spec();
+  const int part = state_->part, level = state_->level;
   OIIO::ImageInput& input = *state_->input;
   const int begin = spec.y + first_row, end = begin + row_count;
-  const bool read =
-      spec.tile_width > 0
-          ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0,
-                             spec.nchannels, native_type(spec), texels)
-          : input.read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, native_type(spec), texels);
+  const bool read = spec.tile_width > 0
+                        ? input.read_tiles(part, level, spec.x, spec.x + spec.width, begin, end, spec.z,
+                                           spec.z + 1, 0, spec.nchannels, native_type(spec), texels)
+                        : input.read_scanlines(part, level, begin, end, spec.z, 0, spec.nchannels,
+                                               native_type(spec), texels);
   // Truncated TIFF and JPEG files are read "successfully": only the message tells.
   const std::string message = input.geterror();
   if (!read || !message.empty())
@@ -127,7 +145,7 @@ void ImageReader::read_rows(int first_row, int row_count, std::byte* texels) {
 }
 
 std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name) {
-  const OIIO::ImageSpec& spec = reader.state_->spec;
+  const OIIO::ImageSpec& spec = reader.state_->levels.front();
   if (const std::string value = spec.get_string_attribute(name); !value.empty()) return value;
   const std::string software = spec.get_string_attribute("Software"), key = name + "=";
   const std::size_t begin = software.find(key);

@@ -69,10 +69,14 @@ struct ImageWriter::State {
   fs::path path;
   fs::path unfinished;
   std::unique_ptr<CheckedFile> file;
-  std::unique_ptr<OIIO::ImageOutput> output;  // after `file`, which it uses until it is gone
-  OIIO::ImageSpec spec;
-  ImageLayout layout;
+  std::unique_ptr<OIIO::ImageOutput> output;        // after `file`, which it uses until it is gone
+  std::vector<std::vector<OIIO::ImageSpec>> specs;  // of every level of every part
+  int part = 0;
+  int level = 0;
+  std::string format;  // as OpenImageIO names it
+  ImageLayout layout;  // of the plane that is written
   bool is_open = false;
+  bool plane_is_open = false;
   bool is_committed = false;
 
   ~State() {
@@ -84,22 +88,41 @@ struct ImageWriter::State {
   [[noreturn]] void fail(const std::string& what) const {
     throw Error(ErrorKind::kOutput, path.string() + ": " + what);
   }
-  void plan(const OIIO::ImageSpec& model, const std::string& model_format, const ImageChanges& changes);
+  const OIIO::ImageSpec& spec() const {
+    return specs[static_cast<std::size_t>(part)][static_cast<std::size_t>(level)];
+  }
+  void plan(const std::vector<std::vector<OIIO::ImageSpec>>& models, const std::string& model_format,
+            const std::vector<ImagePart>& parts);
   void open();
+  void open_plane();
   void check(bool done) const;
   void check_finished() const;
 };
 
 // Everything but the first byte: encoders that are opened and given no texels complain aloud (libpng).
-void ImageWriter::State::plan(const OIIO::ImageSpec& model, const std::string& model_format,
-                              const ImageChanges& changes) {
+void ImageWriter::State::plan(const std::vector<std::vector<OIIO::ImageSpec>>& models,
+                              const std::string& model_format, const std::vector<ImagePart>& parts) {
   output = OIIO::ImageOutput::create(path.string());
   if (!output) {
     (void)OIIO::geterror();
     fail("has no known image format; expected a name that ends in .exr, .tif, .png, ...");
   }
-  spec = output_spec(model, model_format, *output, changes, path);
-  layout = layout_of(spec, output->format_name(), path);
+  if (models.size() > 1 && !output->supports("multiimage"))
+    fail(std::string("the format ") + output->format_name() + " holds one part, and there are " +
+         std::to_string(models.size()) + "; expected exr or tif");
+  for (std::size_t p = 0; p < models.size(); ++p) {
+    specs.emplace_back();
+    for (const OIIO::ImageSpec& model : models[p]) {
+      specs[p].push_back(output_spec(model, model_format, *output, parts[p].changes, path));
+      // TIFF has no levels of its own: textures keep them as parts, which their readers take for levels.
+      const bool has_levels =
+          output->supports("mipmap") ||
+          (model_format == output->format_name() && output->supports("multiimage") && models.size() == 1);
+      if (specs[p].back().tile_width == 0 || !has_levels) break;
+    }
+  }
+  format = output->format_name();
+  layout = layout_of(spec(), format, path);
   unfinished = unfinished_name(path);
   file = std::make_unique<CheckedFile>(unfinished);
   if (!file->failure().empty()) fail("cannot be written: " + file->failure());
@@ -112,15 +135,30 @@ void ImageWriter::State::open() {
     file->close_file();
   else
     output->set_ioproxy(file.get());
-  check(output->open(unfinished.string(), spec));
+  if (specs.size() > 1 && layout.format == "openexr") {  // it wants to know all parts at once
+    std::vector<OIIO::ImageSpec> firsts;
+    for (const auto& levels : specs) firsts.push_back(levels.front());
+    check(output->open(unfinished.string(), static_cast<int>(firsts.size()), firsts.data()));
+  } else {
+    check(output->open(unfinished.string(), spec()));
+  }
+  is_open = true;
+}
+
+void ImageWriter::State::open_plane() {
+  if (!is_open)
+    open();
+  else
+    check(output->open(unfinished.string(), spec(),
+                       level > 0 && output->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel
+                                                               : OIIO::ImageOutput::AppendSubimage));
   if (!same_storage(layout_of(output->spec(), output->format_name(), path), layout))
     fail("cannot be written: the format " + layout.format + " would change the pixel type");
-  is_open = true;
 }
 
 // Throws where the system refused bytes or OpenImageIO failed.
 void ImageWriter::State::check(bool done) const {
-  const std::string message = output->geterror();
+  const std::string message = output ? output->geterror() : "";
   if (!file->failure().empty()) fail("cannot be written: " + file->failure());
   if (!done) fail("cannot be written: " + first_line(message, "unknown reason"));
 }
@@ -128,7 +166,8 @@ void ImageWriter::State::check(bool done) const {
 // Reads the closed file's head, and its last rows where that does not mean to read all of it.
 void ImageWriter::State::check_finished() const {
   try {
-    ImageReader reader(unfinished);
+    ImageReader reader(unfinished, part);
+    reader.select_level(level);
     if (!same_storage(reader.layout(), layout)) fail("was written, but reads as another image");
     if (layout.format != "tiff") return;
     const int unit = std::max(layout.tile_height, 1), first = (layout.height - 1) / unit * unit;
@@ -142,11 +181,15 @@ void ImageWriter::State::check_finished() const {
   }
 }
 
-ImageWriter::ImageWriter(const fs::path& path, const ImageReader& model, const ImageChanges& changes)
+ImageWriter::ImageWriter(const fs::path& path, const std::vector<ImagePart>& parts)
     : state_(std::make_unique<State>()) {
   state_->path = path;
-  state_->plan(model.state_->spec, model.layout().format, changes);
+  std::vector<std::vector<OIIO::ImageSpec>> models;
+  for (const ImagePart& part : parts) models.push_back(part.model->state_->levels);
+  state_->plan(models, parts.front().model->layout().format, parts);
 }
+ImageWriter::ImageWriter(const fs::path& path, const ImageReader& model, const ImageChanges& changes)
+    : ImageWriter(path, std::vector<ImagePart>{{&model, changes}}) {}
 ImageWriter::~ImageWriter() = default;
 ImageWriter::ImageWriter(ImageWriter&&) noexcept = default;
 ImageWriter& ImageWriter::operator=(ImageWriter&&) noexcept = default;
@@ -154,9 +197,26 @@ ImageWriter& ImageWriter::operator=(ImageWriter&&) noexcept = default;
 const fs::path& ImageWriter::path() const noexcept { return state_->path; }
 const ImageLayout& ImageWriter::layout() const noexcept { return state_->layout; }
 
+int ImageWriter::part_count() const noexcept { return static_cast<int>(state_->specs.size()); }
+int ImageWriter::level_count(int part) const noexcept {
+  return static_cast<int>(state_->specs[static_cast<std::size_t>(part)].size());
+}
+
+ImageLayout ImageWriter::layout(int part) const {
+  return layout_of(state_->specs[static_cast<std::size_t>(part)].front(), state_->format, state_->path);
+}
+
+void ImageWriter::select(int part, int level) {
+  state_->part = part;
+  state_->level = level;
+  state_->plane_is_open = false;
+  state_->layout = layout_of(state_->spec(), state_->format, state_->path);
+}
+
 void ImageWriter::write_rows(int first_row, int row_count, const std::byte* texels) {
-  if (!state_->is_open) state_->open();
-  const OIIO::ImageSpec& spec = state_->spec;
+  if (!state_->plane_is_open) state_->open_plane();
+  state_->plane_is_open = true;
+  const OIIO::ImageSpec& spec = state_->spec();
   OIIO::ImageOutput& output = *state_->output;
   const int begin = spec.y + first_row, end = begin + row_count;
   state_->check(spec.tile_width > 0 ? output.write_tiles(spec.x, spec.x + spec.width, begin, end, spec.z,
@@ -167,6 +227,7 @@ void ImageWriter::write_rows(int first_row, int row_count, const std::byte* texe
 void ImageWriter::finish() {
   const bool closed = state_->output->close();
   state_->check(closed);
+  state_->output.reset();  // the writer of EXR keeps files with mip levels open until it goes
   state_->file->close_file();
   state_->check(true);
   state_->check_finished();

@@ -111,14 +111,13 @@ std::string own_name(const std::string& name, bool is_grey, const TextureSet& se
 // A map of its own, for what is a constant in the set or has another file there.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
-  PlannedMap planned{choice.folder / own_name(name, channel_names.size() == 1, set, choice), model_of(set),
-                     changes_of(choice), std::move(channels)};
-  const bool has_specular =
-      std::any_of(planned.channels.begin(), planned.channels.end(),
-                  [](const TargetChannel& channel) { return channel.content == Content::kSpecular; });
-  planned.changes.channels = channel_names;
-  planned.changes.transfer = has_specular ? set.specular.transfer : Transfer::kLinear;
-  return planned;
+  const bool has_specular = std::any_of(channels.begin(), channels.end(), [](const TargetChannel& channel) {
+    return channel.content == Content::kSpecular;
+  });
+  PlannedPart part{model_of(set), changes_of(choice), std::move(channels)};
+  part.changes.channels = channel_names;
+  part.changes.transfer = has_specular ? set.specular.transfer : Transfer::kLinear;
+  return {choice.folder / own_name(name, channel_names.size() == 1, set, choice), {part}};
 }
 
 PlannedMap roughness_map(const TextureSet& set, const TargetChoice& choice) {
@@ -135,7 +134,7 @@ std::vector<TargetChannel> specular_channels(const TextureSet& set) {
 PlannedMap specular_map(const TextureSet& set, const TargetChoice& choice) {
   const std::vector<TargetChannel> channels = specular_channels(set);
   PlannedMap planned = new_map("specular", channels.size() == 1 ? kGrey : kColour, channels, set, choice);
-  if (set.specular.is_map()) planned.model = set.specular.channels.front().map;
+  if (set.specular.is_map()) planned.parts.front().model = set.specular.channels.front().map;
   return planned;
 }
 
@@ -172,13 +171,34 @@ void require_nothing_lost(const TextureSet& set) {
   }
 }
 
+// The maps of the set that are parts of the file of `first`, in the order of the file.
+std::vector<std::size_t> parts_of_file(const TextureSet& set, std::size_t first) {
+  std::vector<std::size_t> parts;
+  for (std::size_t map = 0; map < set.maps.size(); ++map)
+    if (map == first || same_file(set.maps[map].path(), set.maps[first].path())) parts.push_back(map);
+  std::sort(parts.begin(), parts.end(),
+            [&](std::size_t a, std::size_t b) { return set.maps[a].part() < set.maps[b].part(); });
+  return parts;
+}
+
 std::vector<PlannedMap> maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   std::vector<PlannedMap> all;
-  for (std::size_t map = 0; map < set.maps.size(); ++map) {
-    PlannedMap planned{result_path(set.maps[map].path().filename(), choice), map, changes_of(choice), {}};
-    for (std::size_t c = 0; c < set.maps[map].layout().channels.size(); ++c)
-      planned.channels.push_back(content_of(set, {map, c}, choice));
-    if (std::any_of(planned.channels.begin(), planned.channels.end(), is_converted)) all.push_back(planned);
+  std::vector<bool> seen(set.maps.size());
+  for (std::size_t first = 0; first < set.maps.size(); ++first) {
+    if (seen[first]) continue;
+    PlannedMap planned{result_path(set.maps[first].path().filename(), choice), {}};
+    bool holds_something = false;
+    for (const std::size_t map : parts_of_file(set, first)) {
+      seen[map] = true;
+      PlannedPart part{map, changes_of(choice), {}};
+      for (std::size_t c = 0; c < set.maps[map].layout().channels.size(); ++c)
+        part.channels.push_back(content_of(set, {map, c}, choice));
+      const bool is_changed = std::any_of(part.channels.begin(), part.channels.end(), is_converted);
+      if (!is_changed) part.changes.type = std::nullopt;  // what is not converted stays as it is
+      holds_something = holds_something || is_changed;
+      planned.parts.push_back(std::move(part));
+    }
+    if (holds_something) all.push_back(std::move(planned));
   }
   if (!set.roughness.is_map() && choice.roughness) all.push_back(roughness_map(set, choice));
   if (!set.specular.is_map() && choice.specular) all.push_back(specular_map(set, choice));
@@ -191,7 +211,7 @@ std::vector<PlannedMap> separate_maps(const TextureSet& set, const TargetChoice&
   if (choice.specular) all.push_back(specular_map(set, choice));
   for (const CarriedParameter& carried : set.carried) {
     all.push_back(new_map(carried.name, kGrey, {carried_channel(carried.parameter)}, set, choice));
-    if (carried.parameter.is_map()) all.back().model = carried.parameter.channels.front().map;
+    if (carried.parameter.is_map()) all.back().parts.front().model = carried.parameter.channels.front().map;
   }
   return all;
 }
@@ -256,7 +276,7 @@ std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& 
     const fs::path name = *choice.mask;
     mask.path = choice.folder /
                 (choice.names.before + name.stem().string() + choice.names.after + name.extension().string());
-    mask.changes.type = std::nullopt;
+    mask.parts.front().changes.type = std::nullopt;
     all.push_back(mask);
   }
   require_safe(all, set, choice);
@@ -268,14 +288,21 @@ std::vector<TargetMap> open_targets(const TextureSet& set, const std::vector<Pla
   create_parent(choice.folder / "any file");
   std::vector<TargetMap> targets;
   for (const PlannedMap& map : planned) {
-    targets.push_back({ImageWriter(map.path, set.maps[map.model], map.changes), map.channels});
+    std::vector<ImagePart> parts;
+    for (const PlannedPart& part : map.parts) parts.push_back({&set.maps[part.model], part.changes});
+    targets.push_back({ImageWriter(map.path, parts), {}});
     TargetMap& target = targets.back();
-    const auto specular =
-        std::find_if(target.channels.begin(), target.channels.end(),
-                     [](const TargetChannel& c) { return c.content == Content::kSpecular; });
-    if (specular == target.channels.end()) continue;
-    const auto channel = static_cast<std::size_t>(specular - target.channels.begin());
-    target.specular_transfer = stored_transfer(set, target.writer.layout().channels[channel].type);
+    for (std::size_t p = 0; p < map.parts.size(); ++p) {
+      const std::vector<TargetChannel>& channels = map.parts[p].channels;
+      target.parts.push_back({channels});
+      const auto specular = std::find_if(channels.begin(), channels.end(), [](const TargetChannel& channel) {
+        return channel.content == Content::kSpecular;
+      });
+      if (specular == channels.end()) continue;
+      const auto channel = static_cast<std::size_t>(specular - channels.begin());
+      target.parts[p].specular_transfer =
+          stored_transfer(set, target.writer.layout(static_cast<int>(p)).channels[channel].type);
+    }
   }
   return targets;
 }

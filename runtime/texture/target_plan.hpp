@@ -12,11 +12,14 @@
 namespace remap {
 
 // A result before it is opened.
-struct PlannedMap {
-  std::filesystem::path path;
+struct PlannedPart {
   std::size_t model = 0;  // the map of the set that it follows
   ImageChanges changes;
   std::vector<TargetChannel> channels;
+};
+struct PlannedMap {
+  std::filesystem::path path;
+  std::vector<PlannedPart> parts;
 };
 
 // Which files the results are.

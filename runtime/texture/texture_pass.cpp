@@ -1,6 +1,7 @@
 #include "texture/texture_pass.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 #include <numeric>
 #include <string>
@@ -38,15 +39,47 @@ BasicChannelView<Byte> view_of(Byte* texels, const ImageLayout& layout, std::siz
           static_cast<std::ptrdiff_t>(layout.texel_bytes), static_cast<std::ptrdiff_t>(layout.row_bytes())};
 }
 
+// A part of a file that is written in this pass.
+struct Target {
+  ImageWriter* writer = nullptr;
+  const TargetPart* part = nullptr;
+};
+
+bool is_converted(const TargetChannel& channel) {
+  return channel.content != Content::kCopy && channel.content != Content::kConstant;
+}
+
+bool converts(const std::vector<Target>& targets) {
+  return std::any_of(targets.begin(), targets.end(), [](const Target& target) {
+    return std::any_of(target.part->channels.begin(), target.part->channels.end(), is_converted);
+  });
+}
+
+// The maps that the targets are made of.
+std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Target>& targets) {
+  std::vector<bool> needed(set.maps.size());
+  if (converts(targets))
+    for (const SetParameter* parameter : {&set.roughness, &set.specular})
+      for (const ChannelPlace& place : parameter->channels) needed[place.map] = true;
+  for (const Target& target : targets)
+    for (const TargetChannel& channel : target.part->channels)
+      if (channel.content == Content::kCopy) needed[channel.from.map] = true;
+  std::vector<std::size_t> maps;
+  for (std::size_t map = 0; map < needed.size(); ++map)
+    if (needed[map]) maps.push_back(map);
+  return maps;
+}
+
+// One plane: a part of one level, of every file that is written at the same time.
 class Pass {
  public:
-  Pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
-       const PassOptions& options);
-  MapStatistics run();
+  Pass(TextureSet& set, std::vector<Target> targets, const Converter& converter, const PassOptions& options);
+  // `progress`: after each band, the rows that are done.
+  MapStatistics run(const std::function<void(int)>& progress);
 
  private:
   // The map that `target` is a copy of but for the channels that are converted; -1 where it is none.
-  int map_in_place(const TargetMap& target) const;
+  int map_in_place(const Target& target) const;
   int rows_of_a_band() const;
   void stop_if_cancelled() const;
   void read(Band& band, int first_row);
@@ -56,7 +89,10 @@ class Pass {
   SourceParameter source_of(const SetParameter& parameter, const std::string& name, const Band& band) const;
 
   TextureSet& set_;
-  std::vector<TargetMap>& targets_;
+  std::vector<Target> targets_;
+  std::vector<std::size_t> maps_;  // that are read
+  int width_;
+  int height_;
   const Converter& converter_;
   const PassOptions& options_;
   std::launch launch_;
@@ -65,29 +101,32 @@ class Pass {
   std::vector<std::vector<std::byte>> converted_;  // of targets that are not in place
 };
 
-Pass::Pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
+Pass::Pass(TextureSet& set, std::vector<Target> targets, const Converter& converter,
            const PassOptions& options)
     : set_(set),
-      targets_(targets),
+      targets_(std::move(targets)),
+      maps_(maps_needed(set, targets_)),
+      width_(set.maps[maps_.front()].layout().width),
+      height_(set.maps[maps_.front()].layout().height),
       converter_(converter),
       options_(options),
       launch_(options.thread_count > 1 ? std::launch::async : std::launch::deferred) {
-  for (const TargetMap& target : targets) in_place_.push_back(map_in_place(target));
+  for (const Target& target : targets_) in_place_.push_back(map_in_place(target));
   band_rows_ = rows_of_a_band();
-  for (std::size_t t = 0; t < targets.size(); ++t)
+  for (std::size_t t = 0; t < targets_.size(); ++t)
     converted_.emplace_back(in_place_[t] >= 0 ? 0
                                               : static_cast<std::size_t>(band_rows_) *
-                                                    targets[t].writer.layout().row_bytes());
+                                                    targets_[t].writer->layout().row_bytes());
 }
 
-int Pass::map_in_place(const TargetMap& target) const {
-  const auto& channels = target.channels;
+int Pass::map_in_place(const Target& target) const {
+  const auto& channels = target.part->channels;
   const auto copy = std::find_if(channels.begin(), channels.end(),
                                  [](const TargetChannel& c) { return c.content == Content::kCopy; });
   const auto is_constant = [](const TargetChannel& c) { return c.content == Content::kConstant; };
   if (std::any_of(channels.begin(), channels.end(), is_constant)) return -1;
   const auto follows = [&](std::size_t map) {
-    if (!same_storage(set_.maps[map].layout(), target.writer.layout())) return false;
+    if (!same_storage(set_.maps[map].layout(), target.writer->layout())) return false;
     for (std::size_t c = 0; c < channels.size(); ++c)
       if (channels[c].content == Content::kCopy && channels[c].from != ChannelPlace{map, c}) return false;
     return true;
@@ -95,16 +134,17 @@ int Pass::map_in_place(const TargetMap& target) const {
   // A map that another target copies from is not written over: only a target of copies of its own, or one
   // that overwrites what it read itself.
   const auto is_shared = [&](std::size_t map) {
-    return std::count_if(targets_.begin(), targets_.end(), [&](const TargetMap& other) {
-             return std::any_of(other.channels.begin(), other.channels.end(), [&](const TargetChannel& c) {
-               return &other != &target && c.content == Content::kCopy && c.from.map == map;
-             });
+    return std::count_if(targets_.begin(), targets_.end(), [&](const Target& other) {
+             return std::any_of(
+                 other.part->channels.begin(), other.part->channels.end(), [&](const TargetChannel& c) {
+                   return other.part != target.part && c.content == Content::kCopy && c.from.map == map;
+                 });
            }) > 0;
   };
   const auto is_taken = [&](std::size_t map) {
     return std::find(in_place_.begin(), in_place_.end(), static_cast<int>(map)) != in_place_.end();
   };
-  for (std::size_t map = 0; map < set_.maps.size(); ++map) {
+  for (const std::size_t map : maps_) {
     if (copy != channels.end() && copy->from.map != map) continue;
     if (follows(map) && !is_shared(map) && !is_taken(map)) return static_cast<int>(map);
   }
@@ -117,19 +157,19 @@ int Pass::rows_of_a_band() const {
     row_bytes += layout.row_bytes();
     if (layout.tile_height > 0) unit = std::lcm(unit, static_cast<std::size_t>(layout.tile_height));
   };
-  for (const ImageReader& map : set_.maps) add(map.layout());
+  for (const std::size_t map : maps_) add(set_.maps[map].layout());
   const std::size_t source_bytes = std::exchange(row_bytes, 0);
-  for (const TargetMap& target : targets_) add(target.writer.layout());
+  for (const Target& target : targets_) add(target.writer->layout());
   const std::size_t unit_bytes = unit * std::max(source_bytes, row_bytes);
   if (unit_bytes > kLargestBand)
-    throw Error(ErrorKind::kInput,
-                set_.maps.front().path().string() + ": is " + std::to_string(set_.width()) +
-                    " texels wide, and " + std::to_string(unit) + " rows of the set take " +
-                    std::to_string(unit_bytes >> 20) + " MB; expected " + std::to_string(kLargestBand >> 20) +
-                    " MB at most, or another tile size");
+    throw Error(ErrorKind::kInput, set_.maps[maps_.front()].path().string() + ": is " +
+                                       std::to_string(width_) + " texels wide, and " + std::to_string(unit) +
+                                       " rows of the set take " + std::to_string(unit_bytes >> 20) +
+                                       " MB; expected " + std::to_string(kLargestBand >> 20) +
+                                       " MB at most, or another tile size");
   const std::size_t units = options_.band_bytes / unit_bytes;
   const std::size_t rows = unit * std::max<std::size_t>(units, 1);
-  return static_cast<int>(std::min(rows, static_cast<std::size_t>(set_.height())));
+  return static_cast<int>(std::min(rows, static_cast<std::size_t>(height_)));
 }
 
 void Pass::stop_if_cancelled() const {
@@ -137,7 +177,7 @@ void Pass::stop_if_cancelled() const {
     throw Error(ErrorKind::kInterrupted, "interrupted: no file was written");
 }
 
-MapStatistics Pass::run() {
+MapStatistics Pass::run(const std::function<void(int)>& progress) {
   MapStatistics statistics;
   Band present, next;
   read(present, 0);
@@ -149,22 +189,20 @@ MapStatistics Pass::run() {
     write(present);
     reading.get();
     std::swap(present, next);
-    if (options_.progress) options_.progress(static_cast<std::size_t>(end));
+    progress(end);
   }
-  for (TargetMap& target : targets_) target.writer.finish();
   stop_if_cancelled();
-  for (TargetMap& target : targets_) target.writer.commit();
   return statistics;
 }
 
 void Pass::read(Band& band, int first_row) {
   band.first_row = first_row;
-  band.row_count = std::min(band_rows_, set_.height() - first_row);
+  band.row_count = std::min(band_rows_, height_ - first_row);
   if (band.row_count <= 0) return;
   band.maps.resize(set_.maps.size());
   std::vector<std::future<void>> reading;
-  for (std::size_t map = 0; map < set_.maps.size(); ++map)
-    reading.push_back(std::async(map + 1 < set_.maps.size() ? launch_ : std::launch::deferred, [&, map] {
+  for (const std::size_t map : maps_)
+    reading.push_back(std::async(map != maps_.back() ? launch_ : std::launch::deferred, [&, map] {
       ImageReader& reader = set_.maps[map];
       band.maps[map].resize(static_cast<std::size_t>(band_rows_) * reader.layout().row_bytes());
       reader.read_rows(first_row, band.row_count, band.maps[map].data());
@@ -178,7 +216,7 @@ void Pass::write(const Band& band) {
     const std::byte* texels =
         in_place_[t] >= 0 ? band.maps[static_cast<std::size_t>(in_place_[t])].data() : converted_[t].data();
     writing.push_back(std::async(t + 1 < targets_.size() ? launch_ : std::launch::deferred, [&, t, texels] {
-      targets_[t].writer.write_rows(band.first_row, band.row_count, texels);
+      targets_[t].writer->write_rows(band.first_row, band.row_count, texels);
     }));
   }
   for (auto part = writing.rbegin(); part != writing.rend(); ++part) part->get();
@@ -209,11 +247,13 @@ SourceParameter Pass::source_of(const SetParameter& parameter, const std::string
 
 MapStatistics Pass::convert(Band& band) {
   MapConversion maps;
-  maps.width = static_cast<std::size_t>(set_.width());
+  maps.width = static_cast<std::size_t>(width_);
   maps.height = static_cast<std::size_t>(band.row_count);
   maps.first_row = static_cast<std::size_t>(band.first_row);
-  maps.roughness = source_of(set_.roughness, "--roughness", band);
-  maps.specular = source_of(set_.specular, "--specular", band);
+  if (converts(targets_)) {
+    maps.roughness = source_of(set_.roughness, "--roughness", band);
+    maps.specular = source_of(set_.specular, "--specular", band);
+  }
   maps.source_convention = set_.convention;
   maps.target_convention = options_.target_convention;
   maps.bad_texels = options_.bad_texels;
@@ -221,10 +261,10 @@ MapStatistics Pass::convert(Band& band) {
   maps.histogram = options_.histogram;
   std::size_t clipped = 0;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
-    const ImageLayout& layout = targets_[t].writer.layout();
+    const ImageLayout& layout = targets_[t].writer->layout();
     std::byte* texels = texels_of(t, band);
     for (std::size_t c = 0; c < layout.channels.size(); ++c) {
-      const TargetChannel& channel = targets_[t].channels[c];
+      const TargetChannel& channel = targets_[t].part->channels[c];
       const ChannelView view = view_of(texels, layout, c);
       if (channel.content == Content::kRoughness) maps.roughness_out.channels.push_back(view);
       if (channel.content == Content::kMask) maps.mask = view;
@@ -233,7 +273,7 @@ MapStatistics Pass::convert(Band& band) {
         const std::size_t place = set_.specular.channel_count() == 1 ? views.size() : channel.index;
         views.resize(std::max(views.size(), place + 1));
         views[place] = view;
-        maps.specular_out.transfer = targets_[t].specular_transfer;
+        maps.specular_out.transfer = targets_[t].part->specular_transfer;
       }
       if (channel.content == Content::kConstant) {
         const auto* value = reinterpret_cast<const std::byte*>(&channel.value);
@@ -246,9 +286,43 @@ MapStatistics Pass::convert(Band& band) {
       }
     }
   }
-  MapStatistics statistics = convert_maps(converter_, maps, options_.thread_count);
+  MapStatistics statistics;
+  if (converts(targets_)) statistics = convert_maps(converter_, maps, options_.thread_count);
   statistics.clipped_count += clipped;
   return statistics;
+}
+
+// Planes that are written together: files of one part at once, files of several part after part, since a file
+// is written in its order.
+struct Round {
+  std::vector<Target> targets;
+  int part = 0;
+};
+
+std::vector<Round> rounds_of(std::vector<TargetMap>& targets) {
+  std::vector<Round> rounds(1);
+  for (TargetMap& target : targets)
+    if (target.parts.size() == 1) rounds.front().targets.push_back({&target.writer, &target.parts.front()});
+  if (rounds.front().targets.empty()) rounds.clear();
+  for (TargetMap& target : targets)
+    for (std::size_t part = 0; target.parts.size() > 1 && part < target.parts.size(); ++part)
+      rounds.push_back({{{&target.writer, &target.parts[part]}}, static_cast<int>(part)});
+  return rounds;
+}
+
+// Of the files of a round, which must be those of the maps that they are made of.
+int level_count(const TextureSet& set, const Round& round) {
+  int levels = 0;
+  for (const Target& target : round.targets)
+    levels = std::max(levels, target.writer->level_count(round.part));
+  for (const std::size_t map : maps_needed(set, round.targets)) {
+    const ImageReader& reader = set.maps[map];
+    if (levels > 1 && reader.level_count() != levels)
+      throw Error(ErrorKind::kInput, reader.path().string() + ": has " +
+                                         std::to_string(reader.level_count()) + " mip levels; expected " +
+                                         std::to_string(levels) + " as the other maps of the set have");
+  }
+  return levels;
 }
 
 }  // namespace
@@ -260,7 +334,31 @@ Transfer stored_transfer(const TextureSet& set, PixelType type) noexcept {
 
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
                                const PassOptions& options) {
-  return Pass(set, targets, converter, options).run();
+  const std::vector<Round> rounds = rounds_of(targets);
+  MapStatistics statistics;
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    const Round& round = rounds[i];
+    const int levels = level_count(set, round);
+    for (int level = 0; level < levels; ++level) {
+      const std::vector<std::size_t> maps = maps_needed(set, round.targets);
+      for (const std::size_t map : maps) set.maps[map].select_level(level);
+      for (const Target& target : round.targets) target.writer->select(round.part, level);
+      const double rows = set.maps[maps.front()].layout().height;
+      const MapStatistics plane = Pass(set, round.targets, converter, options).run([&](int done) {
+        // A level takes a quarter of the time of the one before.
+        const double share =
+            1.0 - std::ldexp(1.0, -2 * level) * (1.0 - 0.75 * (levels > 1 ? done / rows : 0.0));
+        const double of_round = levels > 1 ? share : done / rows;
+        if (options.progress)
+          options.progress((static_cast<double>(i) + of_round) / static_cast<double>(rounds.size()));
+      });
+      // Texels are those of the whole picture, and count once however many files they go to.
+      if (level == 0 && statistics.texel_count == 0) statistics = plane;
+    }
+  }
+  for (TargetMap& target : targets) target.writer.finish();
+  for (TargetMap& target : targets) target.writer.commit();
+  return statistics;
 }
 
 }  // namespace remap

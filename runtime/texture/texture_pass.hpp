@@ -23,11 +23,16 @@ struct TargetChannel {
   float value = 0.0f;     // of a constant
 };
 
+// One part of a file that a pass makes.
+struct TargetPart {
+  std::vector<TargetChannel> channels;             // as many as the part has
+  Transfer specular_transfer = Transfer::kLinear;  // of its specular
+};
+
 // One file that a pass makes.
 struct TargetMap {
   ImageWriter writer;
-  std::vector<TargetChannel> channels;             // as many as the file has
-  Transfer specular_transfer = Transfer::kLinear;  // of its specular
+  std::vector<TargetPart> parts;
 };
 
 // How the values of specular are stored in a file of this layout: as in the source, where both hold whole
@@ -43,14 +48,15 @@ struct PassOptions {
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
   bool histogram = false;
-  std::function<void(std::size_t rows_done)> progress;
+  std::function<void(double share_done)> progress;
   const std::atomic<bool>* cancelled = nullptr;  // looked at between bands
 };
 
-// Converts `set` into `targets`, finishes the files and gives them their names. The values equal
-// Converter::convert applied texel by texel, whatever the thread count and the band size, rounded to the
-// pixel type of the file. Throws what the files and convert_maps throw; kInterrupted when cancelled. After an
-// exception no file has appeared (after a failing rename, those renamed before it have).
+// Converts `set` into `targets`, level by level where they are mip-mapped: a renderer that filters parameters
+// sees at every level what it saw of the source. Finishes the files and gives them their names. The values
+// equal Converter::convert applied texel by texel, whatever the thread count and the band size, rounded to
+// the pixel type of the file. Throws what the files and convert_maps throw; kInterrupted when cancelled.
+// After an exception no file has appeared (after a failing rename, those renamed before it have).
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
                                const PassOptions& options);
 

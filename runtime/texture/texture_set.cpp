@@ -55,15 +55,26 @@ void require_usable(std::string_view option, std::string_view text, const std::v
               std::string(option) + ": is " + std::string(text) + "; expected " + expected);
 }
 
+bool same_word(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return std::toupper(static_cast<unsigned char>(x)) == std::toupper(static_cast<unsigned char>(y));
+  });
+}
+
 std::optional<std::size_t> find_channel(const ImageLayout& layout, std::string_view name) {
-  const auto same = [&](const Channel& channel) {
-    return std::equal(channel.name.begin(), channel.name.end(), name.begin(), name.end(), [](char a, char b) {
-      return std::toupper(static_cast<unsigned char>(a)) == std::toupper(static_cast<unsigned char>(b));
-    });
-  };
-  const auto found = std::find_if(layout.channels.begin(), layout.channels.end(), same);
+  const auto found = std::find_if(layout.channels.begin(), layout.channels.end(),
+                                  [&](const Channel& channel) { return same_word(channel.name, name); });
   if (found == layout.channels.end()) return std::nullopt;
   return static_cast<std::size_t>(found - layout.channels.begin());
+}
+
+// By its own name, or by that of its part before it: `base.R`.
+std::optional<std::size_t> find_channel(const ImageReader& reader, std::string_view name) {
+  const std::string part = reader.part_name() + ".";
+  if (const auto found = find_channel(reader.layout(), name)) return found;
+  if (part.size() == 1 || name.size() <= part.size() || !same_word(name.substr(0, part.size()), part))
+    return std::nullopt;
+  return find_channel(reader.layout(), name.substr(part.size()));
 }
 
 // R, G and B, or Y, or the only channel that is not alpha; empty where the file has none of them.
@@ -77,13 +88,12 @@ std::vector<std::size_t> colour_channels(const ImageLayout& layout) {
   return {layout.alpha_channel == 0 && has_alpha ? std::size_t{1} : std::size_t{0}};
 }
 
+// Empty where the part does not have them all.
 std::vector<std::size_t> named_channels(const ImageReader& reader, const std::vector<std::string>& asked) {
   std::vector<std::size_t> channels;
   for (const std::string& name : asked) {
-    const std::optional<std::size_t> found = find_channel(reader.layout(), name);
-    if (!found)
-      throw Error(ErrorKind::kUsage, reader.path().string() + ": has no channel " + name +
-                                         suggestion(name, channel_names(reader.layout())));
+    const std::optional<std::size_t> found = find_channel(reader, name);
+    if (!found) return {};
     channels.push_back(*found);
   }
   return channels;
@@ -104,15 +114,59 @@ void require_same_texels(const ImageReader& first, const ImageReader& other) {
                                      window_text(a));
 }
 
-// The index of the file among the maps of the set, which opens it where it is not there.
-std::size_t open_map(const fs::path& file, TextureSet& set) {
-  for (std::size_t i = 0; i < set.maps.size(); ++i) {
-    std::error_code none;
-    if (set.maps[i].path() == file || fs::equivalent(set.maps[i].path(), file, none)) return i;
-  }
-  set.maps.emplace_back(file);
-  require_same_texels(set.maps.front(), set.maps.back());
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code none;
+  return a == b || fs::equivalent(a, b, none);
+}
+
+// The index of this part of the file among the maps of the set, which opens it where it is not there.
+std::size_t open_map(const fs::path& file, int part, TextureSet& set) {
+  for (std::size_t i = 0; i < set.maps.size(); ++i)
+    if (set.maps[i].part() == part && is_same_file(set.maps[i].path(), file)) return i;
+  set.maps.emplace_back(file, part);
   return set.maps.size() - 1;
+}
+
+// The part of a file that has what is asked for, and its channels there.
+struct FoundChannels {
+  int part = 0;
+  std::vector<std::size_t> channels;
+};
+
+[[noreturn]] void fail_missing(const ImageReader& reader, const MapName& name, const std::string& expected) {
+  const std::vector<std::string> known = channel_names(reader.layout());
+  for (const std::string& asked : name.channels)
+    if (!find_channel(reader, asked))
+      throw Error(ErrorKind::kUsage,
+                  name.file.string() + ": has no channel " + asked + suggestion(asked, known));
+  throw Error(ErrorKind::kInput, name.file.string() + ": has the channels " + listed(known) + "; expected " +
+                                     expected + ", or FILE:CHANNEL");
+}
+
+FoundChannels find_channels(const MapName& name, const std::string& expected) {
+  const ImageReader first(name.file);
+  std::vector<FoundChannels> candidates;
+  std::string parts;
+  for (int part = 0; part < first.part_count(); ++part) {
+    const ImageReader reader(name.file, part);
+    const std::vector<std::size_t> channels =
+        name.channels.empty() ? colour_channels(reader.layout()) : named_channels(reader, name.channels);
+    if (!channels.empty()) candidates.push_back({part, channels});
+    parts += (parts.empty() ? "" : ", ") +
+             (reader.part_name().empty() ? std::to_string(part) : reader.part_name());
+  }
+  if (candidates.size() == 1) return candidates.front();
+  if (candidates.empty()) fail_missing(first, name, expected);
+  throw Error(ErrorKind::kUsage, name.file.string() + ": has the parts " + parts +
+                                     ", and several have such channels; expected FILE:PART.CHANNEL, or "
+                                     "FILE:PART.R,PART.G,PART.B");
+}
+
+// The other parts of files of several, which pass through.
+void add_other_parts(TextureSet& set) {
+  const std::size_t count = set.maps.size();
+  for (std::size_t i = 0; i < count; ++i)
+    for (int part = 0; part < set.maps[i].part_count(); ++part) open_map(set.maps[i].path(), part, set);
 }
 
 // Colour in whole numbers follows the curve that its file names; a single channel is data.
@@ -129,14 +183,10 @@ SetParameter open_parameter(const ParameterRequest& request, const std::string& 
     return parameter;
   }
   const MapName& name = std::get<MapName>(request.source);
-  const std::size_t map = open_map(name.file, set);
+  const auto [part, channels] = find_channels(name, expected);
+  const std::size_t map = open_map(name.file, part, set);
   const ImageReader& reader = set.maps[map];
-  const std::vector<std::size_t> channels =
-      name.channels.empty() ? colour_channels(reader.layout()) : named_channels(reader, name.channels);
-  if (channels.empty())
-    throw Error(ErrorKind::kInput, reader.path().string() + ": has the channels " +
-                                       listed(channel_names(reader.layout())) + "; expected " + expected +
-                                       ", or FILE:CHANNEL");
+  require_same_texels(set.maps.front(), reader);
   for (const std::size_t channel : channels) parameter.channels.push_back({map, channel});
   parameter.transfer = request.transfer.value_or(guessed_transfer(reader.layout(), channels));
   return parameter;
@@ -194,6 +244,7 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
       throw Error(ErrorKind::kUsage, "--" + carried.name + ": has three values; expected one");
     set.carried.push_back({carried.name, parameter});
   }
+  add_other_parts(set);
   require_factors("--roughness-factor", set.roughness);
   require_factors("--specular-factor", set.specular);
   return set;

@@ -75,8 +75,9 @@ struct CarriedParameter {
   SetParameter parameter;  // one channel or one constant
 };
 
-// An open set: every texel has one roughness and one or three specular values. Files that are named twice are
-// opened once. At least one of the parameters is a map.
+// An open set: every texel has one roughness and one or three specular values. A map is one part of a file;
+// parts that are named twice are opened once, and the parts of a file that hold no parameter stand behind
+// those that do, of whatever size. At least one of the parameters is a map.
 struct TextureSet {
   std::vector<ImageReader> maps;
   SetParameter roughness;
