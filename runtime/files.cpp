@@ -68,4 +68,12 @@ void write_file(const fs::path& path, std::string_view content) {
   commit_file(unfinished, path);
 }
 
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  if (a == b || std::filesystem::equivalent(a, b, ignored)) return true;
+  const std::filesystem::path canonical_a = std::filesystem::weakly_canonical(a, ignored),
+                              canonical_b = std::filesystem::weakly_canonical(b, ignored);
+  return !canonical_a.empty() && canonical_a == canonical_b;
+}
+
 }  // namespace remap

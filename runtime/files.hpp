@@ -21,6 +21,9 @@ void commit_file(const std::filesystem::path& unfinished, const std::filesystem:
 // Throws kOutput; the file that was there before is then as it was.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
+// Whether two names lead to one file, or would if it were there.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 // Throws kOutput where the folder of `path` does not exist and cannot be made.
 void create_parent(const std::filesystem::path& path);
 

@@ -98,14 +98,12 @@ struct ImagePart {
 class ImageWriter {
  public:
   ImageWriter(const std::filesystem::path& path, const std::vector<ImagePart>& parts);
-  ImageWriter(const std::filesystem::path& path, const ImageReader& model, const ImageChanges& changes);
   ~ImageWriter();  // takes away what was not committed
   ImageWriter(ImageWriter&&) noexcept;
   ImageWriter& operator=(ImageWriter&&) noexcept;
 
   const std::filesystem::path& path() const noexcept;
   const ImageLayout& layout() const noexcept;  // of the plane that is written
-  int part_count() const noexcept;
   int level_count(int part) const noexcept;
   ImageLayout layout(int part) const;  // of its level 0
 

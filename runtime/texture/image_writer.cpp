@@ -154,6 +154,7 @@ void ImageWriter::State::open_plane() {
                                                                : OIIO::ImageOutput::AppendSubimage));
   if (!same_storage(layout_of(output->spec(), output->format_name(), path), layout))
     fail("cannot be written: the format " + layout.format + " would change the pixel type");
+  plane_is_open = true;
 }
 
 // Throws where the system refused bytes or OpenImageIO failed.
@@ -188,8 +189,6 @@ ImageWriter::ImageWriter(const fs::path& path, const std::vector<ImagePart>& par
   for (const ImagePart& part : parts) models.push_back(part.model->state_->levels);
   state_->plan(models, parts.front().model->layout().format, parts);
 }
-ImageWriter::ImageWriter(const fs::path& path, const ImageReader& model, const ImageChanges& changes)
-    : ImageWriter(path, std::vector<ImagePart>{{&model, changes}}) {}
 ImageWriter::~ImageWriter() = default;
 ImageWriter::ImageWriter(ImageWriter&&) noexcept = default;
 ImageWriter& ImageWriter::operator=(ImageWriter&&) noexcept = default;
@@ -197,7 +196,6 @@ ImageWriter& ImageWriter::operator=(ImageWriter&&) noexcept = default;
 const fs::path& ImageWriter::path() const noexcept { return state_->path; }
 const ImageLayout& ImageWriter::layout() const noexcept { return state_->layout; }
 
-int ImageWriter::part_count() const noexcept { return static_cast<int>(state_->specs.size()); }
 int ImageWriter::level_count(int part) const noexcept {
   return static_cast<int>(state_->specs[static_cast<std::size_t>(part)].size());
 }
@@ -215,7 +213,6 @@ void ImageWriter::select(int part, int level) {
 
 void ImageWriter::write_rows(int first_row, int row_count, const std::byte* texels) {
   if (!state_->plane_is_open) state_->open_plane();
-  state_->plane_is_open = true;
   const OIIO::ImageSpec& spec = state_->spec();
   OIIO::ImageOutput& output = *state_->output;
   const int begin = spec.y + first_row, end = begin + row_count;

@@ -26,14 +26,6 @@ fs::path result_path(fs::path name, const TargetChoice& choice) {
   return choice.folder / name;
 }
 
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  if (fs::equivalent(a, b, ignored)) return true;
-  const fs::path canonical_a = fs::weakly_canonical(a, ignored),
-                 canonical_b = fs::weakly_canonical(b, ignored);
-  return !canonical_a.empty() && canonical_a == canonical_b;
-}
-
 void require_safe(const fs::path& output, const fs::path& input) {
   if (same_file(output, input))
     throw Error(ErrorKind::kUsage,
@@ -83,8 +75,6 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
   return {Content::kCopy, 0, place};
 }
 
-bool is_converted(const TargetChannel& channel) { return channel.content != Content::kCopy; }
-
 ImageChanges changes_of(const TargetChoice& choice) {
   ImageChanges changes;
   changes.type = choice.type;
@@ -95,26 +85,30 @@ ImageChanges changes_of(const TargetChoice& choice) {
 const std::vector<std::string> kGrey = {"Y"}, kColour = {"R", "G", "B"},
                                kColourAndAlpha = {"R", "G", "B", "A"};
 
-// The map that a new one follows: that of the roughness, if there is one.
-std::size_t model_of(const TextureSet& set) {
-  return set.roughness.is_map() ? set.roughness.channels.front().map : 0;
-}
-
 std::string own_name(const std::string& name, bool is_grey, const TextureSet& set,
                      const TargetChoice& choice) {
-  std::string extension =
-      choice.extension.empty() ? set.maps[model_of(set)].path().extension().string() : "." + choice.extension;
+  std::string extension = choice.extension.empty() ? set.maps[set.first_map()].path().extension().string()
+                                                   : "." + choice.extension;
   if (is_grey && extension == ".hdr") extension = ".exr";  // it has three channels or none
   return choice.names.before + name + choice.names.after + extension;
+}
+
+std::vector<TargetChannel>::const_iterator find_specular(const std::vector<TargetChannel>& channels) {
+  return std::find_if(channels.begin(), channels.end(),
+                      [](const TargetChannel& channel) { return channel.content == Content::kSpecular; });
+}
+
+// How the values of specular are stored in a file of this pixel type: as in the source, where both hold whole
+// numbers.
+Transfer stored_transfer(const TextureSet& set, PixelType type) {
+  return set.specular.is_map() && is_integer(type) ? set.specular.transfer : Transfer::kLinear;
 }
 
 // A map of its own, for what is a constant in the set or has another file there.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
-  const bool has_specular = std::any_of(channels.begin(), channels.end(), [](const TargetChannel& channel) {
-    return channel.content == Content::kSpecular;
-  });
-  PlannedPart part{model_of(set), changes_of(choice), std::move(channels)};
+  const bool has_specular = find_specular(channels) != channels.end();
+  PlannedPart part{set.first_map(), changes_of(choice), std::move(channels)};
   part.changes.channels = channel_names;
   part.changes.transfer = has_specular ? set.specular.transfer : Transfer::kLinear;
   return {choice.folder / own_name(name, channel_names.size() == 1, set, choice), {part}};
@@ -295,9 +289,7 @@ std::vector<TargetMap> open_targets(const TextureSet& set, const std::vector<Pla
     for (std::size_t p = 0; p < map.parts.size(); ++p) {
       const std::vector<TargetChannel>& channels = map.parts[p].channels;
       target.parts.push_back({channels});
-      const auto specular = std::find_if(channels.begin(), channels.end(), [](const TargetChannel& channel) {
-        return channel.content == Content::kSpecular;
-      });
+      const auto specular = find_specular(channels);
       if (specular == channels.end()) continue;
       const auto channel = static_cast<std::size_t>(specular - channels.begin());
       target.parts[p].specular_transfer =

@@ -45,10 +45,6 @@ struct Target {
   const TargetPart* part = nullptr;
 };
 
-bool is_converted(const TargetChannel& channel) {
-  return channel.content != Content::kCopy && channel.content != Content::kConstant;
-}
-
 bool converts(const std::vector<Target>& targets) {
   return std::any_of(targets.begin(), targets.end(), [](const Target& target) {
     return std::any_of(target.part->channels.begin(), target.part->channels.end(), is_converted);
@@ -70,10 +66,38 @@ std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Ta
   return maps;
 }
 
-// One plane: a part of one level, of every file that is written at the same time.
+// Planes that are written together: files of one part at once, files of several part after part, since a file
+// is written in its order.
+struct Round {
+  Round(const TextureSet& set, std::vector<Target> written, int number)
+      : targets(std::move(written)),
+        part(number),
+        is_converting(converts(targets)),
+        maps(maps_needed(set, targets)) {}
+
+  std::vector<Target> targets;
+  int part;
+  bool is_converting;             // or copies only
+  std::vector<std::size_t> maps;  // that are read
+};
+
+std::vector<Round> rounds_of(const TextureSet& set, std::vector<TargetMap>& targets) {
+  std::vector<Round> rounds;
+  std::vector<Target> single;
+  for (TargetMap& target : targets)
+    if (target.parts.size() == 1) single.push_back({&target.writer, &target.parts.front()});
+  if (!single.empty()) rounds.emplace_back(set, single, 0);
+  for (TargetMap& target : targets)
+    for (std::size_t part = 0; target.parts.size() > 1 && part < target.parts.size(); ++part)
+      rounds.emplace_back(set, std::vector<Target>{{&target.writer, &target.parts[part]}},
+                          static_cast<int>(part));
+  return rounds;
+}
+
+// One level of a round.
 class Pass {
  public:
-  Pass(TextureSet& set, std::vector<Target> targets, const Converter& converter, const PassOptions& options);
+  Pass(TextureSet& set, const Round& round, const Converter& converter, const PassOptions& options);
   // `progress`: after each band, the rows that are done.
   MapStatistics run(const std::function<void(int)>& progress);
 
@@ -84,13 +108,12 @@ class Pass {
   void stop_if_cancelled() const;
   void read(Band& band, int first_row);
   MapStatistics convert(Band& band);
-  void write(const Band& band);
+  void write(Band& band);
   std::byte* texels_of(std::size_t target, Band& band);
   SourceParameter source_of(const SetParameter& parameter, const std::string& name, const Band& band) const;
 
   TextureSet& set_;
-  std::vector<Target> targets_;
-  std::vector<std::size_t> maps_;  // that are read
+  const Round& round_;
   int width_;
   int height_;
   const Converter& converter_;
@@ -101,22 +124,20 @@ class Pass {
   std::vector<std::vector<std::byte>> converted_;  // of targets that are not in place
 };
 
-Pass::Pass(TextureSet& set, std::vector<Target> targets, const Converter& converter,
-           const PassOptions& options)
+Pass::Pass(TextureSet& set, const Round& round, const Converter& converter, const PassOptions& options)
     : set_(set),
-      targets_(std::move(targets)),
-      maps_(maps_needed(set, targets_)),
-      width_(set.maps[maps_.front()].layout().width),
-      height_(set.maps[maps_.front()].layout().height),
+      round_(round),
+      width_(set.maps[round.maps.front()].layout().width),
+      height_(set.maps[round.maps.front()].layout().height),
       converter_(converter),
       options_(options),
       launch_(options.thread_count > 1 ? std::launch::async : std::launch::deferred) {
-  for (const Target& target : targets_) in_place_.push_back(map_in_place(target));
+  for (const Target& target : round_.targets) in_place_.push_back(map_in_place(target));
   band_rows_ = rows_of_a_band();
-  for (std::size_t t = 0; t < targets_.size(); ++t)
+  for (std::size_t t = 0; t < round_.targets.size(); ++t)
     converted_.emplace_back(in_place_[t] >= 0 ? 0
                                               : static_cast<std::size_t>(band_rows_) *
-                                                    targets_[t].writer->layout().row_bytes());
+                                                    round_.targets[t].writer->layout().row_bytes());
 }
 
 int Pass::map_in_place(const Target& target) const {
@@ -134,17 +155,17 @@ int Pass::map_in_place(const Target& target) const {
   // A map that another target copies from is not written over: only a target of copies of its own, or one
   // that overwrites what it read itself.
   const auto is_shared = [&](std::size_t map) {
-    return std::count_if(targets_.begin(), targets_.end(), [&](const Target& other) {
-             return std::any_of(
-                 other.part->channels.begin(), other.part->channels.end(), [&](const TargetChannel& c) {
-                   return other.part != target.part && c.content == Content::kCopy && c.from.map == map;
-                 });
-           }) > 0;
+    return std::any_of(round_.targets.begin(), round_.targets.end(), [&](const Target& other) {
+      return other.part != target.part &&
+             std::any_of(
+                 other.part->channels.begin(), other.part->channels.end(),
+                 [&](const TargetChannel& c) { return c.content == Content::kCopy && c.from.map == map; });
+    });
   };
   const auto is_taken = [&](std::size_t map) {
     return std::find(in_place_.begin(), in_place_.end(), static_cast<int>(map)) != in_place_.end();
   };
-  for (const std::size_t map : maps_) {
+  for (const std::size_t map : round_.maps) {
     if (copy != channels.end() && copy->from.map != map) continue;
     if (follows(map) && !is_shared(map) && !is_taken(map)) return static_cast<int>(map);
   }
@@ -157,12 +178,12 @@ int Pass::rows_of_a_band() const {
     row_bytes += layout.row_bytes();
     if (layout.tile_height > 0) unit = std::lcm(unit, static_cast<std::size_t>(layout.tile_height));
   };
-  for (const std::size_t map : maps_) add(set_.maps[map].layout());
+  for (const std::size_t map : round_.maps) add(set_.maps[map].layout());
   const std::size_t source_bytes = std::exchange(row_bytes, 0);
-  for (const Target& target : targets_) add(target.writer->layout());
+  for (const Target& target : round_.targets) add(target.writer->layout());
   const std::size_t unit_bytes = unit * std::max(source_bytes, row_bytes);
   if (unit_bytes > kLargestBand)
-    throw Error(ErrorKind::kInput, set_.maps[maps_.front()].path().string() + ": is " +
+    throw Error(ErrorKind::kInput, set_.maps[round_.maps.front()].path().string() + ": is " +
                                        std::to_string(width_) + " texels wide, and " + std::to_string(unit) +
                                        " rows of the set take " + std::to_string(unit_bytes >> 20) +
                                        " MB; expected " + std::to_string(kLargestBand >> 20) +
@@ -201,8 +222,8 @@ void Pass::read(Band& band, int first_row) {
   if (band.row_count <= 0) return;
   band.maps.resize(set_.maps.size());
   std::vector<std::future<void>> reading;
-  for (const std::size_t map : maps_)
-    reading.push_back(std::async(map != maps_.back() ? launch_ : std::launch::deferred, [&, map] {
+  for (const std::size_t map : round_.maps)
+    reading.push_back(std::async(map != round_.maps.back() ? launch_ : std::launch::deferred, [&, map] {
       ImageReader& reader = set_.maps[map];
       band.maps[map].resize(static_cast<std::size_t>(band_rows_) * reader.layout().row_bytes());
       reader.read_rows(first_row, band.row_count, band.maps[map].data());
@@ -210,14 +231,13 @@ void Pass::read(Band& band, int first_row) {
   for (auto part = reading.rbegin(); part != reading.rend(); ++part) part->get();
 }
 
-void Pass::write(const Band& band) {
+void Pass::write(Band& band) {
   std::vector<std::future<void>> writing;
-  for (std::size_t t = 0; t < targets_.size(); ++t) {
-    const std::byte* texels =
-        in_place_[t] >= 0 ? band.maps[static_cast<std::size_t>(in_place_[t])].data() : converted_[t].data();
-    writing.push_back(std::async(t + 1 < targets_.size() ? launch_ : std::launch::deferred, [&, t, texels] {
-      targets_[t].writer->write_rows(band.first_row, band.row_count, texels);
-    }));
+  for (std::size_t t = 0; t < round_.targets.size(); ++t) {
+    const std::byte* texels = texels_of(t, band);
+    writing.push_back(std::async(
+        t + 1 < round_.targets.size() ? launch_ : std::launch::deferred,
+        [&, t, texels] { round_.targets[t].writer->write_rows(band.first_row, band.row_count, texels); }));
   }
   for (auto part = writing.rbegin(); part != writing.rend(); ++part) part->get();
 }
@@ -250,7 +270,7 @@ MapStatistics Pass::convert(Band& band) {
   maps.width = static_cast<std::size_t>(width_);
   maps.height = static_cast<std::size_t>(band.row_count);
   maps.first_row = static_cast<std::size_t>(band.first_row);
-  if (converts(targets_)) {
+  if (round_.is_converting) {
     maps.roughness = source_of(set_.roughness, "--roughness", band);
     maps.specular = source_of(set_.specular, "--specular", band);
   }
@@ -260,11 +280,11 @@ MapStatistics Pass::convert(Band& band) {
   maps.dither = options_.dither;
   maps.histogram = options_.histogram;
   std::size_t clipped = 0;
-  for (std::size_t t = 0; t < targets_.size(); ++t) {
-    const ImageLayout& layout = targets_[t].writer->layout();
+  for (std::size_t t = 0; t < round_.targets.size(); ++t) {
+    const ImageLayout& layout = round_.targets[t].writer->layout();
     std::byte* texels = texels_of(t, band);
     for (std::size_t c = 0; c < layout.channels.size(); ++c) {
-      const TargetChannel& channel = targets_[t].part->channels[c];
+      const TargetChannel& channel = round_.targets[t].part->channels[c];
       const ChannelView view = view_of(texels, layout, c);
       if (channel.content == Content::kRoughness) maps.roughness_out.channels.push_back(view);
       if (channel.content == Content::kMask) maps.mask = view;
@@ -273,7 +293,7 @@ MapStatistics Pass::convert(Band& band) {
         const std::size_t place = set_.specular.channel_count() == 1 ? views.size() : channel.index;
         views.resize(std::max(views.size(), place + 1));
         views[place] = view;
-        maps.specular_out.transfer = targets_[t].part->specular_transfer;
+        maps.specular_out.transfer = round_.targets[t].part->specular_transfer;
       }
       if (channel.content == Content::kConstant) {
         const auto* value = reinterpret_cast<const std::byte*>(&channel.value);
@@ -287,27 +307,9 @@ MapStatistics Pass::convert(Band& band) {
     }
   }
   MapStatistics statistics;
-  if (converts(targets_)) statistics = convert_maps(converter_, maps, options_.thread_count);
+  if (round_.is_converting) statistics = convert_maps(converter_, maps, options_.thread_count);
   statistics.clipped_count += clipped;
   return statistics;
-}
-
-// Planes that are written together: files of one part at once, files of several part after part, since a file
-// is written in its order.
-struct Round {
-  std::vector<Target> targets;
-  int part = 0;
-};
-
-std::vector<Round> rounds_of(std::vector<TargetMap>& targets) {
-  std::vector<Round> rounds(1);
-  for (TargetMap& target : targets)
-    if (target.parts.size() == 1) rounds.front().targets.push_back({&target.writer, &target.parts.front()});
-  if (rounds.front().targets.empty()) rounds.clear();
-  for (TargetMap& target : targets)
-    for (std::size_t part = 0; target.parts.size() > 1 && part < target.parts.size(); ++part)
-      rounds.push_back({{{&target.writer, &target.parts[part]}}, static_cast<int>(part)});
-  return rounds;
 }
 
 // Of the files of a round, which must be those of the maps that they are made of.
@@ -315,7 +317,7 @@ int level_count(const TextureSet& set, const Round& round) {
   int levels = 0;
   for (const Target& target : round.targets)
     levels = std::max(levels, target.writer->level_count(round.part));
-  for (const std::size_t map : maps_needed(set, round.targets)) {
+  for (const std::size_t map : round.maps) {
     const ImageReader& reader = set.maps[map];
     if (levels > 1 && reader.level_count() != levels)
       throw Error(ErrorKind::kInput, reader.path().string() + ": has " +
@@ -327,28 +329,25 @@ int level_count(const TextureSet& set, const Round& round) {
 
 }  // namespace
 
-Transfer stored_transfer(const TextureSet& set, PixelType type) noexcept {
-  if (!set.specular.is_map() || !is_integer(type)) return Transfer::kLinear;
-  return set.specular.transfer;
+bool is_converted(const TargetChannel& channel) noexcept {
+  return channel.content != Content::kCopy && channel.content != Content::kConstant;
 }
 
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
                                const PassOptions& options) {
-  const std::vector<Round> rounds = rounds_of(targets);
+  const std::vector<Round> rounds = rounds_of(set, targets);
   MapStatistics statistics;
   for (std::size_t i = 0; i < rounds.size(); ++i) {
     const Round& round = rounds[i];
     const int levels = level_count(set, round);
     for (int level = 0; level < levels; ++level) {
-      const std::vector<std::size_t> maps = maps_needed(set, round.targets);
-      for (const std::size_t map : maps) set.maps[map].select_level(level);
+      for (const std::size_t map : round.maps) set.maps[map].select_level(level);
       for (const Target& target : round.targets) target.writer->select(round.part, level);
-      const double rows = set.maps[maps.front()].layout().height;
-      const MapStatistics plane = Pass(set, round.targets, converter, options).run([&](int done) {
-        // A level takes a quarter of the time of the one before.
-        const double share =
-            1.0 - std::ldexp(1.0, -2 * level) * (1.0 - 0.75 * (levels > 1 ? done / rows : 0.0));
-        const double of_round = levels > 1 ? share : done / rows;
+      const double rows = set.maps[round.maps.front()].layout().height;
+      // A level takes a quarter of the time of the one before; the last one ends the round.
+      const double left = std::ldexp(1.0, -2 * level), own_share = level + 1 < levels ? 0.75 : 1.0;
+      const MapStatistics plane = Pass(set, round, converter, options).run([&](int done) {
+        const double of_round = 1.0 - left * (1.0 - own_share * done / rows);
         if (options.progress)
           options.progress((static_cast<double>(i) + of_round) / static_cast<double>(rounds.size()));
       });

@@ -23,6 +23,9 @@ struct TargetChannel {
   float value = 0.0f;     // of a constant
 };
 
+// Whether a converter makes it, rather than a copy or a constant.
+bool is_converted(const TargetChannel& channel) noexcept;
+
 // One part of a file that a pass makes.
 struct TargetPart {
   std::vector<TargetChannel> channels;             // as many as the part has
@@ -34,10 +37,6 @@ struct TargetMap {
   ImageWriter writer;
   std::vector<TargetPart> parts;
 };
-
-// How the values of specular are stored in a file of this layout: as in the source, where both hold whole
-// numbers.
-Transfer stored_transfer(const TextureSet& set, PixelType type) noexcept;
 
 struct PassOptions {
   int thread_count = 1;  // of the conversion; more than 1 also reads ahead and writes behind

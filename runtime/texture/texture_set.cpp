@@ -6,6 +6,7 @@
 #include <span>
 
 #include "error.hpp"
+#include "files.hpp"
 #include "nearest_name.hpp"
 #include "number_text.hpp"
 
@@ -114,24 +115,20 @@ void require_same_texels(const ImageReader& first, const ImageReader& other) {
                                      window_text(a));
 }
 
-bool is_same_file(const fs::path& a, const fs::path& b) {
-  std::error_code none;
-  return a == b || fs::equivalent(a, b, none);
-}
-
-// The index of this part of the file among the maps of the set, which opens it where it is not there.
-std::size_t open_map(const fs::path& file, int part, TextureSet& set) {
+// The indices of the parts of a file among the maps of the set, which opens it where it is not there.
+std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
+  std::vector<std::size_t> parts;
   for (std::size_t i = 0; i < set.maps.size(); ++i)
-    if (set.maps[i].part() == part && is_same_file(set.maps[i].path(), file)) return i;
-  set.maps.emplace_back(file, part);
-  return set.maps.size() - 1;
+    if (same_file(set.maps[i].path(), file)) parts.push_back(i);
+  if (!parts.empty()) return parts;
+  int count = 1;
+  for (int part = 0; part < count; ++part) {
+    parts.push_back(set.maps.size());
+    set.maps.emplace_back(file, part);
+    count = set.maps.back().part_count();
+  }
+  return parts;
 }
-
-// The part of a file that has what is asked for, and its channels there.
-struct FoundChannels {
-  int part = 0;
-  std::vector<std::size_t> channels;
-};
 
 [[noreturn]] void fail_missing(const ImageReader& reader, const MapName& name, const std::string& expected) {
   const std::vector<std::string> known = channel_names(reader.layout());
@@ -143,35 +140,30 @@ struct FoundChannels {
                                      expected + ", or FILE:CHANNEL");
 }
 
-FoundChannels find_channels(const MapName& name, const std::string& expected) {
-  const ImageReader first(name.file);
-  std::vector<FoundChannels> candidates;
-  std::string parts;
-  for (int part = 0; part < first.part_count(); ++part) {
-    const ImageReader reader(name.file, part);
+// Those that are asked for by name, or that hold colour, in the one part of the file that has them.
+std::vector<ChannelPlace> find_channels(const MapName& name, const std::string& expected, TextureSet& set) {
+  const std::vector<std::size_t> parts = open_file(name.file, set);
+  std::vector<std::vector<ChannelPlace>> candidates;
+  std::vector<std::string> part_names;
+  for (const std::size_t map : parts) {
+    const ImageReader& reader = set.maps[map];
     const std::vector<std::size_t> channels =
         name.channels.empty() ? colour_channels(reader.layout()) : named_channels(reader, name.channels);
-    if (!channels.empty()) candidates.push_back({part, channels});
-    parts += (parts.empty() ? "" : ", ") +
-             (reader.part_name().empty() ? std::to_string(part) : reader.part_name());
+    if (!channels.empty()) candidates.emplace_back();
+    for (const std::size_t channel : channels) candidates.back().push_back({map, channel});
+    part_names.push_back(reader.part_name().empty() ? std::to_string(reader.part()) : reader.part_name());
   }
   if (candidates.size() == 1) return candidates.front();
-  if (candidates.empty()) fail_missing(first, name, expected);
-  throw Error(ErrorKind::kUsage, name.file.string() + ": has the parts " + parts +
+  if (candidates.empty()) fail_missing(set.maps[parts.front()], name, expected);
+  throw Error(ErrorKind::kUsage, name.file.string() + ": has the parts " + listed(part_names) +
                                      ", and several have such channels; expected FILE:PART.CHANNEL, or "
                                      "FILE:PART.R,PART.G,PART.B");
 }
 
-// The other parts of files of several, which pass through.
-void add_other_parts(TextureSet& set) {
-  const std::size_t count = set.maps.size();
-  for (std::size_t i = 0; i < count; ++i)
-    for (int part = 0; part < set.maps[i].part_count(); ++part) open_map(set.maps[i].path(), part, set);
-}
-
 // Colour in whole numbers follows the curve that its file names; a single channel is data.
-Transfer guessed_transfer(const ImageLayout& layout, const std::vector<std::size_t>& channels) {
-  const bool is_colour = channels.size() == 3 && is_integer(layout.channels[channels.front()].type);
+Transfer guessed_transfer(const TextureSet& set, const std::vector<ChannelPlace>& channels) {
+  const ImageLayout& layout = set.maps[channels.front().map].layout();
+  const bool is_colour = channels.size() == 3 && is_integer(layout.channels[channels.front().channel].type);
   return is_colour && layout.is_tagged_nonlinear ? Transfer::kSrgb : Transfer::kLinear;
 }
 
@@ -182,13 +174,8 @@ SetParameter open_parameter(const ParameterRequest& request, const std::string& 
     parameter.constants = *constants;
     return parameter;
   }
-  const MapName& name = std::get<MapName>(request.source);
-  const auto [part, channels] = find_channels(name, expected);
-  const std::size_t map = open_map(name.file, part, set);
-  const ImageReader& reader = set.maps[map];
-  require_same_texels(set.maps.front(), reader);
-  for (const std::size_t channel : channels) parameter.channels.push_back({map, channel});
-  parameter.transfer = request.transfer.value_or(guessed_transfer(reader.layout(), channels));
+  parameter.channels = find_channels(std::get<MapName>(request.source), expected, set);
+  parameter.transfer = request.transfer.value_or(guessed_transfer(set, parameter.channels));
   return parameter;
 }
 
@@ -237,14 +224,19 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
     throw Error(ErrorKind::kUsage, "--roughness, --specular: are both constants; expected a map");
   if (!set.roughness.is_map() && set.roughness.constants.size() != 1)
     throw Error(ErrorKind::kUsage, "--roughness: has three values; expected one");
+  const auto require_size = [&](const SetParameter& parameter) {
+    if (parameter.is_map())
+      require_same_texels(set.maps[set.first_map()], set.maps[parameter.channels.front().map]);
+  };
+  require_size(set.specular);
   for (const CarriedRequest& carried : request.carried) {
     SetParameter parameter = open_parameter(carried.parameter, "one channel, Y, or R, G and B", set);
+    require_size(parameter);
     if (parameter.is_map()) parameter.channels.resize(1);  // copies of one value
     if (parameter.channel_count() != 1)
       throw Error(ErrorKind::kUsage, "--" + carried.name + ": has three values; expected one");
     set.carried.push_back({carried.name, parameter});
   }
-  add_other_parts(set);
   require_factors("--roughness-factor", set.roughness);
   require_factors("--specular-factor", set.specular);
   return set;
@@ -254,13 +246,9 @@ std::vector<std::string> remarks(const TextureSet& set) {
   std::vector<std::string> messages;
   if (!set.specular.is_map()) return messages;
   const ImageReader& reader = set.maps[set.specular.channels.front().map];
-  const bool is_whole = is_integer(reader.layout().channels[set.specular.channels.front().channel].type);
   if (set.specular.transfer == Transfer::kSrgb)
     messages.push_back(reader.path().string() +
-                       ": specular is read as colour in sRGB; --color-space linear " + "reads it as data");
-  else if (is_whole && reader.layout().is_tagged_nonlinear && set.specular.channels.size() == 3)
-    messages.push_back(reader.path().string() +
-                       ": is tagged as not linear (sRGB); its values are read as linear");
+                       ": specular is read as colour in sRGB; --color-space linear reads it as data");
   return messages;
 }
 

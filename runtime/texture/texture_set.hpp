@@ -76,8 +76,8 @@ struct CarriedParameter {
 };
 
 // An open set: every texel has one roughness and one or three specular values. A map is one part of a file;
-// parts that are named twice are opened once, and the parts of a file that hold no parameter stand behind
-// those that do, of whatever size. At least one of the parameters is a map.
+// all parts of a file are there, and those that hold no parameter may be of any size. A file that is named
+// twice is opened once. At least one of the parameters is a map.
 struct TextureSet {
   std::vector<ImageReader> maps;
   SetParameter roughness;
@@ -85,8 +85,10 @@ struct TextureSet {
   std::vector<CarriedParameter> carried;
   std::optional<RoughnessConvention> convention;
 
-  int width() const noexcept { return maps.front().layout().width; }
-  int height() const noexcept { return maps.front().layout().height; }
+  // A map of the size of the set: that of the roughness, if there is one.
+  std::size_t first_map() const noexcept {
+    return (roughness.is_map() ? roughness : specular).channels.front().map;
+  }
 };
 
 // Opens the files and finds the channels. Throws kInput where a file cannot be read, where a channel is
