@@ -1,6 +1,7 @@
 #include "commands/conversion_jobs.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "error.hpp"
@@ -165,52 +166,60 @@ void TreeJobs::require_no_collisions(const Discovery& found) const {
                                      "; expected names of their own");
 }
 
-const MapName* map_of(const ParameterRequest& parameter) { return std::get_if<MapName>(&parameter.source); }
-
-// The pattern of tiles that a file name is; none where there is a file of that name.
-std::optional<TilePattern> pattern_of(const ParameterRequest& parameter) {
-  const MapName* map = map_of(parameter);
-  std::error_code ignored;
-  if (map == nullptr || fs::exists(map->file, ignored)) return std::nullopt;
-  return tile_pattern(map->file.filename().string());
+// The parameters of a request, in one order.
+template <typename Request>
+auto parameters_of(Request& request) {
+  std::vector<decltype(&request.roughness)> parameters = {&request.roughness, &request.specular};
+  for (auto& carried : request.carried) parameters.push_back(&carried.parameter);
+  return parameters;
 }
 
-std::vector<int> numbers_of(const MapName& map) {
-  std::vector<int> numbers;
-  for (const Tile& tile : existing_tiles(map.file)) numbers.push_back(tile.number);
-  return numbers;
+// A parameter whose file name stands for tiles.
+struct TiledParameter {
+  std::size_t index = 0;  // among the parameters of the request
+  fs::path file;
+  TilePattern pattern;
+};
+
+std::vector<TiledParameter> tiled_parameters(const TextureSetRequest& request) {
+  std::vector<TiledParameter> tiled;
+  const auto parameters = parameters_of(request);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto* map = std::get_if<MapName>(&parameters[i]->source);
+    std::error_code ignored;
+    if (map == nullptr || fs::exists(map->file, ignored)) continue;
+    if (const auto pattern = tile_pattern(map->file.filename().string()))
+      tiled.push_back({i, map->file, *pattern});
+  }
+  return tiled;
 }
 
-// The tiles that either map has; one that the other map lacks is left out, with a message.
-JobList tile_jobs(const ConvertOptions& options, const TextureSetRequest& request) {
+// The tiles that any of the maps has; one that another map lacks is left out, with a message.
+JobList tile_jobs(const ConvertOptions& options, const TextureSetRequest& request,
+                  const std::vector<TiledParameter>& tiled) {
   JobList list;
   list.is_tree = true;
-  const std::vector<const ParameterRequest*> parameters = {&request.roughness, &request.specular};
-  std::set<int> numbers;
-  std::string set_name;
-  for (const ParameterRequest* parameter : parameters) {
-    if (!pattern_of(*parameter)) continue;
-    const std::vector<int> own = numbers_of(*map_of(*parameter));
+  std::map<int, std::vector<std::optional<fs::path>>> tiles;  // a file for each of `tiled`, by number
+  for (std::size_t i = 0; i < tiled.size(); ++i) {
+    const std::vector<Tile> own = existing_tiles(tiled[i].file);
     if (own.empty())
-      throw Error(ErrorKind::kInput,
-                  map_of(*parameter)->file.string() + ": has no tile; expected at least one file");
-    numbers.insert(own.begin(), own.end());
-    if (set_name.empty()) set_name = shown(map_of(*parameter)->file);
+      throw Error(ErrorKind::kInput, tiled[i].file.string() + ": has no tile; expected at least one file");
+    for (const Tile& tile : own) {
+      tiles[tile.number].resize(tiled.size());
+      tiles[tile.number][i] = tiled[i].file.parent_path() / tile_name(tiled[i].pattern, tile.number);
+    }
   }
-  for (const int number : numbers) {
+  for (const auto& [number, files] : tiles) {
     const std::string text = std::to_string(number);
-    ConversionJob job{set_name, text, request, options.output, {"", "." + text}};
+    ConversionJob job{shown(tiled.front().file), text, request, options.output, {"", "." + text}};
+    const auto parameters = parameters_of(job.request);
     bool whole = true;
-    for (ParameterRequest* parameter : {&job.request.roughness, &job.request.specular}) {
-      const std::optional<TilePattern> pattern = pattern_of(*parameter);
-      if (!pattern) continue;
-      MapName& map = std::get<MapName>(parameter->source);
-      const fs::path file = map.file.parent_path() / tile_name(*pattern, number);
-      std::error_code ignored;
-      if (fs::exists(file, ignored)) {
-        map.file = file;
+    for (std::size_t i = 0; i < tiled.size(); ++i) {
+      if (files[i]) {
+        std::get<MapName>(parameters[tiled[i].index]->source).file = *files[i];
         continue;
       }
+      const fs::path file = tiled[i].file.parent_path() / tile_name(tiled[i].pattern, number);
       list.left_out.push_back({file.string() + ": is missing; expected every tile of the set", true});
       whole = false;
     }
@@ -221,10 +230,10 @@ JobList tile_jobs(const ConvertOptions& options, const TextureSetRequest& reques
 
 }  // namespace
 
-JobList conversion_jobs(const ConvertOptions& options) {
-  const TextureSetRequest request = set_request(options);
+JobList conversion_jobs(const ConvertOptions& options, const TextureSetRequest& request) {
   if (!options.folder.empty()) return TreeJobs(options, request).list();
-  if (pattern_of(request.roughness) || pattern_of(request.specular)) return tile_jobs(options, request);
+  if (const std::vector<TiledParameter> tiled = tiled_parameters(request); !tiled.empty())
+    return tile_jobs(options, request, tiled);
   JobList list;
   list.jobs.push_back({"", "", request, options.output, {}});
   return list;

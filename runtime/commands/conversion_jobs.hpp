@@ -33,8 +33,8 @@ struct JobList {
   bool is_tree = false;                // many sets, or tiles: failures of one do not stop the others
 };
 
-// Throws kUsage for options that do not go together and for a folder without sets; kInput where the folder or
-// a naming file cannot be read; kUsage where two sets would write one file.
-JobList conversion_jobs(const ConvertOptions& options);
+// `request`: what the options say of one set, or of all sets of a folder. Throws kUsage for a folder without
+// sets and where two sets would write one file; kInput where the folder or a naming file cannot be read.
+JobList conversion_jobs(const ConvertOptions& options, const TextureSetRequest& request);
 
 }  // namespace remap

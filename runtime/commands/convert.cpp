@@ -114,11 +114,12 @@ void warn_of_encoding(const ConvertOptions& options, const JobList& list, const 
                       " has it; --roughness-encoding roughness where they hold its square root");
 }
 
-void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chosen) {
+void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chosen,
+                     const TextureSetRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   if (options.output.empty())
     throw Error(ErrorKind::kUsage, "--output: is missing; expected a folder for the results");
-  const JobList list = conversion_jobs(options);
+  const JobList list = conversion_jobs(options, request);
   warn_of_encoding(options, list, chosen.converter->info().source);
   Outcome outcome{chosen, list, run_jobs(list, chosen, options), options.dry_run, 0.0};
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -137,14 +138,12 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
 void convert(const ConvertOptions& options) {
   (void)pass_options(options);  // wrong words before anything is looked at
   (void)target_choice(options);
-  if (options.folder.empty()) (void)set_request(options);
+  const TextureSetRequest request = set_request(options);
   const ChosenConverter chosen = choose_converter(options);
-  if (options.folder.empty()) {
-    const TextureSetRequest request = set_request(options);
-    if (is_constant(request.roughness) && is_constant(request.specular))
-      return convert_values(options, chosen, request);
-  }
-  convert_maps_of(options, chosen);
+  if (options.folder.empty() && is_constant(request.roughness) && is_constant(request.specular))
+    convert_values(options, chosen, request);
+  else
+    convert_maps_of(options, chosen, request);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "error.hpp"
+#include "named_values.hpp"
 #include "nearest_name.hpp"
 
 namespace remap {
@@ -38,11 +39,13 @@ std::optional<PixelType> chosen_type(const std::string& name) {
   return pixel_type_from_name(name);
 }
 
+constexpr NamedValues<BadTexels, 3> kBadTexels = {
+    {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
+
 BadTexels bad_texels_of(const std::string& word) {
-  if (word == "keep") return BadTexels::kKeep;
-  if (word == "clamp") return BadTexels::kClamp;
-  if (word == "fail") return BadTexels::kFail;
-  fail_unknown("--bad-texels", word, {"keep", "clamp", "fail"});
+  const auto known = value_named(kBadTexels, word);
+  if (!known) fail_unknown("--bad-texels", word, names_of(kBadTexels));
+  return *known;
 }
 
 std::vector<float> factors_of(const std::string& option, const std::string& text) {

@@ -19,10 +19,19 @@ namespace {
 // A set's share of the progress line, whatever its size.
 constexpr std::size_t kSetProgress = 1000;
 
+// Each once: a file of several parts is several maps.
+std::vector<std::filesystem::path> files_of(const TextureSet& set) {
+  std::vector<std::filesystem::path> files;
+  for (const ImageReader& map : set.maps)
+    if (std::find(files.begin(), files.end(), map.path()) == files.end()) files.push_back(map.path());
+  return files;
+}
+
 // Of what the results of a set are made: the bytes of its files, the converter, the options.
-std::string hash_of(const TextureSet& set, const ChosenConverter& chosen, const ConvertOptions& options) {
+std::string hash_of(const std::vector<std::filesystem::path>& files, const ChosenConverter& chosen,
+                    const ConvertOptions& options) {
   ContentHash hash;
-  for (const ImageReader& map : set.maps) hash.add_file(map.path());
+  for (const std::filesystem::path& file : files) hash.add_file(file);
   for (const Converter* step : chosen.path.steps) hash.add(step->info().id);
   if (!options.fit.empty()) hash.add_file(options.fit);
   hash.add(result_options_text(options));
@@ -94,12 +103,12 @@ JobReport::Result result_of(const PlannedMap& planned) {
 class JobRunner {
  public:
   JobRunner(const ChosenConverter& chosen, const ConvertOptions& options, int threads_a_job)
-      : chosen_(chosen), options_(options), pass_(pass_options(options)) {
+      : chosen_(chosen), options_(options), choice_(target_choice(options)), pass_(pass_options(options)) {
     pass_.thread_count = threads_a_job;
     pass_.cancelled = &interruption();
   }
 
-  // `progress`: rows done and rows of all, where it is watched.
+  // `progress`: gets the share of the set that is done, 0 to 1.
   void run(const ConversionJob& job, const std::function<void(double)>& progress, JobReport& report) const;
 
  private:
@@ -107,14 +116,14 @@ class JobRunner {
 
   const ChosenConverter& chosen_;
   const ConvertOptions& options_;
+  TargetChoice choice_;  // but for what belongs to one set
   PassOptions pass_;
 };
 
 void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets,
                             JobReport& report) const {
   if (options_.color_space.empty()) report.warnings = remarks(set);
-  const Layout layout = target_choice(options_).layout;
-  if (layout == Layout::kOrm || layout == Layout::kArm) {
+  if (choice_.layout == Layout::kOrm || choice_.layout == Layout::kArm) {
     const auto note = [&](const std::string& name, const std::string& value) {
       const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };
       if (std::none_of(set.carried.begin(), set.carried.end(), has_name))
@@ -135,14 +144,15 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
                     JobReport& report) const {
   const auto start = std::chrono::steady_clock::now();
   TextureSet set = open_texture_set(job.request);
-  for (const ImageReader& map : set.maps) report.inputs.push_back(map.path());
+  report.inputs = files_of(set);
   report.specular_transfer = set.specular.transfer;
   require_not_converted(set, chosen_.converter->info().source.model, options_.force);
 
-  TargetChoice choice = target_choice(options_);
+  TargetChoice choice = choice_;
   choice.folder = job.folder;
   choice.names = job.names;
-  const std::string hash = hash_of(set, chosen_, options_);
+  const bool needs_hash = options_.resume || !options_.dry_run;
+  const std::string hash = needs_hash ? hash_of(report.inputs, chosen_, options_) : "";
   choice.metadata = metadata_of(chosen_, hash);
   choice.force = options_.force || options_.resume;  // what is there is looked at below
   const std::vector<PlannedMap> planned = plan_targets(set, choice);

@@ -1,14 +1,18 @@
 #include "model/convention.hpp"
 
-#include <array>
 #include <cmath>
+
+#include "named_values.hpp"
 
 namespace remap {
 namespace {
 
-constexpr std::array kConventions = {RoughnessConvention::kAlpha, RoughnessConvention::kRoughness,
-                                     RoughnessConvention::kExponent, RoughnessConvention::kGlossiness,
-                                     RoughnessConvention::kSquared};
+constexpr NamedValues<RoughnessConvention, 5> kConventions = {
+    {{RoughnessConvention::kAlpha, "alpha"},
+     {RoughnessConvention::kRoughness, "roughness"},
+     {RoughnessConvention::kExponent, "exponent"},
+     {RoughnessConvention::kGlossiness, "glossiness"},
+     {RoughnessConvention::kSquared, "squared"}}};
 
 }  // namespace
 
@@ -44,32 +48,12 @@ double from_alpha(RoughnessConvention convention, double alpha) {
   return alpha;
 }
 
-std::string_view convention_name(RoughnessConvention convention) {
-  switch (convention) {
-    case RoughnessConvention::kAlpha:
-      return "alpha";
-    case RoughnessConvention::kRoughness:
-      return "roughness";
-    case RoughnessConvention::kExponent:
-      return "exponent";
-    case RoughnessConvention::kGlossiness:
-      return "glossiness";
-    case RoughnessConvention::kSquared:
-      return "squared";
-  }
-  return "alpha";
-}
+std::string_view convention_name(RoughnessConvention convention) { return name_of(kConventions, convention); }
 
 std::optional<RoughnessConvention> convention_from_name(std::string_view name) {
-  for (const RoughnessConvention convention : kConventions)
-    if (convention_name(convention) == name) return convention;
-  return std::nullopt;
+  return value_named(kConventions, name);
 }
 
-std::vector<std::string> convention_names() {
-  std::vector<std::string> names;
-  for (const RoughnessConvention convention : kConventions) names.emplace_back(convention_name(convention));
-  return names;
-}
+std::vector<std::string> convention_names() { return names_of(kConventions); }
 
 }  // namespace remap

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 
+#include "named_values.hpp"
+
 namespace remap {
 namespace {
 
-struct ActivationName {
-  Activation activation;
-  std::string_view name;
-};
-constexpr std::array<ActivationName, 3> kActivations = {
+constexpr NamedValues<Activation, 3> kActivations = {
     {{Activation::kRelu, "relu"}, {Activation::kTanh, "tanh"}, {Activation::kSilu, "silu"}}};
 
 std::size_t count_of(const Network& network) {
@@ -84,23 +82,13 @@ struct NumberCount {
 
 }  // namespace
 
-std::string_view activation_name(Activation activation) {
-  for (const ActivationName& entry : kActivations)
-    if (entry.activation == activation) return entry.name;
-  return "";
-}
+std::string_view activation_name(Activation activation) { return name_of(kActivations, activation); }
 
 std::optional<Activation> activation_from_name(std::string_view name) {
-  for (const ActivationName& entry : kActivations)
-    if (entry.name == name) return entry.activation;
-  return std::nullopt;
+  return value_named(kActivations, name);
 }
 
-std::vector<std::string> activation_names() {
-  std::vector<std::string> names;
-  for (const ActivationName& entry : kActivations) names.emplace_back(entry.name);
-  return names;
-}
+std::vector<std::string> activation_names() { return names_of(kActivations); }
 
 MappingKind widened(const RegressedKind& mapping) {
   return std::visit([](const auto& kind) { return MappingKind(kind); }, mapping);

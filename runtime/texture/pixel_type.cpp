@@ -1,33 +1,25 @@
 #include "texture/pixel_type.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>
 #include <type_traits>
 
+#include "named_values.hpp"
+
 namespace remap {
 namespace {
 
-struct TypeRecord {
-  PixelType type;
-  std::string_view name;
-  std::size_t bytes;
-};
-
-// In the order of the enumeration.
-constexpr std::array<TypeRecord, 9> kTypes = {{{PixelType::kUint8, "uint8", 1},
-                                               {PixelType::kUint16, "uint16", 2},
-                                               {PixelType::kUint32, "uint", 4},
-                                               {PixelType::kInt8, "int8", 1},
-                                               {PixelType::kInt16, "int16", 2},
-                                               {PixelType::kInt32, "int", 4},
-                                               {PixelType::kHalf, "half", 2},
-                                               {PixelType::kFloat, "float", 4},
-                                               {PixelType::kDouble, "double", 8}}};
-
-const TypeRecord& record(PixelType type) noexcept { return kTypes[static_cast<std::size_t>(type)]; }
+constexpr NamedValues<PixelType, 9> kTypes = {{{PixelType::kUint8, "uint8"},
+                                               {PixelType::kUint16, "uint16"},
+                                               {PixelType::kUint32, "uint"},
+                                               {PixelType::kInt8, "int8"},
+                                               {PixelType::kInt16, "int16"},
+                                               {PixelType::kInt32, "int"},
+                                               {PixelType::kHalf, "half"},
+                                               {PixelType::kFloat, "float"},
+                                               {PixelType::kDouble, "double"}}};
 
 // The storage of a half, apart from uint16_t so that the templates below can tell them apart.
 struct HalfBits {
@@ -116,26 +108,21 @@ auto with_storage(PixelType type, Work work) noexcept {
 
 }  // namespace
 
-std::size_t byte_count(PixelType type) noexcept { return record(type).bytes; }
+std::size_t byte_count(PixelType type) noexcept {
+  return with_storage(type, [](auto stored) { return sizeof stored; });
+}
 
 bool is_integer(PixelType type) noexcept {
   return type != PixelType::kHalf && type != PixelType::kFloat && type != PixelType::kDouble;
 }
 
-std::string_view pixel_type_name(PixelType type) noexcept { return record(type).name; }
+std::string_view pixel_type_name(PixelType type) noexcept { return name_of(kTypes, type); }
 
 std::optional<PixelType> pixel_type_from_name(std::string_view name) noexcept {
-  for (const TypeRecord& known : kTypes) {
-    if (known.name == name) return known.type;
-  }
-  return std::nullopt;
+  return value_named(kTypes, name);
 }
 
-std::vector<std::string> pixel_type_names() {
-  std::vector<std::string> names;
-  for (const TypeRecord& known : kTypes) names.emplace_back(known.name);
-  return names;
-}
+std::vector<std::string> pixel_type_names() { return names_of(kTypes); }
 
 void load_values(PixelType type, const std::byte* first, std::size_t stride, std::size_t count,
                  float* values) noexcept {

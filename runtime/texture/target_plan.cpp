@@ -6,6 +6,7 @@
 
 #include "error.hpp"
 #include "files.hpp"
+#include "named_values.hpp"
 #include "nearest_name.hpp"
 
 namespace remap {
@@ -229,32 +230,19 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
   return all;
 }
 
-struct NamedLayout {
-  Layout layout;
-  std::string_view name;
-};
-// In the order of the enumeration.
-constexpr std::array<NamedLayout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
-                                                  {Layout::kSeparate, "separate"},
-                                                  {Layout::kOrm, "orm"},
-                                                  {Layout::kArm, "arm"},
-                                                  {Layout::kSpecGloss, "specgloss"}}};
+constexpr NamedValues<Layout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
+                                              {Layout::kSeparate, "separate"},
+                                              {Layout::kOrm, "orm"},
+                                              {Layout::kArm, "arm"},
+                                              {Layout::kSpecGloss, "specgloss"}}};
 
 }  // namespace
 
-std::string_view layout_name(Layout layout) { return kLayouts[static_cast<std::size_t>(layout)].name; }
+std::string_view layout_name(Layout layout) { return name_of(kLayouts, layout); }
 
-std::optional<Layout> layout_from_name(std::string_view name) {
-  for (const NamedLayout& known : kLayouts)
-    if (known.name == name) return known.layout;
-  return std::nullopt;
-}
+std::optional<Layout> layout_from_name(std::string_view name) { return value_named(kLayouts, name); }
 
-std::vector<std::string> layout_names() {
-  std::vector<std::string> names;
-  for (const NamedLayout& known : kLayouts) names.emplace_back(known.name);
-  return names;
-}
+std::vector<std::string> layout_names() { return names_of(kLayouts); }
 
 std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& choice) {
   if (!choice.extension.empty()) require_known_extension(choice.extension);

@@ -1,13 +1,14 @@
 #include "texture/transfer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "named_values.hpp"
 
 namespace remap {
 namespace {
 
-constexpr std::array kTransfers = {Transfer::kLinear, Transfer::kSrgb};
+constexpr NamedValues<Transfer, 2> kTransfers = {{{Transfer::kLinear, "linear"}, {Transfer::kSrgb, "srgb"}}};
 
 float srgb_to_linear(float stored) noexcept {
   const float magnitude = std::fabs(stored);
@@ -25,19 +26,11 @@ float linear_to_srgb(float linear) noexcept {
 
 }  // namespace
 
-std::string_view transfer_name(Transfer transfer) { return transfer == Transfer::kSrgb ? "srgb" : "linear"; }
+std::string_view transfer_name(Transfer transfer) { return name_of(kTransfers, transfer); }
 
-std::optional<Transfer> transfer_from_name(std::string_view name) {
-  for (const Transfer transfer : kTransfers)
-    if (transfer_name(transfer) == name) return transfer;
-  return std::nullopt;
-}
+std::optional<Transfer> transfer_from_name(std::string_view name) { return value_named(kTransfers, name); }
 
-std::vector<std::string> transfer_names() {
-  std::vector<std::string> names;
-  for (const Transfer transfer : kTransfers) names.emplace_back(transfer_name(transfer));
-  return names;
-}
+std::vector<std::string> transfer_names() { return names_of(kTransfers); }
 
 void to_linear(Transfer transfer, std::span<float> values) noexcept {
   if (transfer == Transfer::kLinear) return;

@@ -31,8 +31,7 @@ TEST_CASE("Substance Painter: metal and roughness, packed as for Unreal") {
   const SetSession session{"Crate_BaseColor.png", "Crate_Normal.png", "Crate_OcclusionRoughnessMetallic.png",
                            "Crate_Emissive.png", "Crate_Height.png"};
   const Discovery found = session.find();
-  REQUIRE(found.sets.size() == 1);
-  const FoundSet& set = set_at(found, "Crate");
+  const FoundSet& set = only_set(found, "Crate");
   CHECK(set.state == SetState::kReady);
   CHECK(use_text(set, set.width) == "roughness in G of Crate_OcclusionRoughnessMetallic.png");
   CHECK(use_text(set, set.specular) == "-");
@@ -46,8 +45,7 @@ TEST_CASE("Substance Painter: specular and glossiness, with UDIM tiles") {
                            "hero_Body_Specular.1001.exr",   "hero_Body_Specular.1002.exr",
                            "hero_Body_Glossiness.1001.exr", "hero_Body_Glossiness.1002.exr"};
   const Discovery found = session.find();
-  REQUIRE(found.sets.size() == 1);
-  const FoundSet& set = set_at(found, "hero_Body");
+  const FoundSet& set = only_set(found, "hero_Body");
   CHECK(use_text(set, set.width) == "glossiness of hero_Body_Glossiness.<UDIM>.exr");
   CHECK(use_text(set, set.specular) == "specular of hero_Body_Specular.<UDIM>.exr");
   CHECK(set.maps[0].habit == "Substance Painter");
@@ -71,8 +69,7 @@ TEST_CASE("Substance Painter: a tile before the word") {
   const SetSession session{"robot_1001_Roughness.png", "robot_1002_Roughness.png", "robot_1001_BaseColor.png",
                            "robot_1002_BaseColor.png"};
   const Discovery found = session.find();
-  REQUIRE(found.sets.size() == 1);
-  const FoundSet& set = set_at(found, "robot");
+  const FoundSet& set = only_set(found, "robot");
   CHECK(use_text(set, set.width) == "roughness of robot_<UDIM>_Roughness.png");
 }
 
@@ -81,8 +78,7 @@ TEST_CASE("Poly Haven: maps with the resolution after the word") {
                            "rocky_terrain_02_spec_4k.png", "rocky_terrain_02_nor_gl_4k.exr",
                            "rocky_terrain_02_disp_4k.png", "rocky_terrain_02_ao_4k.jpg"};
   const Discovery found = session.find();
-  REQUIRE(found.sets.size() == 1);
-  const FoundSet& set = set_at(found, "rocky_terrain_02");
+  const FoundSet& set = only_set(found, "rocky_terrain_02");
   CHECK(use_text(set, set.width) == "roughness of rocky_terrain_02_rough_4k.exr");
   CHECK(use_text(set, set.specular) == "specular of rocky_terrain_02_spec_4k.png");
   CHECK(set.maps[0].habit == "Poly Haven");
@@ -96,8 +92,7 @@ TEST_CASE("ambientCG: resolution and format before the word") {
                            "Metal014_4K-PNG_NormalDX.png",  "Metal014_4K-PNG_Roughness.png",
                            "Metal014_4K-PNG_Metalness.png", "Metal014_4K-PNG_Displacement.png"};
   const Discovery found = session.find();
-  REQUIRE(found.sets.size() == 1);
-  const FoundSet& set = set_at(found, "Metal014");
+  const FoundSet& set = only_set(found, "Metal014");
   CHECK(use_text(set, set.width) == "roughness of Metal014_4K-PNG_Roughness.png");
   CHECK(set.maps[0].habit == "ambientCG");
   CHECK(set.bystanders.size() == 5);
@@ -110,8 +105,7 @@ TEST_CASE("Quixel Megascans: resolution before the word") {
   const SetSession session{"vhqgdhh_4K_Albedo.jpg", "vhqgdhh_4K_Specular.jpg", "vhqgdhh_4K_Gloss.jpg",
                            "vhqgdhh_4K_Cavity.jpg", "vhqgdhh_4K_Normal.jpg",   "vhqgdhh_4K_Displacement.exr"};
   const Discovery found = session.find();
-  REQUIRE(found.sets.size() == 1);
-  const FoundSet& set = set_at(found, "vhqgdhh");
+  const FoundSet& set = only_set(found, "vhqgdhh");
   CHECK(use_text(set, set.width) == "glossiness of vhqgdhh_4K_Gloss.jpg");
   CHECK(use_text(set, set.specular) == "specular of vhqgdhh_4K_Specular.jpg");
   CHECK(set.maps[0].habit == "Quixel Megascans");

@@ -38,6 +38,13 @@ inline const FoundSet& set_at(const Discovery& discovery, const std::string& pat
   throw std::runtime_error("no set " + path);
 }
 
+// The one set of a discovery; throws where there are more or none, or where it has another name.
+inline const FoundSet& only_set(const Discovery& discovery, const std::string& path) {
+  if (discovery.sets.size() != 1)
+    throw std::runtime_error(std::to_string(discovery.sets.size()) + " sets, expected " + path + " alone");
+  return set_at(discovery, path);
+}
+
 // `roughness in G of a_orm.png`; `-` for none.
 inline std::string use_text(const FoundSet& set, const std::optional<MapUse>& use) {
   if (!use) return "-";
