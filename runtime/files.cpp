@@ -68,6 +68,23 @@ void write_file(const fs::path& path, std::string_view content) {
   commit_file(unfinished, path);
 }
 
+void copy_whole_file(const fs::path& from, const fs::path& to) {
+  std::error_code failure;
+  if (!fs::is_regular_file(from, failure))
+    throw Error(ErrorKind::kInput, from.string() + ": " +
+                                       (failure ? "cannot be read: " + failure.message() : "is no file") +
+                                       "; expected a file to copy");
+  const fs::path unfinished = unfinished_name(to);
+  fs::copy_file(from, unfinished, fs::copy_options::overwrite_existing, failure);
+  if (failure) {
+    std::error_code ignored;
+    fs::remove(unfinished, ignored);
+    throw Error(ErrorKind::kOutput,
+                to.string() + ": cannot be copied from " + from.string() + ": " + failure.message());
+  }
+  commit_file(unfinished, to);
+}
+
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;
   if (a == b || std::filesystem::equivalent(a, b, ignored)) return true;

@@ -21,6 +21,10 @@ void commit_file(const std::filesystem::path& unfinished, const std::filesystem:
 // Throws kOutput; the file that was there before is then as it was.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
+// Copies the bytes of a file to a name that is complete or not there at all, replacing what was there. Throws
+// kInput where `from` is no file that can be read, kOutput where the copy cannot be made.
+void copy_whole_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
 // Whether two names lead to one file, or would if it were there.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 

@@ -41,6 +41,19 @@ std::vector<int> tiles_of(const FoundSet& set) {
   return {numbers.begin(), numbers.end()};
 }
 
+// The files that a job names, in one order.
+std::vector<fs::path*> files_of(ConversionJob& job) {
+  std::vector<fs::path*> files;
+  const auto add = [&](ParameterRequest& parameter) {
+    if (auto* map = std::get_if<MapName>(&parameter.source)) files.push_back(&map->file);
+  };
+  add(job.request.roughness);
+  add(job.request.specular);
+  for (CarriedRequest& carried : job.request.carried) add(carried.parameter);
+  for (CopiedFile& copy : job.copies) files.push_back(&copy.source);
+  return files;
+}
+
 // The folder of sets turned into jobs.
 class TreeJobs {
  public:
@@ -53,6 +66,7 @@ class TreeJobs {
   void add(const FoundSet& set);
   void add_tile(const FoundSet& set, int tile);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
+  void copy_others(const FoundSet& set, int tile, ConversionJob& job) const;
   void require_no_collisions(const Discovery& found) const;
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
 
@@ -103,7 +117,8 @@ void TreeJobs::add_tile(const FoundSet& set, int tile) {
                     number,
                     stand_ins_,
                     fs::path(options_.output) / set.folder,
-                    {set.name + "_", tile == 0 ? "" : "." + number}};
+                    {set.name + "_", tile == 0 ? "" : "." + number},
+                    {}};
   const auto source = [&](const MapUse& use) -> std::optional<MapName> {
     const std::optional<fs::path> file = file_of(set.maps[use.map], tile);
     if (!file) {
@@ -125,6 +140,7 @@ void TreeJobs::add_tile(const FoundSet& set, int tile) {
     job.request.specular.source = *specular;
   }
   if (options_.layout != layout_name(Layout::kAsInputs)) carry(set, tile, job.request);
+  if (options_.copy_others) copy_others(set, tile, job);
   jobs_.jobs.push_back(std::move(job));
 }
 
@@ -143,6 +159,20 @@ void TreeJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) 
           request.carried.push_back(
               {name, {MapName{root_ / *file, channel_names(entry.channels)}, {}, Transfer::kLinear}});
       }
+}
+
+// The files that the conversion does not read. A map without tiles goes with the first tile of the set.
+void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) const {
+  const std::vector<fs::path*> read = files_of(job);
+  const bool is_first = tile == tiles_of(set).front();
+  for (const std::vector<FoundMap>* maps : {&set.maps, &set.bystanders})
+    for (const FoundMap& map : *maps) {
+      const std::optional<fs::path> file = file_of(map, tile);
+      if (!file || (map.tiles.empty() && !is_first)) continue;
+      const fs::path source = root_ / *file;
+      if (std::none_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
+        job.copies.push_back({source, ""});
+    }
 }
 
 void TreeJobs::require_no_collisions(const Discovery& found) const {
@@ -166,64 +196,51 @@ void TreeJobs::require_no_collisions(const Discovery& found) const {
                                      "; expected names of their own");
 }
 
-// The parameters of a request, in one order.
-template <typename Request>
-auto parameters_of(Request& request) {
-  std::vector<decltype(&request.roughness)> parameters = {&request.roughness, &request.specular};
-  for (auto& carried : request.carried) parameters.push_back(&carried.parameter);
-  return parameters;
-}
-
-// A parameter whose file name stands for tiles.
-struct TiledParameter {
-  std::size_t index = 0;  // among the parameters of the request
+// A file name that stands for tiles.
+struct TiledFile {
+  std::size_t index = 0;  // among the files of the job
   fs::path file;
   TilePattern pattern;
+
+  fs::path tile(int number) const { return file.parent_path() / tile_name(pattern, number); }
 };
 
-std::vector<TiledParameter> tiled_parameters(const TextureSetRequest& request) {
-  std::vector<TiledParameter> tiled;
-  const auto parameters = parameters_of(request);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto* map = std::get_if<MapName>(&parameters[i]->source);
+std::vector<TiledFile> tiled_files(ConversionJob& job) {
+  std::vector<TiledFile> tiled;
+  const std::vector<fs::path*> files = files_of(job);
+  for (std::size_t i = 0; i < files.size(); ++i) {
     std::error_code ignored;
-    if (map == nullptr || fs::exists(map->file, ignored)) continue;
-    if (const auto pattern = tile_pattern(map->file.filename().string()))
-      tiled.push_back({i, map->file, *pattern});
+    if (fs::exists(*files[i], ignored)) continue;
+    if (const auto pattern = tile_pattern(files[i]->filename().string()))
+      tiled.push_back({i, *files[i], *pattern});
   }
   return tiled;
 }
 
 // The tiles that any of the maps has; one that another map lacks is left out, with a message.
-JobList tile_jobs(const ConvertOptions& options, const TextureSetRequest& request,
-                  const std::vector<TiledParameter>& tiled) {
+JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& tiled) {
   JobList list;
   list.is_tree = true;
-  std::map<int, std::vector<std::optional<fs::path>>> tiles;  // a file for each of `tiled`, by number
+  std::map<int, std::set<std::size_t>> tiles;  // which of `tiled` have the tile of that number
   for (std::size_t i = 0; i < tiled.size(); ++i) {
     const std::vector<Tile> own = existing_tiles(tiled[i].file);
     if (own.empty())
       throw Error(ErrorKind::kInput, tiled[i].file.string() + ": has no tile; expected at least one file");
-    for (const Tile& tile : own) {
-      tiles[tile.number].resize(tiled.size());
-      tiles[tile.number][i] = tiled[i].file.parent_path() / tile_name(tiled[i].pattern, tile.number);
-    }
+    for (const Tile& tile : own) tiles[tile.number].insert(i);
   }
-  for (const auto& [number, files] : tiles) {
-    const std::string text = std::to_string(number);
-    ConversionJob job{shown(tiled.front().file), text, request, options.output, {"", "." + text}};
-    const auto parameters = parameters_of(job.request);
-    bool whole = true;
+  for (const auto& [number, present] : tiles) {
+    ConversionJob job = whole_set;
+    job.name = shown(tiled.front().file);
+    job.tile = std::to_string(number);
+    job.names.after = "." + job.tile;
+    const std::vector<fs::path*> files = files_of(job);
     for (std::size_t i = 0; i < tiled.size(); ++i) {
-      if (files[i]) {
-        std::get<MapName>(parameters[tiled[i].index]->source).file = *files[i];
-        continue;
-      }
-      const fs::path file = tiled[i].file.parent_path() / tile_name(tiled[i].pattern, number);
-      list.left_out.push_back({file.string() + ": is missing; expected every tile of the set", true});
-      whole = false;
+      *files[tiled[i].index] = tiled[i].tile(number);
+      if (!present.contains(i))
+        list.left_out.push_back(
+            {tiled[i].tile(number).string() + ": is missing; expected every tile of the set", true});
     }
-    if (whole) list.jobs.push_back(std::move(job));
+    if (present.size() == tiled.size()) list.jobs.push_back(std::move(job));
   }
   return list;
 }
@@ -232,10 +249,10 @@ JobList tile_jobs(const ConvertOptions& options, const TextureSetRequest& reques
 
 JobList conversion_jobs(const ConvertOptions& options, const TextureSetRequest& request) {
   if (!options.folder.empty()) return TreeJobs(options, request).list();
-  if (const std::vector<TiledParameter> tiled = tiled_parameters(request); !tiled.empty())
-    return tile_jobs(options, request, tiled);
+  ConversionJob job{"", "", request, options.output, {}, copied_files(options)};
+  if (const std::vector<TiledFile> tiled = tiled_files(job); !tiled.empty()) return tile_jobs(job, tiled);
   JobList list;
-  list.jobs.push_back({"", "", request, options.output, {}});
+  list.jobs.push_back(std::move(job));
   return list;
 }
 

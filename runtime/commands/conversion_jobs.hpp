@@ -18,6 +18,7 @@ struct ConversionJob {
   TextureSetRequest request;
   std::filesystem::path folder;  // of the results
   ResultNames names;             // of results that have no input
+  std::vector<CopiedFile> copies;
 };
 
 // A set that is not converted, or a file or folder that cannot be looked at.

@@ -70,8 +70,13 @@ void add_input_options(CLI::App& command, ConvertOptions& options) {
       "Specular: a map, FILE:CHANNEL or FILE:R,G,B, or linear numbers: 0.5, or 0.9,0.6,0.2; with "
       "DIR for the sets that have no such map");
   command.add_option("--occlusion", options.occlusion,
-                     "Ambient occlusion, which is not converted, for --layout");
-  command.add_option("--metallic", options.metallic, "Metallic, which is not converted, for --layout");
+                     "Ambient occlusion: not converted; goes where --layout has a place for it");
+  command.add_option("--metallic", options.metallic,
+                     "Metallic: not converted; goes where --layout has a place for it");
+  command.add_option("--diffuse", options.diffuse,
+                     "Diffuse map: not converted; the file is copied beside the results");
+  command.add_option("--base-color", options.base_color,
+                     "Base colour map: not converted; the file is copied beside the results");
   command.add_option("--roughness-factor", options.roughness_factor,
                      "Multiplies the roughness map (or the glossiness map) before it is read");
   command.add_option("--specular-factor", options.specular_factor,
@@ -107,6 +112,8 @@ void add_output_options(CLI::App& command, ConvertOptions& options) {
   command.add_option("--type", options.type, "Pixel type of the results: uint8, uint16, half, float");
   command.add_flag("--dither", options.dither,
                    "Noise of half a step where results have 8 bits; the same in every run");
+  command.add_flag("--copy-others", options.copy_others,
+                   "With DIR: copy the other maps of each set as well (base colour, normal, ...)");
   command.add_flag("--dry-run", options.dry_run, "Say what would be written, and write nothing");
   command.add_flag(
       "--resume", options.resume,
@@ -145,9 +152,14 @@ TextureSetRequest set_request(const ConvertOptions& options) {
     throw Error(ErrorKind::kUsage, options.folder +
                                        ": its sets are found by their names; expected no --roughness " +
                                        "and no --glossiness beside it");
-  if (!is_tree && (options.recursive || !options.names.empty()))
-    throw Error(ErrorKind::kUsage, std::string(options.recursive ? "--recursive" : "--names") +
+  if (!is_tree && (options.recursive || options.copy_others || !options.names.empty()))
+    throw Error(ErrorKind::kUsage, std::string(options.recursive     ? "--recursive"
+                                               : options.copy_others ? "--copy-others"
+                                                                     : "--names") +
                                        ": is for a folder of sets; expected DIR");
+  if (is_tree && !(options.diffuse.empty() && options.base_color.empty()))
+    throw Error(ErrorKind::kUsage, std::string(options.diffuse.empty() ? "--base-color" : "--diffuse") +
+                                       ": is for one set; expected --copy-others beside a folder of sets");
   if (!is_tree && options.roughness.empty() && !glossy)
     throw Error(ErrorKind::kUsage, "--roughness: is missing; expected a map or a number, or --glossiness");
   if (!is_tree && options.specular.empty())
@@ -161,21 +173,31 @@ TextureSetRequest set_request(const ConvertOptions& options) {
                                     : parameter_source("--roughness", options.roughness);
   request.roughness.factors = factors_of("--roughness-factor", options.roughness_factor);
   if (!options.specular.empty()) request.specular.source = parameter_source("--specular", options.specular);
-  if (is_tree && !std::holds_alternative<ConstantValues>(request.specular.source) &&
-      !options.specular.empty())
-    throw Error(ErrorKind::kUsage,
-                "--specular: is the map " + options.specular + "; expected numbers beside a folder of sets");
+  const auto require_numbers = [&](const std::string& name, const ParameterRequest& parameter) {
+    if (const auto* map = std::get_if<MapName>(&parameter.source); is_tree && map && !map->file.empty())
+      throw Error(ErrorKind::kUsage, "--" + name + ": is the map " + map->file.string() +
+                                         "; expected numbers beside a folder of sets");
+  };
+  require_numbers("specular", request.specular);
   request.specular.factors = factors_of("--specular-factor", options.specular_factor);
   request.specular.transfer = transfer_of(options.color_space);
   const auto carry = [&](const std::string& name, const std::string& text) {
-    if (!text.empty())
-      request.carried.push_back({name, {parameter_source("--" + name, text), {}, Transfer::kLinear}});
+    if (text.empty()) return;
+    request.carried.push_back({name, {parameter_source("--" + name, text), {}, Transfer::kLinear}});
+    require_numbers(name, request.carried.back().parameter);
   };
   carry("occlusion", options.occlusion);
   carry("metallic", options.metallic);
   request.convention =
       glossy ? RoughnessConvention::kGlossiness : convention_of("--roughness-encoding", options.encoding);
   return request;
+}
+
+std::vector<CopiedFile> copied_files(const ConvertOptions& options) {
+  std::vector<CopiedFile> files;
+  if (!options.diffuse.empty()) files.push_back({options.diffuse, "diffuse"});
+  if (!options.base_color.empty()) files.push_back({options.base_color, "base_color"});
+  return files;
 }
 
 TargetChoice target_choice(const ConvertOptions& options) {

@@ -21,6 +21,7 @@ struct ConvertOptions {
   bool recursive = false;
   bool dry_run = false;
   bool resume = false;
+  bool copy_others = false;
   std::string from;
   std::string to;
   std::vector<std::string> via;
@@ -30,6 +31,8 @@ struct ConvertOptions {
   std::string specular;
   std::string occlusion;
   std::string metallic;
+  std::string diffuse;
+  std::string base_color;
   std::string layout = "as-inputs";
   std::string roughness_factor;
   std::string specular_factor;
@@ -54,6 +57,8 @@ void add_convert_options(CLI::App& command, ConvertOptions& options);
 
 // Each throws kUsage, naming the option, for what there is not.
 TextureSetRequest set_request(const ConvertOptions& options);
+// Of the one set that the options name.
+std::vector<CopiedFile> copied_files(const ConvertOptions& options);
 TargetChoice target_choice(const ConvertOptions& options);
 PassOptions pass_options(const ConvertOptions& options);
 // The options that results depend on, as one text.

@@ -38,6 +38,12 @@ Json file_json(const JobReport& report, bool JobReport::Result::*content) {
   return {};
 }
 
+Json paths_json(const std::vector<std::filesystem::path>& paths) {
+  Json names = Json::array();
+  for (const std::filesystem::path& path : paths) names.push_back(path.string());
+  return names;
+}
+
 Json values_json(const ParameterStatistics& statistics) {
   if (statistics.finite_count == 0) return {};
   return {{"min", statistics.min}, {"max", statistics.max}, {"histogram", statistics.histogram}};
@@ -92,6 +98,7 @@ Json job_json(const JobReport& report) {
   Json json = {{"roughness", file_json(report, &Result::roughness)},
                {"specular", file_json(report, &Result::specular)},
                {"mask", file_json(report, &Result::mask)},
+               {"copies", paths_json(report.copies)},
                {"specular_color_space", transfer_name(report.specular_transfer)}};
   json.update(counts_json(counts));
   json["values"] = {
@@ -115,8 +122,7 @@ Json set_json(const JobReport& report, bool dry_run) {
                {"failure", report.failure ? Json(*report.failure) : Json()},
                {"tiles", report.tiles},
                {"results", Json::array()},
-               {"inputs", Json::array()}};
-  for (const auto& input : report.inputs) json["inputs"].push_back(input.string());
+               {"inputs", paths_json(report.inputs)}};
   for (const JobReport::Result& result : report.results) json["results"].push_back(result.path.string());
   json.update(job_json(report));
   return json;
@@ -139,6 +145,7 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   };
   append(tiles, other.tiles);
   append(inputs, other.inputs);
+  append(copies, other.copies);
   append(warnings, other.warnings);
   results.insert(results.end(), other.results.begin(), other.results.end());
   was_done = was_done && other.was_done;

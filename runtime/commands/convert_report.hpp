@@ -29,7 +29,8 @@ struct JobReport {
   std::string name;                // empty for the one set of a command line
   std::vector<std::string> tiles;  // those that were converted; empty where the set has none
   std::vector<std::filesystem::path> inputs;
-  std::vector<Result> results;  // those that would be, in a dry run and after a failure
+  std::vector<Result> results;                // those that would be, in a dry run and after a failure
+  std::vector<std::filesystem::path> copies;  // the same, of files that are carried along
   Transfer specular_transfer = Transfer::kLinear;
   std::vector<std::string> warnings;
   std::optional<std::string> failure;

@@ -7,6 +7,7 @@
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "error.hpp"
+#include "files.hpp"
 #include "parallel.hpp"
 #include "texture/content_hash.hpp"
 #include "texture/target_plan.hpp"
@@ -72,20 +73,33 @@ bool is_made_of(const std::filesystem::path& path, const std::string& hash) {
   }
 }
 
-// How many of the results are there already. Throws kOutput for a file that is there and is none of them.
-std::size_t results_done(const std::vector<PlannedMap>& planned, const std::string& hash, bool force) {
-  std::size_t done = 0;
-  for (const PlannedMap& map : planned) {
+bool is_copy_of(const std::filesystem::path& path, const std::filesystem::path& source) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored) ||
+      std::filesystem::file_size(path, ignored) != std::filesystem::file_size(source, ignored))
+    return false;
+  const auto hash_of_file = [](const std::filesystem::path& file) {
+    ContentHash hash;
+    hash.add_file(file);
+    return hash.hex();
+  };
+  return hash_of_file(path) == hash_of_file(source);
+}
+
+// Whether all results are there already. Throws kOutput for a file that is there and is none of them.
+bool all_done(const TargetPlan& plan, const std::string& hash, bool force) {
+  bool all = true;
+  const auto look = [&](const std::filesystem::path& path, bool is_ours) {
     std::error_code ignored;
-    const bool is_ours = is_made_of(map.path, hash);
-    if (!is_ours && !force && std::filesystem::exists(map.path, ignored))
+    if (!is_ours && !force && std::filesystem::exists(path, ignored))
       throw Error(ErrorKind::kOutput,
-                  map.path.string() +
-                      ": exists, and was not made of these inputs and options; expected a name " +
+                  path.string() + ": exists, and was not made of these inputs and options; expected a name " +
                       "that is free, or --force");
-    done += is_ours;
-  }
-  return done;
+    all = all && is_ours;
+  };
+  for (const PlannedMap& map : plan.maps) look(map.path, is_made_of(map.path, hash));
+  for (const PlannedCopy& copy : plan.copies) look(copy.path, is_copy_of(copy.path, copy.source));
+  return all;
 }
 
 JobReport::Result result_of(const PlannedMap& planned) {
@@ -155,15 +169,17 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   const std::string hash = needs_hash ? hash_of(report.inputs, chosen_, options_) : "";
   choice.metadata = metadata_of(chosen_, hash);
   choice.force = options_.force || options_.resume;  // what is there is looked at below
-  const std::vector<PlannedMap> planned = plan_targets(set, choice);
-  for (const PlannedMap& map : planned) report.results.push_back(result_of(map));
-  if (options_.resume && results_done(planned, hash, options_.force) == planned.size()) {
+  choice.copies = job.copies;
+  const TargetPlan plan = plan_targets(set, choice);
+  for (const PlannedMap& map : plan.maps) report.results.push_back(result_of(map));
+  for (const PlannedCopy& copy : plan.copies) report.copies.push_back(copy.path);
+  if (options_.resume && all_done(plan, hash, options_.force)) {
     report.was_done = true;
     return;
   }
   if (options_.dry_run) return;
 
-  std::vector<TargetMap> targets = open_targets(set, planned, choice);
+  std::vector<TargetMap> targets = open_targets(set, plan, choice);
   note_doubts(set, targets, report);
   PassOptions pass = pass_;
   // Results hold what the inputs hold, where that was named.
@@ -171,6 +187,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   if (!pass.target_convention) pass.target_convention = job.request.convention;
   pass.progress = progress;
   report.statistics = run_texture_pass(set, targets, *chosen_.converter, pass);
+  for (const PlannedCopy& copy : plan.copies) copy_whole_file(copy.source, copy.path);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

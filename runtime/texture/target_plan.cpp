@@ -43,18 +43,22 @@ void require_free(const fs::path& output, bool force) {
     throw Error(ErrorKind::kOutput, output.string() + ": exists; expected a name that is free, or --force");
 }
 
-void require_safe(const std::vector<PlannedMap>& planned, const TextureSet& set, const TargetChoice& choice) {
+void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetChoice& choice) {
   std::error_code ignored;
   if (fs::exists(choice.folder, ignored) && !fs::is_directory(choice.folder, ignored))
     throw Error(ErrorKind::kOutput, choice.folder.string() + ": is a file; expected a folder");
-  for (std::size_t i = 0; i < planned.size(); ++i) {
+  std::vector<fs::path> results;
+  for (const PlannedMap& map : plan.maps) results.push_back(map.path);
+  for (const PlannedCopy& copy : plan.copies) results.push_back(copy.path);
+  for (std::size_t i = 0; i < results.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k)
-      if (planned[i].path == planned[k].path)
+      if (results[i] == results[k])
         throw Error(
             ErrorKind::kUsage,
-            planned[i].path.string() + ": would be the name of two results; expected inputs with two names");
-    for (const ImageReader& map : set.maps) require_safe(planned[i].path, map.path());
-    require_free(planned[i].path, choice.force);
+            results[i].string() + ": would be the name of two results; expected inputs with two names");
+    for (const ImageReader& map : set.maps) require_safe(results[i], map.path());
+    for (const PlannedCopy& copy : plan.copies) require_safe(results[i], copy.source);
+    require_free(results[i], choice.force);
   }
 }
 
@@ -176,8 +180,20 @@ std::vector<std::size_t> parts_of_file(const TextureSet& set, std::size_t first)
   return parts;
 }
 
-std::vector<PlannedMap> maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
-  std::vector<PlannedMap> all;
+// Adds a copy where the file is neither written nor copied under that name already.
+void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan) {
+  const auto is_there = [&](const auto& result) { return result.path == path; };
+  if (std::any_of(plan.maps.begin(), plan.maps.end(), is_there) ||
+      std::any_of(plan.copies.begin(), plan.copies.end(), is_there))
+    return;
+  std::error_code ignored;
+  if (!fs::is_regular_file(source, ignored))
+    throw Error(ErrorKind::kInput, source.string() + ": is no file that can be read; expected one to copy");
+  plan.copies.push_back({source, path});
+}
+
+TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
+  TargetPlan plan;
   std::vector<bool> seen(set.maps.size());
   for (std::size_t first = 0; first < set.maps.size(); ++first) {
     if (seen[first]) continue;
@@ -193,21 +209,36 @@ std::vector<PlannedMap> maps_as_inputs(const TextureSet& set, const TargetChoice
       holds_something = holds_something || is_changed;
       planned.parts.push_back(std::move(part));
     }
-    if (holds_something) all.push_back(std::move(planned));
+    if (holds_something) plan.maps.push_back(std::move(planned));
   }
-  if (!set.roughness.is_map() && choice.roughness) all.push_back(roughness_map(set, choice));
-  if (!set.specular.is_map() && choice.specular) all.push_back(specular_map(set, choice));
-  return all;
+  if (!set.roughness.is_map() && choice.roughness) plan.maps.push_back(roughness_map(set, choice));
+  if (!set.specular.is_map() && choice.specular) plan.maps.push_back(specular_map(set, choice));
+  for (const CarriedParameter& carried : set.carried) {
+    if (!carried.parameter.is_map())
+      throw Error(ErrorKind::kUsage, "--" + carried.name +
+                                         ": is a number, which --layout as-inputs has no place for; "
+                                         "expected a map, or another layout");
+    const fs::path& source = set.maps[carried.parameter.channels.front().map].path();
+    const auto is_written = [&](const PlannedMap& map) {
+      return same_file(set.maps[map.parts.front().model].path(), source);
+    };
+    if (std::none_of(plan.maps.begin(), plan.maps.end(), is_written))
+      add_copy(source, choice.folder / source.filename(), plan);
+  }
+  return plan;
+}
+
+PlannedMap carried_map(const TextureSet& set, const CarriedParameter& carried, const TargetChoice& choice) {
+  PlannedMap map = new_map(carried.name, kGrey, {carried_channel(carried.parameter)}, set, choice);
+  if (carried.parameter.is_map()) map.parts.front().model = carried.parameter.channels.front().map;
+  return map;
 }
 
 std::vector<PlannedMap> separate_maps(const TextureSet& set, const TargetChoice& choice) {
   std::vector<PlannedMap> all;
   if (choice.roughness) all.push_back(roughness_map(set, choice));
   if (choice.specular) all.push_back(specular_map(set, choice));
-  for (const CarriedParameter& carried : set.carried) {
-    all.push_back(new_map(carried.name, kGrey, {carried_channel(carried.parameter)}, set, choice));
-    if (carried.parameter.is_map()) all.back().parts.front().model = carried.parameter.channels.front().map;
-  }
+  for (const CarriedParameter& carried : set.carried) all.push_back(carried_map(set, carried, choice));
   return all;
 }
 
@@ -219,7 +250,9 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
     std::vector<TargetChannel> channels = specular_channels(set);
     channels.resize(3, channels.front());  // grey in every colour
     channels.push_back({Content::kRoughness, 0, {}});
-    return {new_map("specular_glossiness", kColourAndAlpha, channels, set, choice)};
+    std::vector<PlannedMap> all = {new_map("specular_glossiness", kColourAndAlpha, channels, set, choice)};
+    for (const CarriedParameter& carried : set.carried) all.push_back(carried_map(set, carried, choice));
+    return all;
   }
   std::vector<PlannedMap> all = {new_map(std::string(layout_name(choice.layout)), kColour,
                                          {carried_channel(set, "occlusion", 1.0f),
@@ -244,14 +277,14 @@ std::optional<Layout> layout_from_name(std::string_view name) { return value_nam
 
 std::vector<std::string> layout_names() { return names_of(kLayouts); }
 
-std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& choice) {
+TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
   if (!choice.extension.empty()) require_known_extension(choice.extension);
-  std::vector<PlannedMap> all;
+  TargetPlan plan;
   if (choice.layout == Layout::kAsInputs) {
-    all = maps_as_inputs(set, choice);
+    plan = maps_as_inputs(set, choice);
   } else {
     require_nothing_lost(set);
-    all = choice.layout == Layout::kSeparate ? separate_maps(set, choice) : packed_maps(set, choice);
+    plan.maps = choice.layout == Layout::kSeparate ? separate_maps(set, choice) : packed_maps(set, choice);
   }
   if (choice.mask) {
     PlannedMap mask = new_map("mask", kGrey, {{Content::kMask, 0, {}}}, set, choice);
@@ -259,17 +292,24 @@ std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& 
     mask.path = choice.folder /
                 (choice.names.before + name.stem().string() + choice.names.after + name.extension().string());
     mask.parts.front().changes.type = std::nullopt;
-    all.push_back(mask);
+    plan.maps.push_back(mask);
   }
-  require_safe(all, set, choice);
-  return all;
+  for (const CopiedFile& file : choice.copies) {
+    const bool keeps_name = file.name.empty() || choice.layout == Layout::kAsInputs;
+    const std::string name =
+        keeps_name ? file.source.filename().string()
+                   : choice.names.before + file.name + choice.names.after + file.source.extension().string();
+    add_copy(file.source, choice.folder / name, plan);
+  }
+  require_safe(plan, set, choice);
+  return plan;
 }
 
-std::vector<TargetMap> open_targets(const TextureSet& set, const std::vector<PlannedMap>& planned,
+std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& plan,
                                     const TargetChoice& choice) {
   create_parent(choice.folder / "any file");
   std::vector<TargetMap> targets;
-  for (const PlannedMap& map : planned) {
+  for (const PlannedMap& map : plan.maps) {
     std::vector<ImagePart> parts;
     for (const PlannedPart& part : map.parts) parts.push_back({&set.maps[part.model], part.changes});
     targets.push_back({ImageWriter(map.path, parts), {}});

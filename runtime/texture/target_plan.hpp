@@ -22,6 +22,21 @@ struct PlannedMap {
   std::vector<PlannedPart> parts;
 };
 
+// A file of the material that holds nothing to convert, and goes along byte for byte.
+struct CopiedFile {
+  std::filesystem::path source;
+  std::string name;  // of the copy in layouts that name their files, without extension; empty: its own
+};
+struct PlannedCopy {
+  std::filesystem::path source;
+  std::filesystem::path path;
+};
+
+struct TargetPlan {
+  std::vector<PlannedMap> maps;
+  std::vector<PlannedCopy> copies;
+};
+
 // Which files the results are.
 enum class Layout {
   kAsInputs,   // every map that holds something converted, under its name
@@ -47,6 +62,7 @@ struct TargetChoice {
   std::optional<std::string> mask;  // name of the file that marks texels out of domain
   ResultNames names;
   Layout layout = Layout::kAsInputs;
+  std::vector<CopiedFile> copies;
   bool roughness = true;  // whether it is wanted
   bool specular = true;
   bool force = false;  // may replace files that exist
@@ -54,15 +70,17 @@ struct TargetChoice {
 };
 
 // As inputs: every map of the set that holds something converted gives a file of its name, in which only that
-// is changed; a constant gives a map of its own (`roughness`, `specular`). The other layouts name their files
-// themselves. Throws kUsage where two results would have one name, where one is an input, where one channel
-// is two things, where a layout would lose a channel of an input, and for an unknown extension; kOutput where
-// one exists and `force` is not set or where the folder is a file.
-std::vector<PlannedMap> plan_targets(const TextureSet& set, const TargetChoice& choice);
+// is changed; a constant gives a map of its own (`roughness`, `specular`), and files of what is carried are
+// copied. The other layouts name their files themselves; what is carried and has no channel there has a file.
+// Throws kUsage where two results would have one name, where one is an input, where one channel is two
+// things, where a layout would lose a channel of an input or has no place for a constant, and for an unknown
+// extension; kInput where a file to copy is not there; kOutput where a result exists and `force` is not set
+// or where the folder is a file.
+TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice);
 
 // Throws kOutput where the folder of the results is not there and cannot be made, and where one cannot be
 // opened.
-std::vector<TargetMap> open_targets(const TextureSet& set, const std::vector<PlannedMap>& planned,
+std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& plan,
                                     const TargetChoice& choice);
 
 }  // namespace remap

@@ -1,0 +1,166 @@
+// Files of a material that are not converted and go along with it, byte for byte.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/texremap_session.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kSize = 24;
+
+void write_map(const Session& session, const std::string& name, const std::vector<std::string>& channels,
+               int size = kSize) {
+  fs::create_directories(fs::path(session.path(name)).parent_path());
+  write_image(session.path(name), test_spec(size, size, channels, OIIO::TypeUInt8), noise);
+}
+
+// A whole material: what is converted, and what is not.
+void write_set(const Session& session, const std::string& folder) {
+  write_map(session, folder + "/wood_Roughness.png", {"Y"});
+  write_map(session, folder + "/wood_Specular.png", {"R", "G", "B"});
+  write_map(session, folder + "/wood_BaseColor.png", {"R", "G", "B", "A"}, 2 * kSize);
+  write_map(session, folder + "/wood_Normal.png", {"R", "G", "B"});
+  write_map(session, folder + "/wood_AmbientOcclusion.png", {"Y"});
+}
+
+ProcessResult convert(const Session& session, std::vector<std::string> words) {
+  words.insert(words.begin(), "convert");
+  words.insert(words.end(), {"--from", "mitsuba/ward", "--to", "mitsuba/as", "-o", session.path("out")});
+  return session.texremap(words);
+}
+
+void require_success(const ProcessResult& result) {
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+}
+
+bool same_bytes(const Session& session, const std::string& a, const std::string& b) {
+  return read_file(session.path(a)) == read_file(session.path(b));
+}
+
+}  // namespace
+
+TEST_CASE("texremap copies: base colour of any size goes along under its own name") {
+  const Session session;
+  write_set(session, "in");
+  const ProcessResult result =
+      convert(session, {"--roughness", session.path("in/wood_Roughness.png"), "--specular", "0.04", "--only",
+                        "roughness", "--base-color", session.path("in/wood_BaseColor.png"), "--occlusion",
+                        session.path("in/wood_AmbientOcclusion.png"), "--json"});
+  require_success(result);
+  CHECK(session.file_count() == 3);
+  CHECK(same_bytes(session, "in/wood_BaseColor.png", "out/wood_BaseColor.png"));
+  CHECK(same_bytes(session, "in/wood_AmbientOcclusion.png", "out/wood_AmbientOcclusion.png"));
+  CHECK(nlohmann::json::parse(result.output).at("copies").size() == 2);
+}
+
+TEST_CASE("texremap copies: layouts that name their files name the copies, too") {
+  const Session session;
+  write_set(session, "in");
+  const std::string layout = GENERATE("separate", "orm", "specgloss");
+  const std::string option = GENERATE("--diffuse", "--base-color");
+  require_success(convert(session, {"--roughness", session.path("in/wood_Roughness.png"), "--specular",
+                                    session.path("in/wood_Specular.png"), option,
+                                    session.path("in/wood_BaseColor.png"), "--layout", layout}));
+  const std::string name = option == "--diffuse" ? "diffuse" : "base_color";
+  CHECK(same_bytes(session, "in/wood_BaseColor.png", "out/" + name + ".png"));
+}
+
+TEST_CASE("texremap copies: specular-glossiness has files beside it for what it has no channel for") {
+  const Session session;
+  write_set(session, "in");
+  require_success(convert(
+      session, {"--roughness", session.path("in/wood_Roughness.png"), "--specular",
+                session.path("in/wood_Specular.png"), "--occlusion",
+                session.path("in/wood_AmbientOcclusion.png"), "--metallic", "0.5", "--layout", "specgloss"}));
+  CHECK(session.file_count() == 3);
+  const TestImage occlusion = read_image(session.path("in/wood_AmbientOcclusion.png")),
+                  copied = read_image(session.path("out/occlusion.png")),
+                  metallic = read_image(session.path("out/metallic.png"));
+  CHECK(copied.at(3, 5, 0) == occlusion.at(3, 5, 0));
+  CHECK(metallic.at(3, 5, 0) == as_stored(0.5f, OIIO::TypeUInt8));
+}
+
+TEST_CASE("texremap copies: a tree with all its maps, resumed, and never over an input") {
+  const Session session;
+  write_set(session, "in/a");
+  write_set(session, "in/b/c");
+  const std::vector<std::string> words = {session.path("in"), "--recursive", "--copy-others"};
+  require_success(convert(session, words));
+  for (const std::string folder : {"a", "b/c"}) {
+    for (const std::string map : {"BaseColor", "Normal", "AmbientOcclusion"}) {
+      const std::string name = folder + "/wood_" + map + ".png";
+      CHECK(same_bytes(session, "in/" + name, "out/" + name));
+    }
+    CHECK_FALSE(
+        same_bytes(session, "in/" + folder + "/wood_Roughness.png", "out/" + folder + "/wood_Roughness.png"));
+  }
+
+  std::vector<std::string> resumed = words;
+  resumed.insert(resumed.end(), {"--resume", "--json"});
+  const auto states = [&] {
+    const ProcessResult result = convert(session, resumed);
+    require_success(result);
+    const nlohmann::json report = nlohmann::json::parse(result.output);
+    return report.at("sets").at(0).at("state").get<std::string>() + ", " +
+           report.at("sets").at(1).at("state").get<std::string>();
+  };
+  CHECK(states() == "done before, done before");
+  fs::remove(session.path("out/a/wood_Normal.png"));
+  CHECK(states() == "converted, done before");
+  CHECK(same_bytes(session, "in/a/wood_Normal.png", "out/a/wood_Normal.png"));
+
+  std::vector<std::string> onto = {
+      "convert", session.path("in"), "--recursive", "--copy-others",   "--force", "--from", "mitsuba/ward",
+      "--to",    "mitsuba/as",       "-o",          session.path("in")};
+  const std::string before = read_file(session.path("in/a/wood_Normal.png"));
+  CHECK(session.texremap(onto).exit_code != 0);
+  CHECK(read_file(session.path("in/a/wood_Normal.png")) == before);
+}
+
+TEST_CASE("texremap copies: what a layout packs is not copied as well") {
+  const Session session;
+  write_set(session, "in");
+  require_success(convert(session, {session.path("in"), "--copy-others", "--layout", "orm"}));
+  CHECK(fs::exists(session.path("out/wood_orm.png")));
+  CHECK(fs::exists(session.path("out/wood_Normal.png")));
+  CHECK_FALSE(fs::exists(session.path("out/wood_AmbientOcclusion.png")));
+}
+
+TEST_CASE("texremap copies: tiles take the tiles of what goes along") {
+  const Session session;
+  for (const std::string tile : {"1001", "1002"}) {
+    write_map(session, "r." + tile + ".png", {"Y"});
+    write_map(session, "ao." + tile + ".png", {"Y"});
+    write_map(session, "d." + tile + ".png", {"R", "G", "B"});
+  }
+  require_success(convert(session, {"--roughness", session.path("r.<UDIM>.png"), "--specular", "0.04",
+                                    "--occlusion", session.path("ao.<UDIM>.png"), "--diffuse",
+                                    session.path("d.<UDIM>.png"), "--layout", "orm"}));
+  CHECK(same_bytes(session, "d.1002.png", "out/diffuse.1002.png"));
+  CHECK(read_image(session.path("out/orm.1002.png")).at(2, 3, 0) ==
+        read_image(session.path("ao.1002.png")).at(2, 3, 0));
+}
+
+TEST_CASE("texremap copies: wrong words") {
+  const Session session;
+  write_set(session, "in");
+  const std::string roughness = session.path("in/wood_Roughness.png");
+  const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& message) {
+    const ProcessResult result = convert(session, words);
+    CHECK(result.exit_code == code);
+    CHECK_THAT(result.last_error(), Contains(message));
+    CHECK(session.file_count() == 0);
+  };
+  refused({"--roughness", roughness, "--specular", "0.04", "--diffuse", session.path("none.png")}, 1,
+          "none.png: is no file");
+  refused({"--roughness", roughness, "--specular", "0.04", "--metallic", "0.5"}, 2,
+          "--metallic: is a number, which --layout as-inputs has no place for");
+  refused({"--roughness", roughness, "--specular", "0.04", "--copy-others"}, 2, "--copy-others: is for");
+  refused({session.path("in"), "--diffuse", roughness}, 2, "expected --copy-others");
+  refused({session.path("in"), "--occlusion", roughness, "--layout", "orm"}, 2, "--occlusion: is the map");
+}
