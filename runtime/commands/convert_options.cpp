@@ -88,6 +88,8 @@ void add_input_options(CLI::App& command, ConvertOptions& options) {
       "--color-space", options.color_space,
       "Of a specular map: srgb or linear. The default: sRGB for colour in whole numbers that the "
       "file says to be sRGB (PNG, JPEG, TGA), else linear");
+  command.add_flag("--resample", options.resample,
+                   "Bring smaller maps of a set to the size of the largest, linearly between texels");
   command
       .add_option("--bad-texels", options.bad_texels,
                   "NaN, infinite and negative values: keep, clamp to what the converter covers, or fail")
@@ -188,6 +190,7 @@ TextureSetRequest set_request(const ConvertOptions& options) {
   };
   carry("occlusion", options.occlusion);
   carry("metallic", options.metallic);
+  request.resample = options.resample;
   request.convention =
       glossy ? RoughnessConvention::kGlossiness : convention_of("--roughness-encoding", options.encoding);
   return request;
@@ -234,7 +237,7 @@ std::string result_options_text(const ConvertOptions& options) {
         &options.color_space, &options.only, &options.bad_texels, &options.layout, &options.format,
         &options.type})
     text += *word + '\n';
-  return text + (options.dither ? "dither" : "");
+  return text + (options.dither ? "dither\n" : "") + (options.resample ? "resample\n" : "");
 }
 
 InstructionSet chosen_instructions(const ConvertOptions& options) {

@@ -22,6 +22,7 @@ struct ConvertOptions {
   bool dry_run = false;
   bool resume = false;
   bool copy_others = false;
+  bool resample = false;
   std::string from;
   std::string to;
   std::vector<std::string> via;

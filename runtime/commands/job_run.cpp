@@ -136,7 +136,7 @@ class JobRunner {
 
 void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets,
                             JobReport& report) const {
-  if (options_.color_space.empty()) report.warnings = remarks(set);
+  report.warnings = remarks(set);
   if (choice_.layout == Layout::kOrm || choice_.layout == Layout::kArm) {
     const auto note = [&](const std::string& name, const std::string& value) {
       const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };

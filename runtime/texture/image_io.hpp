@@ -61,6 +61,12 @@ class ImageReader {
   // From now on layout() and read_rows() are about this level; 0, at first, is the whole picture.
   void select_level(int level);
 
+  // From now on layout() and read_rows() give the picture at this size, as floats, and a writer that follows
+  // it has the size, too. `width`, `height`: at least its own. `transfers`: the curve of each channel. Throws
+  // kInput for a picture of several levels, and for one whose data window is not its display window.
+  void resample(int width, int height, const std::vector<Transfer>& transfers);
+  bool is_resampled() const noexcept;
+
   // Rows [first_row, first_row + row_count), counted from 0 at the top, to `texels`, which holds
   // row_count * layout().row_bytes(). Tiled files: both are multiples of the tile height, or reach the end.
   void read_rows(int first_row, int row_count, std::byte* texels);

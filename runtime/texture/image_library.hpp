@@ -9,6 +9,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "texture/image_io.hpp"
+#include "texture/resampled_rows.hpp"
 
 namespace remap {
 
@@ -32,12 +33,15 @@ struct ImageReader::State {
   int part = 0;
   int part_count = 0;
   int level = 0;
-  std::vector<OIIO::ImageSpec> levels;  // specs of the part's levels
+  std::vector<OIIO::ImageSpec> levels;  // specs of the part's levels, at the size that they are read in
   ImageLayout layout;                   // of `level`
+  std::unique_ptr<ResampledRows> resampled;
 
   const OIIO::ImageSpec& spec() const { return levels[static_cast<std::size_t>(level)]; }
   void open();
   void find_planes();
+  // Rows as the file has them.
+  void read_rows(int first_row, int row_count, std::byte* texels);
   [[noreturn]] void fail(const std::string& what) const;
 };
 

@@ -123,25 +123,48 @@ int ImageReader::part_count() const noexcept { return state_->part_count; }
 int ImageReader::level_count() const noexcept { return static_cast<int>(state_->levels.size()); }
 
 void ImageReader::select_level(int level) {
+  if (level == state_->level) return;
   state_->level = level;
   state_->layout = layout_of(state_->spec(), state_->input->format_name(), state_->path);
 }
 
+bool ImageReader::is_resampled() const noexcept { return state_->resampled != nullptr; }
+
+void ImageReader::resample(int width, int height, const std::vector<Transfer>& transfers) {
+  if (level_count() > 1) state_->fail("has mip levels; expected one level, to be resampled");
+  OIIO::ImageSpec& spec = state_->levels.front();
+  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+      spec.height != spec.full_height)
+    state_->fail(
+        "has a data window that is not its display window; expected a whole picture, to be resampled");
+  state_->resampled = std::make_unique<ResampledRows>(state_->layout, width, height, transfers);
+  state_->layout = state_->resampled->layout();
+  spec.width = spec.full_width = width;
+  spec.height = spec.full_height = height;
+}
+
 void ImageReader::read_rows(int first_row, int row_count, std::byte* texels) {
-  const OIIO::ImageSpec& spec = state_->spec();
-  const int part = state_->part, level = state_->level;
-  OIIO::ImageInput& input = *state_->input;
-  const int begin = spec.y + first_row, end = begin + row_count;
-  const bool read = spec.tile_width > 0
-                        ? input.read_tiles(part, level, spec.x, spec.x + spec.width, begin, end, spec.z,
-                                           spec.z + 1, 0, spec.nchannels, native_type(spec), texels)
-                        : input.read_scanlines(part, level, begin, end, spec.z, 0, spec.nchannels,
-                                               native_type(spec), texels);
+  if (!state_->resampled) return state_->read_rows(first_row, row_count, texels);
+  const auto read_stored = [this](int first, int count, std::byte* rows) {
+    state_->read_rows(first, count, rows);
+  };
+  state_->resampled->read(first_row, row_count, texels, read_stored);
+}
+
+void ImageReader::State::read_rows(int first_row, int row_count, std::byte* texels) {
+  const OIIO::ImageSpec& plane = spec();
+  const int width = resampled ? resampled->stored().width : plane.width;
+  const int begin = plane.y + first_row, end = begin + row_count;
+  const bool read = plane.tile_width > 0
+                        ? input->read_tiles(part, level, plane.x, plane.x + width, begin, end, plane.z,
+                                            plane.z + 1, 0, plane.nchannels, native_type(plane), texels)
+                        : input->read_scanlines(part, level, begin, end, plane.z, 0, plane.nchannels,
+                                                native_type(plane), texels);
   // Truncated TIFF and JPEG files are read "successfully": only the message tells.
-  const std::string message = input.geterror();
+  const std::string message = input->geterror();
   if (!read || !message.empty())
-    state_->fail("rows " + std::to_string(first_row) + " to " + std::to_string(first_row + row_count - 1) +
-                 " cannot be read: " + first_line(message, "unknown reason") + "; expected a whole file");
+    fail("rows " + std::to_string(first_row) + " to " + std::to_string(first_row + row_count - 1) +
+         " cannot be read: " + first_line(message, "unknown reason") + "; expected a whole file");
 }
 
 std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name) {

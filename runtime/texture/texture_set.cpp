@@ -112,7 +112,45 @@ void require_same_texels(const ImageReader& first, const ImageReader& other) {
   if (a.width == b.width && a.height == b.height && a.x == b.x && a.y == b.y) return;
   throw Error(ErrorKind::kInput, other.path().string() + ": is " + window_text(b) +
                                      "; expected the size of " + first.path().string() + ", " +
-                                     window_text(a));
+                                     window_text(a) + ", or --resample");
+}
+
+// The parameters that are maps.
+std::vector<const SetParameter*> mapped_parameters(const TextureSet& set) {
+  std::vector<const SetParameter*> mapped;
+  const auto add = [&](const SetParameter& parameter) {
+    if (parameter.is_map()) mapped.push_back(&parameter);
+  };
+  add(set.roughness);
+  add(set.specular);
+  for (const CarriedParameter& carried : set.carried) add(carried.parameter);
+  return mapped;
+}
+
+ImageReader& map_of(TextureSet& set, const SetParameter& parameter) {
+  return set.maps[parameter.channels.front().map];
+}
+
+// Colour that follows a curve is interpolated as light.
+std::vector<Transfer> transfers_of(const TextureSet& set, std::size_t map) {
+  std::vector<Transfer> transfers(set.maps[map].layout().channels.size(), Transfer::kLinear);
+  for (const ChannelPlace& place : set.specular.channels)
+    if (place.map == map) transfers[place.channel] = set.specular.transfer;
+  return transfers;
+}
+
+void resample_to_largest(TextureSet& set) {
+  int width = 0, height = 0;
+  const std::vector<const SetParameter*> parameters = mapped_parameters(set);
+  for (const SetParameter* parameter : parameters) {
+    width = std::max(width, map_of(set, *parameter).layout().width);
+    height = std::max(height, map_of(set, *parameter).layout().height);
+  }
+  for (const SetParameter* parameter : parameters) {
+    ImageReader& map = map_of(set, *parameter);
+    if (map.layout().width != width || map.layout().height != height)
+      map.resample(width, height, transfers_of(set, parameter->channels.front().map));
+  }
 }
 
 // The indices of the parts of a file among the maps of the set, which opens it where it is not there.
@@ -176,6 +214,7 @@ SetParameter open_parameter(const ParameterRequest& request, const std::string& 
   }
   parameter.channels = find_channels(std::get<MapName>(request.source), expected, set);
   parameter.transfer = request.transfer.value_or(guessed_transfer(set, parameter.channels));
+  parameter.transfer_is_guessed = !request.transfer;
   return parameter;
 }
 
@@ -224,14 +263,8 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
     throw Error(ErrorKind::kUsage, "--roughness, --specular: are both constants; expected a map");
   if (!set.roughness.is_map() && set.roughness.constants.size() != 1)
     throw Error(ErrorKind::kUsage, "--roughness: has three values; expected one");
-  const auto require_size = [&](const SetParameter& parameter) {
-    if (parameter.is_map())
-      require_same_texels(set.maps[set.first_map()], set.maps[parameter.channels.front().map]);
-  };
-  require_size(set.specular);
   for (const CarriedRequest& carried : request.carried) {
     SetParameter parameter = open_parameter(carried.parameter, "one channel, Y, or R, G and B", set);
-    require_size(parameter);
     if (parameter.is_map()) parameter.channels.resize(1);  // copies of one value
     if (parameter.channel_count() != 1)
       throw Error(ErrorKind::kUsage, "--" + carried.name + ": has three values; expected one");
@@ -239,14 +272,20 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
   }
   require_factors("--roughness-factor", set.roughness);
   require_factors("--specular-factor", set.specular);
+  if (request.resample) resample_to_largest(set);
+  for (const SetParameter* parameter : mapped_parameters(set))
+    require_same_texels(set.maps[set.first_map()], map_of(set, *parameter));
   return set;
 }
 
 std::vector<std::string> remarks(const TextureSet& set) {
   std::vector<std::string> messages;
+  for (const ImageReader& map : set.maps)
+    if (map.is_resampled())
+      messages.push_back(map.path().string() + ": is resampled to " + window_text(map.layout()));
   if (!set.specular.is_map()) return messages;
   const ImageReader& reader = set.maps[set.specular.channels.front().map];
-  if (set.specular.transfer == Transfer::kSrgb)
+  if (set.specular.transfer == Transfer::kSrgb && set.specular.transfer_is_guessed)
     messages.push_back(reader.path().string() +
                        ": specular is read as colour in sRGB; --color-space linear reads it as data");
   return messages;

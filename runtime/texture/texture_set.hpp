@@ -50,6 +50,7 @@ struct TextureSetRequest {
   ParameterRequest specular;
   std::vector<CarriedRequest> carried;            // of one channel each
   std::optional<RoughnessConvention> convention;  // of the roughness map; none: the model's own
+  bool resample = false;  // maps of other sizes, to the largest width and height among them
 };
 
 // Where the values of a channel lie: in a map of the set.
@@ -65,6 +66,7 @@ struct SetParameter {
   ConstantValues constants;
   std::vector<float> factors;
   Transfer transfer = Transfer::kLinear;
+  bool transfer_is_guessed = false;
 
   bool is_map() const noexcept { return !channels.empty(); }
   std::size_t channel_count() const noexcept { return is_map() ? channels.size() : constants.size(); }
@@ -92,8 +94,8 @@ struct TextureSet {
 };
 
 // Opens the files and finds the channels. Throws kInput where a file cannot be read, where a channel is
-// missing, and where two maps do not cover the same texels; kUsage for the name of a channel that a file does
-// not have and where no parameter is a map.
+// missing, and where two maps do not cover the same texels and are not to be resampled; kUsage for the name
+// of a channel that a file does not have and where no parameter is a map.
 TextureSet open_texture_set(const TextureSetRequest& request);
 
 // What a person should know about the set before trusting the result; one message each, without place.

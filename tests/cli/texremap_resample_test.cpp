@@ -1,0 +1,138 @@
+// Maps of several sizes. OpenImageIO's own resampling says what the values between texels are.
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <catch2/catch.hpp>
+
+#include "cli/texremap_session.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+
+namespace {
+
+ProcessResult convert(const Session& session, std::vector<std::string> words, const std::string& folder) {
+  words.insert(words.begin(), {"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as"});
+  words.insert(words.end(), {"-o", session.path(folder)});
+  return session.texremap(words);
+}
+
+void require_success(const ProcessResult& result) {
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+}
+
+// `name` of the session at another size, linearly between texels, as floats.
+void write_resampled(const Session& session, const std::string& name, int width, int height,
+                     const std::string& result) {
+  const OIIO::ImageBuf source(session.path(name));
+  OIIO::ImageBuf target(OIIO::ImageSpec(width, height, source.nchannels(), OIIO::TypeFloat));
+  REQUIRE(OIIO::ImageBufAlgo::resample(target, source, true));
+  REQUIRE(target.write(session.path(result)));
+}
+
+float largest_difference(const TestImage& a, const TestImage& b) {
+  float largest = 0.0f;
+  for (int y = 0; y < a.spec.height; ++y)
+    for (int x = 0; x < a.spec.width; ++x)
+      for (int c = 0; c < a.spec.nchannels; ++c)
+        largest = std::max(largest, std::fabs(a.at(x, y, c) - b.at(x, y, c)));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("texremap --resample: the smaller map has the values that OpenImageIO finds between its texels") {
+  const Session session;
+  const bool tiled = GENERATE(false, true);
+  const auto [small, large] = GENERATE(std::pair{16, 64}, std::pair{40, 100}, std::pair{1, 70});
+  OIIO::ImageSpec small_spec = test_spec(small, small, {"R", "G", "B"}, OIIO::TypeFloat);
+  if (tiled) small_spec.tile_width = small_spec.tile_height = 16;
+  write_image(session.path("s.exr"), small_spec, noise);
+  write_image(session.path("r.exr"), test_spec(large, large - 7, {"Y"}, OIIO::TypeFloat), noise);
+  write_resampled(session, "s.exr", large, large - 7, "s_large.exr");
+  const ProcessResult result = convert(session,
+                                       {"--roughness", session.path("r.exr"), "--specular",
+                                        session.path("s.exr"), "--resample", "--threads", "1"},
+                                       "out");
+  require_success(result);
+  CHECK_THAT(result.errors, Contains("s.exr: is resampled to " + std::to_string(large) + " x "));
+  require_success(convert(session,
+                          {"--roughness", session.path("r.exr"), "--specular", session.path("s_large.exr")},
+                          "expected"));
+  const TestImage out = read_image(session.path("out/s.exr")),
+                  expected = read_image(session.path("expected/s_large.exr"));
+  REQUIRE(out.spec.width == large);
+  REQUIRE(out.spec.height == large - 7);
+  CHECK(out.spec.tile_width == small_spec.tile_width);
+  CHECK(largest_difference(out, expected) < 2e-6f);  // both interpolate in single precision
+  CHECK(read_file(session.path("out/r.exr")).size() > 0);
+}
+
+TEST_CASE("texremap --resample: bands of tall maps meet without a seam") {
+  const Session session;
+  write_image(session.path("r.png"), test_spec(64, 1500, {"Y"}, OIIO::TypeUInt16),
+              [](int, int y, int) { return static_cast<float>(y) / 1500.0f; });
+  write_image(session.path("s.png"), test_spec(8192, 3000, {"Y"}, OIIO::TypeUInt8),
+              [](int, int, int) { return 0.5f; });
+  require_success(convert(session,
+                          {"--roughness", session.path("r.png"), "--specular", session.path("s.png"),
+                           "--resample", "--only", "roughness"},
+                          "out"));
+  const TestImage out = read_image(session.path("out/r.png"));
+  REQUIRE(out.spec.height == 3000);
+  for (int y = 1; y < 3000; ++y) {
+    INFO("row " << y);
+    REQUIRE(out.at(5, y, 0) >= out.at(5, y - 1, 0));  // a ramp stays one
+    REQUIRE(out.at(5, y, 0) - out.at(5, y - 1, 0) < 2e-3f);
+  }
+}
+
+TEST_CASE("texremap --resample: colour in sRGB is interpolated as light") {
+  const Session session;
+  write_image(session.path("s.png"), test_spec(2, 1, {"R", "G", "B"}, OIIO::TypeUInt8),
+              [](int x, int, int) { return x == 0 ? 0.0f : 1.0f; });
+  write_image(session.path("r.png"), test_spec(4, 1, {"Y"}, OIIO::TypeUInt8),
+              [](int, int, int) { return 0.3f; });
+  require_success(convert(session,
+                          {"--roughness", session.path("r.png"), "--specular", session.path("s.png"),
+                           "--color-space", "srgb", "--resample"},
+                          "out"));
+  const TestImage out = read_image(session.path("out/s.png"));
+  // A quarter of the way from black to white, in light.
+  const float linear = converted_texel(as_stored(0.3f, OIIO::TypeUInt8), {0.25f, 0.25f, 0.25f})[1];
+  const double stored = 1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055;
+  CHECK(out.at(1, 0, 0) == as_stored(static_cast<float>(stored), OIIO::TypeUInt8));
+}
+
+TEST_CASE("texremap --resample: packed channels beside the roughness are brought along") {
+  const Session session;
+  write_image(session.path("orm.png"), test_spec(20, 20, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  write_image(session.path("s.png"), test_spec(40, 40, {"Y"}, OIIO::TypeUInt8), noise);
+  write_resampled(session, "orm.png", 40, 40, "orm_large.tif");
+  require_success(convert(
+      session,
+      {"--roughness", session.path("orm.png") + ":G", "--specular", session.path("s.png"), "--resample"},
+      "out"));
+  const TestImage out = read_image(session.path("out/orm.png")),
+                  expected = read_image(session.path("orm_large.tif"));
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x)
+      REQUIRE(std::fabs(out.at(x, y, 0) - expected.at(x, y, 0)) <= 0.501f / 255.0f);
+}
+
+TEST_CASE("texremap --resample: what cannot be, and sizes that differ without it") {
+  const Session session;
+  session.write_pair("exr", 32);
+  write_image(session.path("large.exr"), test_spec(64, 64, {"Y"}, OIIO::TypeHalf), noise);
+  OIIO::ImageSpec cropped = test_spec(32, 32, {"R", "G", "B"}, OIIO::TypeHalf);
+  cropped.x = 4;
+  write_image(session.path("cropped.exr"), cropped, noise);
+  const ProcessResult refused = session.convert("large.exr", "s.exr");
+  CHECK(refused.exit_code == 1);
+  CHECK_THAT(refused.last_error(),
+             Contains("s.exr: is 32 x 32; expected the size of") && Contains("64 x 64, or --resample"));
+  const ProcessResult window = session.convert("large.exr", "cropped.exr", {"--resample"});
+  CHECK(window.exit_code == 1);
+  CHECK_THAT(window.last_error(), Contains("data window that is not its display window"));
+  CHECK(session.file_count() == 0);
+}
