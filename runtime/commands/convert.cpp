@@ -121,8 +121,9 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
     throw Error(ErrorKind::kUsage, "--output: is missing; expected a folder for the results");
   const JobList list = conversion_jobs(options, request);
   warn_of_encoding(options, list, chosen.converter->info().source);
-  Outcome outcome{chosen, list, run_jobs(list, chosen, options), options.dry_run, 0.0};
+  Outcome outcome{chosen, list, run_jobs(list, chosen, options), options.dry_run, 0.0, {}};
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.used = resource_use();
   if (!list.is_tree) outcome.reports.front().seconds = outcome.seconds;
   if (!options.quiet) {
     for (const JobReport& report : outcome.reports) print_job(kProgram, outcome, report);

@@ -225,7 +225,7 @@ PassOptions pass_options(const ConvertOptions& options) {
   pass.target_convention = convention_of("--output-encoding", options.output_encoding);
   pass.bad_texels = bad_texels_of(options.bad_texels);
   pass.dither = options.dither;
-  pass.histogram = options.json;
+  pass.value_statistics = options.json;
   return pass;
 }
 

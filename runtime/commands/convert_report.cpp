@@ -106,6 +106,10 @@ Json job_json(const JobReport& report) {
        {{"source", values_json(counts.roughness)}, {"target", values_json(counts.roughness_out)}}},
       {"specular", {{"source", values_json(counts.specular)}, {"target", values_json(counts.specular_out)}}}};
   json["seconds"] = report.seconds;
+  json["bytes_read"] = report.bytes_read;
+  json["bytes_written"] = report.bytes_written;
+  json["texels_per_second"] =
+      report.seconds > 0.0 ? Json(static_cast<double>(counts.texel_count) / report.seconds) : Json();
   return json;
 }
 
@@ -152,6 +156,8 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   if (other.failure) failure = failure ? *failure + "; " + *other.failure : other.failure;
   statistics += other.statistics;
   seconds += other.seconds;
+  bytes_read += other.bytes_read;
+  bytes_written += other.bytes_written;
   return *this;
 }
 
@@ -206,7 +212,9 @@ void print_summary(const std::string& program, const Outcome& outcome) {
                      converter_text(outcome.chosen) + ", " + std::to_string(outcome.failed_count()) +
                      " failed";
   if (done_before > 0) text += ", " + std::to_string(done_before) + " done before";
-  if (!outcome.dry_run) text += "; " + std::to_string(texels) + " texels in " + seconds_text(outcome.seconds);
+  if (!outcome.dry_run)
+    text += "; " + std::to_string(texels) + " texels in " + seconds_text(outcome.seconds) + ", " +
+            seconds_text(outcome.used.processor_seconds) + " of processor time";
   if (outcome.list.unrecognised_count > 0)
     text +=
         "; " + counted(outcome.list.unrecognised_count, "image") + " that no naming habit knows left alone";
@@ -218,6 +226,8 @@ void print_json(const Outcome& outcome) {
   result.update(outcome.list.is_tree ? tree_json(outcome) : job_json(outcome.reports.front()));
   result["instructions"] = std::string(instruction_set_name(outcome.chosen.converter->info().instructions));
   result["seconds"] = outcome.seconds;
+  result["processor_seconds"] = outcome.used.processor_seconds;
+  result["peak_memory_bytes"] = outcome.used.peak_memory_bytes;
   print(result);
 }
 

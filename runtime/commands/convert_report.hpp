@@ -1,12 +1,14 @@
 // What `texremap convert` says of a conversion that is done, to people and to scripts.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "command_line/resource_use.hpp"
 #include "commands/conversion_jobs.hpp"
 #include "convert/path.hpp"
 #include "texture/texture_pass.hpp"
@@ -36,7 +38,9 @@ struct JobReport {
   std::optional<std::string> failure;
   bool was_done = false;  // by an earlier run, which this one resumes
   MapStatistics statistics;
-  double seconds = 0.0;  // of all tiles together, whatever ran at once
+  double seconds = 0.0;           // of all tiles together, whatever ran at once
+  std::uintmax_t bytes_read = 0;  // sizes of the files
+  std::uintmax_t bytes_written = 0;
 
   // `other`: of the next tile of the set.
   JobReport& operator+=(const JobReport& other);
@@ -49,6 +53,7 @@ struct Outcome {
   std::vector<JobReport> reports;  // one a set
   bool dry_run = false;
   double seconds = 0.0;
+  ResourceUse used;  // processor time short of seconds times threads was waiting
 
   std::size_t failed_count() const;  // sets, and what was left out and should not have been
 };

@@ -28,6 +28,16 @@ std::vector<std::filesystem::path> files_of(const TextureSet& set) {
   return files;
 }
 
+std::uintmax_t size_of(const std::vector<std::filesystem::path>& files) {
+  std::uintmax_t bytes = 0;
+  for (const std::filesystem::path& file : files) {
+    std::error_code failure;
+    const std::uintmax_t size = std::filesystem::file_size(file, failure);
+    if (!failure) bytes += size;
+  }
+  return bytes;
+}
+
 // Of what the results of a set are made: the bytes of its files, the converter, the options.
 std::string hash_of(const std::vector<std::filesystem::path>& files, const ChosenConverter& chosen,
                     const ConvertOptions& options) {
@@ -188,6 +198,8 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   pass.progress = progress;
   report.statistics = run_texture_pass(set, targets, *chosen_.converter, pass);
   for (const PlannedCopy& copy : plan.copies) copy_whole_file(copy.source, copy.path);
+  report.bytes_read = size_of(report.inputs);
+  for (const JobReport::Result& result : report.results) report.bytes_written += size_of({result.path});
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

@@ -51,27 +51,23 @@ float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
   return static_cast<float>(bits >> 40) * 0x1p-24f - 0.5f;
 }
 
-void include(std::span<const float> values, bool with_histogram, ParameterStatistics& statistics) {
-  ParameterStatistics here;
-  here.min = std::numeric_limits<float>::max();
-  here.max = -here.min;
-  std::size_t finite = 0;
+ParameterStatistics statistics_of(std::span<const float> values) {
+  ParameterStatistics statistics;
+  statistics.min = std::numeric_limits<float>::max();
+  statistics.max = -statistics.min;
   for (const float value : values) {
     const bool counts = std::fabs(value) <= std::numeric_limits<float>::max();
-    here.min = counts && value < here.min ? value : here.min;
-    here.max = counts && value > here.max ? value : here.max;
-    finite += counts;
+    statistics.min = counts && value < statistics.min ? value : statistics.min;
+    statistics.max = counts && value > statistics.max ? value : statistics.max;
+    statistics.finite_count += counts;
   }
-  here.finite_count = finite;
-  if (with_histogram) {
-    constexpr float kBins = static_cast<float>(ParameterStatistics::kBins);
-    for (const float value : values) {
-      if (std::isnan(value)) continue;
-      const float bin = std::clamp(value * kBins, 0.0f, kBins - 1.0f);
-      ++here.histogram[static_cast<std::size_t>(bin)];
-    }
+  constexpr float kBins = static_cast<float>(ParameterStatistics::kBins);
+  for (const float value : values) {
+    if (std::isnan(value)) continue;
+    const float bin = std::clamp(value * kBins, 0.0f, kBins - 1.0f);
+    ++statistics.histogram[static_cast<std::size_t>(bin)];
   }
-  statistics += here;
+  return statistics;
 }
 
 // The parameters of one segment as rows of floats.
@@ -273,9 +269,9 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
     specular_out[c] = scratch.specular[c].data();
     specular[c] = specular_out[c];
     load_channel(maps_.specular, c, segment, specular_out[c]);
-    include({specular[c], count}, maps_.histogram, statistics.specular);
+    if (maps_.value_statistics) statistics.specular += statistics_of({specular[c], count});
   }
-  include({scratch.roughness.data(), count}, maps_.histogram, statistics.roughness);
+  if (maps_.value_statistics) statistics.roughness += statistics_of({scratch.roughness.data(), count});
   statistics.texel_count += count;
   meet_bad_texels(segment, scratch, statistics);
   change_convention(maps_.source_convention.value_or(info.source.roughness), info.source.roughness,
@@ -294,14 +290,14 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
 
   change_convention(info.target.roughness, maps_.target_convention.value_or(info.target.roughness),
                     {scratch.roughness.data(), count});
-  include({scratch.roughness.data(), count}, maps_.histogram, statistics.roughness_out);
+  if (maps_.value_statistics) statistics.roughness_out += statistics_of({scratch.roughness.data(), count});
   std::size_t clipped = 0;  // copies of one value count once
   for (std::size_t c = 0; c < maps_.roughness_out.channels.size(); ++c)
     clipped = store_parameter(maps_.roughness_out, c, segment, scratch.roughness.data(), scratch.other);
   statistics.clipped_count += clipped;
-  for (std::size_t c = 0; c < channels_; ++c) {
-    include({specular[c], count}, maps_.histogram, statistics.specular_out);
-  }
+  if (maps_.value_statistics)
+    for (std::size_t c = 0; c < channels_; ++c)
+      statistics.specular_out += statistics_of({specular[c], count});
   for (std::size_t c = 0; c < maps_.specular_out.channels.size(); ++c)
     statistics.clipped_count +=
         store_parameter(maps_.specular_out, c, segment, specular[channels_ == 1 ? 0 : c], scratch.other);

@@ -80,13 +80,13 @@ struct MapConversion {
   std::optional<RoughnessConvention> target_convention;
   std::optional<ChannelView> mask;  // gets 1 for texels out of domain, else 0
   BadTexels bad_texels = BadTexels::kKeep;
-  bool dither = false;        // values for 8-bit integers: noise of half a step, the same in every run
-  bool histogram = false;     // fill in the histograms of the statistics
+  bool dither = false;            // values for 8-bit integers: noise of half a step, the same in every run
+  bool value_statistics = false;  // fill in ranges and histograms
   std::size_t first_row = 0;  // position of row 0 in the whole map: for messages, `first_bad` and dithering
 };
 
 // The values of one parameter, as the map has them (linear, in the encoding of the map), all channels
-// together.
+// together. All 0 where they were not asked for.
 struct ParameterStatistics {
   static constexpr std::size_t kBins = 32;
   float min = 0.0f;  // of finite values; both 0 where there is none

@@ -278,7 +278,7 @@ MapStatistics Pass::convert(Band& band) {
   maps.target_convention = options_.target_convention;
   maps.bad_texels = options_.bad_texels;
   maps.dither = options_.dither;
-  maps.histogram = options_.histogram;
+  maps.value_statistics = options_.value_statistics;
   std::size_t clipped = 0;
   for (std::size_t t = 0; t < round_.targets.size(); ++t) {
     const ImageLayout& layout = round_.targets[t].writer->layout();

@@ -46,7 +46,7 @@ struct PassOptions {
   std::optional<RoughnessConvention> target_convention;  // of the results; none: the model's own
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
-  bool histogram = false;
+  bool value_statistics = false;  // ranges and histograms
   std::function<void(double share_done)> progress;
   const std::atomic<bool>* cancelled = nullptr;  // looked at between bands
 };

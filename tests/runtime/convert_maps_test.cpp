@@ -116,7 +116,7 @@ TEST_CASE("convert_maps: statistics are those of all values, whatever the thread
   from.at(3, 21, 0) = -1.0f;
   from.at(4, 36, 3) = INFINITY;
   MapConversion maps = conversion(from, to);
-  maps.histogram = true;
+  maps.value_statistics = true;
   maps.first_row = 1000;
   const MapStatistics one = convert_maps(*converter, maps, 1), many = convert_maps(*converter, maps, 5);
   for (const MapStatistics& statistics : {one, many}) {
