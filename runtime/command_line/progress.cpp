@@ -47,6 +47,11 @@ void Progress::advance(std::size_t count) {
   if (shown_ && now - last_shown_ >= kInterval) show(now);
 }
 
+void Progress::relabel(std::string label) {
+  const std::lock_guard lock(mutex_);
+  label_ = std::move(label);
+}
+
 void Progress::show(Clock::time_point now) {
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double share = static_cast<double>(done_) / static_cast<double>(total_);

@@ -24,12 +24,14 @@ class Progress {
   void advance_to(std::size_t done);
   // `count` more units are ready.
   void advance(std::size_t count = 1);
+  // What the line says from its next change on.
+  void relabel(std::string label);
 
  private:
   using Clock = std::chrono::steady_clock;
   void show(Clock::time_point now);
 
-  const std::string label_;
+  std::string label_;
   const std::size_t total_;
   const bool shown_;
   const Clock::time_point start_;

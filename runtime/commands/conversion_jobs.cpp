@@ -221,11 +221,13 @@ std::vector<TiledFile> tiled_files(ConversionJob& job) {
 JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& tiled) {
   JobList list;
   list.is_tree = true;
+  if (tiled.front().pattern.style == TileStyle::kFrame) list.tile_noun = "frame";
   std::map<int, std::set<std::size_t>> tiles;  // which of `tiled` have the tile of that number
   for (std::size_t i = 0; i < tiled.size(); ++i) {
     const std::vector<Tile> own = existing_tiles(tiled[i].file);
     if (own.empty())
-      throw Error(ErrorKind::kInput, tiled[i].file.string() + ": has no tile; expected at least one file");
+      throw Error(ErrorKind::kInput,
+                  tiled[i].file.string() + ": has no " + list.tile_noun + "; expected at least one file");
     for (const Tile& tile : own) tiles[tile.number].insert(i);
   }
   for (const auto& [number, present] : tiles) {
@@ -237,8 +239,9 @@ JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& 
     for (std::size_t i = 0; i < tiled.size(); ++i) {
       *files[tiled[i].index] = tiled[i].tile(number);
       if (!present.contains(i))
-        list.left_out.push_back(
-            {tiled[i].tile(number).string() + ": is missing; expected every tile of the set", true});
+        list.left_out.push_back({tiled[i].tile(number).string() + ": is missing; expected every " +
+                                     list.tile_noun + " of the set",
+                                 true});
     }
     if (present.size() == tiled.size()) list.jobs.push_back(std::move(job));
   }

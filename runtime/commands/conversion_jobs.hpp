@@ -32,6 +32,7 @@ struct JobList {
   std::vector<LeftOut> left_out;
   std::size_t unrecognised_count = 0;  // images of a folder that no naming habit knows
   bool is_tree = false;                // many sets, or tiles: failures of one do not stop the others
+  std::string tile_noun = "tile";      // or frame
 };
 
 // `request`: what the options say of one set, or of all sets of a folder. Throws kUsage for a folder without

@@ -170,7 +170,7 @@ std::size_t Outcome::failed_count() const {
 
 void print_job(const std::string& program, const Outcome& outcome, const JobReport& report) {
   std::string place = report.name.empty() ? "" : report.name + ": ";
-  if (!report.tiles.empty()) place += counted(report.tiles.size(), "tile") + ": ";
+  if (!report.tiles.empty()) place += counted(report.tiles.size(), outcome.list.tile_noun) + ": ";
   for (const std::string& warning : report.warnings) print_message(program, "warning: " + warning);
   if (report.failure) {
     print_message(program, place + "failed: " + *report.failure);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <mutex>
 
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
@@ -203,6 +204,32 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// The line that a person waits by.
+class JobProgress {
+ public:
+  JobProgress(const JobList& list, const std::string& converter, bool shown)
+      : list_(list), line_(list.is_tree ? text() : converter, list.jobs.size() * kSetProgress, shown) {}
+
+  void advance(std::size_t count) { line_.advance(count); }
+  void finish(std::size_t texels) {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    texels_ += texels;
+    if (list_.is_tree) line_.relabel(text());
+  }
+
+ private:
+  std::string text() const {
+    return std::to_string(done_) + " of " + std::to_string(list_.jobs.size()) + " sets, " +
+           std::to_string(texels_ / 1000000) + " million texels";
+  }
+  const JobList& list_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  std::size_t texels_ = 0;
+  Progress line_;  // after the counts that its first text shows
+};
+
 // Tiles of one set, which follow one another, as one report.
 std::vector<JobReport> merged(std::vector<JobReport> tiles) {
   std::vector<JobReport> sets;
@@ -224,8 +251,7 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
       static_cast<int>(std::clamp<std::size_t>(list.jobs.size(), 1, static_cast<std::size_t>(threads)));
   const JobRunner runner(chosen, options, threads / at_once);
   set_image_thread_count(threads / at_once);
-  Progress line(list.is_tree ? std::to_string(list.jobs.size()) + " sets" : chosen.converter->info().id,
-                list.jobs.size() * kSetProgress, !options.quiet);
+  JobProgress line(list, chosen.converter->info().id, !options.quiet);
   std::vector<JobReport> reports(list.jobs.size());
   run_parallel(list.jobs.size(), static_cast<unsigned>(at_once), [&](std::size_t i) {
     reports[i].name = list.jobs[i].name;
@@ -247,6 +273,7 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
       reports[i].tiles.clear();
     }
     advance(1.0);
+    line.finish(reports[i].statistics.texel_count);
   });
   return merged(std::move(reports));
 }
