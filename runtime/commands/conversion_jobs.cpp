@@ -203,6 +203,11 @@ struct TiledFile {
   TilePattern pattern;
 
   fs::path tile(int number) const { return file.parent_path() / tile_name(pattern, number); }
+  // As the name has it: 0012 for a frame.
+  std::string number_text(int number) const {
+    const std::string name = tile_name(pattern, number);
+    return name.substr(pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
+  }
 };
 
 std::vector<TiledFile> tiled_files(ConversionJob& job) {
@@ -234,7 +239,7 @@ JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& 
     ConversionJob job = whole_set;
     job.name = shown(tiled.front().file);
     job.tile = std::to_string(number);
-    job.names.after = "." + job.tile;
+    job.names.after = "." + tiled.front().number_text(number);
     const std::vector<fs::path*> files = files_of(job);
     for (std::size_t i = 0; i < tiled.size(); ++i) {
       *files[tiled[i].index] = tiled[i].tile(number);

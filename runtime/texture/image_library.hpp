@@ -33,8 +33,9 @@ struct ImageReader::State {
   int part = 0;
   int part_count = 0;
   int level = 0;
-  std::vector<OIIO::ImageSpec> levels;  // specs of the part's levels, at the size that they are read in
-  ImageLayout layout;                   // of `level`
+  std::vector<OIIO::ImageSpec> levels;    // specs of the part's levels, at the size that they are read in
+  bool has_assumed_colour_space = false;  // OpenImageIO says sRGB, and the file does not
+  ImageLayout layout;                     // of `level`
   std::unique_ptr<ResampledRows> resampled;
 
   const OIIO::ImageSpec& spec() const { return levels[static_cast<std::size_t>(level)]; }

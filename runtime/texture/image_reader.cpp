@@ -1,5 +1,7 @@
 // The reading half of image_io.hpp.
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <string_view>
@@ -16,9 +18,31 @@ std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& fo
   if (format == "jpeg" || format == "hdr") return format;
   const std::string compression = spec.get_string_attribute("Compression");
   for (const std::string_view lossy : {"dwaa", "dwab", "b44", "pxr24", "jpeg"}) {
-    if (compression.starts_with(lossy)) return compression;
+    if (compression.starts_with(lossy)) return compression.substr(0, compression.find(':'));
   }
   return "";
+}
+
+// Whether a chunk of a PNG before its pixels says how they are coded.
+bool png_tells_colour_space(std::FILE* file) {
+  std::array<unsigned char, 8> head{};
+  for (long place = 8; std::fseek(file, place, SEEK_SET) == 0;) {
+    if (std::fread(head.data(), 1, head.size(), file) != head.size()) return false;
+    const std::string_view name(reinterpret_cast<const char*>(head.data()) + 4, 4);
+    if (name == "sRGB" || name == "gAMA") return true;
+    if (name == "IDAT") return false;
+    std::uint32_t length = 0;  // the highest byte first
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | head[i];
+    place += static_cast<long>(length) + 12;  // its head and its checksum
+  }
+  return false;
+}
+
+// OpenImageIO takes files of these formats for sRGB where they say nothing.
+bool tells_colour_space(const OIIO::ImageSpec& spec, const std::string& format, std::FILE* file) {
+  if (format == "png") return png_tells_colour_space(file);
+  if (format == "jpeg" || format == "tiff") return spec.get_int_attribute("Exif:ColorSpace") == 1;
+  return true;
 }
 
 // What no file has, and a damaged one may claim.
@@ -78,15 +102,15 @@ void ImageReader::State::open() {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) fail("is a folder; expected an image file");
   // OpenImageIO does not say why a file cannot be opened.
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) fail(std::string("cannot be read: ") + std::strerror(errno));
-  std::fclose(file);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) fail(std::string("cannot be read: ") + std::strerror(errno));
   OIIO::ImageSpec hints;
   hints.attribute(kUnassociatedAlpha, 1);
   input = OIIO::ImageInput::open(path.string(), &hints);
   if (!input) fail("cannot be read as an image: " + first_line(OIIO::geterror(), "unknown format"));
   (void)input->geterror();  // remarks on odd headers
   find_planes();
+  has_assumed_colour_space = !tells_colour_space(spec(), input->format_name(), file.get());
   layout = layout_of(spec(), input->format_name(), path);
 }
 

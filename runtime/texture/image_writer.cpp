@@ -186,7 +186,12 @@ ImageWriter::ImageWriter(const fs::path& path, const std::vector<ImagePart>& par
     : state_(std::make_unique<State>()) {
   state_->path = path;
   std::vector<std::vector<OIIO::ImageSpec>> models;
-  for (const ImagePart& part : parts) models.push_back(part.model->state_->levels);
+  for (const ImagePart& part : parts) {
+    models.push_back(part.model->state_->levels);
+    // What a file does not say, the new one does not either: sRGB would be wrong for data.
+    for (OIIO::ImageSpec& model : models.back())
+      if (part.model->state_->has_assumed_colour_space) model.erase_attribute("oiio:ColorSpace");
+  }
   state_->plan(models, parts.front().model->layout().format, parts);
 }
 ImageWriter::~ImageWriter() = default;

@@ -2,6 +2,7 @@
 // each format can hold.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "error.hpp"
@@ -63,18 +64,57 @@ void leave_coding_behind(OIIO::ImageSpec& spec, const OIIO::ImageOutput& output)
   if (!output.supports("tiles") || !sides_fit) spec.tile_width = spec.tile_height = spec.tile_depth = 0;
 }
 
+// The writers of IPTC put the artist in here once more, and both would be read as two.
+void leave_creator_to_writer(OIIO::ImageSpec& spec) {
+  if (spec.get_string_attribute("IPTC:Creator") == spec.get_string_attribute("Artist"))
+    spec.erase_attribute("IPTC:Creator");
+}
+
+void suit_openexr(OIIO::ImageSpec& spec) {
+  // Rows are written from the top; the order in the file is no property of the picture.
+  spec.attribute("openexr:lineOrder", "increasingY");
+  // It is read as an attribute of its own, and written with the name of the compression only.
+  const float level = spec.get_float_attribute("openexr:dwaCompressionLevel");
+  const std::string compression = spec.get_string_attribute("Compression");
+  if (level > 0.0f && compression.starts_with("dwa") && compression.find(':') == std::string::npos)
+    spec.attribute("Compression", compression + ":" + std::to_string(std::lround(level)));
+}
+
+void suit_tiff(OIIO::ImageSpec& spec) {
+  // OpenImageIO 2.4 cannot write this tag, and drops all of Exif with it.
+  spec.erase_attribute("Exif:ImageHistory");
+  // It is written only where that is asked for, and then with a copy of the artist.
+  const auto is_iptc = [](const OIIO::ParamValue& value) {
+    return value.name().string().starts_with("IPTC:");
+  };
+  if (std::any_of(spec.extra_attribs.begin(), spec.extra_attribs.end(), is_iptc))
+    spec.attribute("tiff:write_iptc", 1);
+  leave_creator_to_writer(spec);
+  if (spec.format == OIIO::TypeHalf) spec.attribute("tiff:half", 1);
+}
+
+void suit_jpeg(OIIO::ImageSpec& spec) {
+  spec.attribute("Compression", "jpeg:100");
+  spec.attribute("jpeg:subsampling", "4:4:4");
+  leave_creator_to_writer(spec);
+}
+
+// OpenImageIO appends its version to the name of the program each time that it writes.
+void suit_targa(OIIO::ImageSpec& spec) {
+  const int version = OIIO::openimageio_version();
+  const std::string own = " " + std::to_string(version / 100) + "." + std::to_string(version % 100);
+  const std::string software = spec.get_string_attribute("Software");
+  if (software.ends_with(own)) spec.attribute("Software", software.substr(0, software.size() - own.size()));
+}
+
 // Peculiarities of single formats.
 void suit_format(OIIO::ImageSpec& spec, std::string_view format) {
   // TIFF tags associated alpha as such and stores it as it is; the other formats would divide by it.
   if (format != "tiff" || spec.alpha_channel < 0) spec.attribute(kUnassociatedAlpha, 1);
-  // Rows are written from the top; the order in the file is no property of the picture.
-  if (format == "openexr") spec.attribute("openexr:lineOrder", "increasingY");
-  // OpenImageIO 2.4 cannot write this tag, and drops all of Exif with it.
-  if (format == "tiff") spec.erase_attribute("Exif:ImageHistory");
-  if (format == "jpeg") {
-    spec.attribute("Compression", "jpeg:100");
-    spec.attribute("jpeg:subsampling", "4:4:4");
-  }
+  if (format == "openexr") suit_openexr(spec);
+  if (format == "tiff") suit_tiff(spec);
+  if (format == "jpeg") suit_jpeg(spec);
+  if (format == "targa") suit_targa(spec);
 }
 
 void note_metadata(OIIO::ImageSpec& spec, std::string_view format, const Metadata& metadata) {
@@ -104,7 +144,10 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
   if (!output.supports("channelformats")) spec.channelformats.clear();
   const bool is_mixed = !spec.channelformats.empty() && !changes.type;
   const PixelType type = changes.type.value_or(pixel_type_from_name(spec.format.c_str()).value());
-  const std::optional<PixelType> stored = stored_type(format, type);
+  // Few programs read half in TIFF: only a file that has it keeps it.
+  const bool keeps_half = format == "tiff" && model_format == format && model.format == OIIO::TypeHalf;
+  const std::optional<PixelType> stored =
+      keeps_half && type == PixelType::kHalf ? type : stored_type(format, type);
   if (!stored) fail("cannot be written; --format chooses another, e.g. exr, tif or png");
   if (changes.type && *stored != *changes.type)
     fail("cannot hold " + std::string(pixel_type_name(type)) + " pixels; expected " +

@@ -5,8 +5,9 @@
 #include <thread>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
-#include "cli/texremap_session.hpp"
+#include "cli/texremap_tree.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -36,6 +37,49 @@ class SmallDisk {
   std::string folder_;
   bool mounted_ = false;
 };
+
+// Three sets: one of `large` x `large` texels between two small ones.
+void write_sets(const Tree& tree, const std::string& extension, int large) {
+  for (const char* set : {"a", "b", "c"})
+    for (const char* map : {"_rough.", "_spec."})
+      tree.map(std::string("in/") + set + map + extension, map[1] == 'r' ? kGrey : kColour, OIIO::TypeUInt8,
+               set[0] == 'b' ? large : kTreeMapSize);
+}
+
+// The large one failed, and nothing of it is there, not even under another name.
+void check_others_whole(const Tree& tree, const ProcessResult& result, const std::string& extension) {
+  INFO(result.errors);
+  CHECK(result.exit_code == 1);
+  CHECK(result.signal == 0);
+  const auto sets = nlohmann::json::parse(result.output)["sets"];
+  REQUIRE(sets.size() == 3);
+  CHECK(sets[0]["state"] == "converted");
+  CHECK(sets[1]["state"] == "failed");
+  CHECK(sets[2]["state"] == "converted");
+  CHECK_THAT(sets[1]["failure"].get<std::string>(), Contains("cannot be written"));
+  CHECK_THAT(result.last_error(), Contains("1 of 3 sets failed"));
+  std::vector<std::string> names;
+  for (const char* name : {"a_rough.", "a_spec.", "c_rough.", "c_spec."}) names.push_back(name + extension);
+  CHECK(tree.results() == names);
+  for (const std::string& name : names)
+    CHECK(read_image(tree.path("out/" + name)).spec.width == kTreeMapSize);
+}
+
+ProcessLimits ordinary_user() {
+  ProcessLimits limits;
+  limits.keeps_permissions = true;
+  return limits;
+}
+
+// Whether the modes of files hold for programs that the tests start; says so where not.
+bool permissions_hold(const Session& session) {
+  const std::string file = session.path("unreadable");
+  write_file(file, "");
+  fs::permissions(file, fs::perms::none);
+  if (run({"/bin/cat", file}, ordinary_user()).exit_code != 0) return true;
+  WARN("skipped: root reads and writes every file, and cannot be kept from it here");
+  return false;
+}
 
 // Waits until texremap has begun to write, then sends the signal.
 ProcessResult interrupted(const Session& session, int signal) {
@@ -129,4 +173,102 @@ TEST_CASE("texremap: killed in mid-run, no file has its final name") {
   CHECK(session.result_count() == 0);
   CHECK(read_file(session.path("r.exr")) == roughness);
   CHECK(read_file(session.path("s.exr")) == specular);
+}
+
+TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and the others are whole") {
+  const Tree tree;
+  const std::string extension = GENERATE("exr", "png", "tif", "tga", "jpg");
+  write_sets(tree, extension, 256);
+  ProcessLimits limits;
+  limits.file_bytes = 20'000;  // the JSON must fit, too
+  for (const char* threads : {"1", "2"}) {
+    check_others_whole(tree, tree.convert_tree({"--json", "--force", "--threads", threads}, limits),
+                       extension);
+    fs::remove_all(tree.path("out"));
+  }
+}
+
+TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the others are whole") {
+  const Tree tree;
+  const SmallDisk disk(tree.path("out"), "size=100k");
+  if (!disk.is_mounted()) {
+    WARN("skipped: a file system cannot be mounted here");
+    return;
+  }
+  write_sets(tree, "exr", 512);
+  // One at a time: the others would find the disk full while the large one fills it.
+  const ProcessResult result = tree.convert_tree({"--json", "--threads", "1"});
+  check_others_whole(tree, result, "exr");
+  CHECK_THAT(result.errors, Contains("No space left on device"));
+}
+
+TEST_CASE("texremap: a full disk from the first byte on leaves no file") {
+  const Session session;
+  const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga", "bmp", "hdr");
+  const bool is_hdr = extension == "hdr";
+  const std::vector<std::string> channels = {"R", "G", "B"};
+  write_image(session.path("s." + extension),
+              test_spec(64, 64, channels, is_hdr ? OIIO::TypeFloat : OIIO::TypeUInt8), noise);
+  ProcessLimits limits;
+  limits.file_bytes = 0;
+  std::vector<std::string> words = session.conversion("", "s." + extension);
+  words[6] = "0.3";
+  words.insert(words.end(), {"--only", "specular"});
+  // Standard error is a file here: what was said does not fit either.
+  const ProcessResult result = session.texremap(words, limits);
+  CHECK(result.exit_code == 1);
+  CHECK(result.signal == 0);
+  CHECK(session.file_count() == 0);
+}
+
+TEST_CASE("texremap: a folder that may not be written to is named, and nothing is left in it") {
+  const Tree tree;
+  if (!permissions_hold(tree)) return;
+  write_sets(tree, "png", kTreeMapSize);
+  tree.write_pair("png", 16, OIIO::TypeUInt8);
+  fs::create_directory(tree.path("out"));
+  fs::permissions(tree.path("out"), fs::perms(0555));
+  const ProcessResult one = tree.convert("r.png", "s.png", {}, ordinary_user());
+  CHECK(one.exit_code == 1);
+  CHECK_THAT(one.last_error(), Contains("out/r.png: cannot be written: Permission denied"));
+  const ProcessResult all = tree.convert_tree({}, ordinary_user());
+  CHECK(all.exit_code == 1);
+  CHECK_THAT(all.errors, Contains("out/a_rough.png: cannot be written: Permission denied"));
+  CHECK_THAT(all.last_error(), Contains("3 of 3 sets failed"));
+  CHECK(tree.file_count() == 0);
+  fs::permissions(tree.path("out"), fs::perms::owner_all);
+}
+
+TEST_CASE("texremap: files and folders that may not be read are named, and the others are converted") {
+  const Tree tree;
+  if (!permissions_hold(tree)) return;
+  write_sets(tree, "png", kTreeMapSize);
+  tree.map("in/locked/d_rough.png", kGrey);
+  fs::permissions(tree.path("in/locked"), fs::perms::none);
+  fs::permissions(tree.path("in/b_spec.png"), fs::perms::none);
+  const ProcessResult result = tree.convert_tree({"--recursive"}, ordinary_user());
+  fs::permissions(tree.path("in/locked"), fs::perms::owner_all);
+  INFO(result.errors);
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.errors, Contains("in/locked: cannot be read: Permission denied"));
+  CHECK_THAT(result.errors, Contains("in/b_spec.png: cannot be read: Permission denied"));
+  CHECK(tree.results() == std::vector<std::string>{"a_rough.png", "a_spec.png", "c_rough.png", "c_spec.png"});
+}
+
+TEST_CASE("texremap: a link that leads to itself is no input, and no output is written through one") {
+  const Session session;
+  session.write_pair("png", 16, OIIO::TypeUInt8);
+  fs::create_symlink("loop.png", session.path("loop.png"));
+  const ProcessResult in = session.convert("loop.png", "s.png");
+  CHECK(in.exit_code == 1);
+  CHECK_THAT(in.last_error(), Contains("loop.png: cannot be read: Too many levels of symbolic links"));
+  fs::create_directory(session.path("out"));
+  fs::create_symlink(session.path("elsewhere.png"), session.path("out/s.png"));
+  const ProcessResult out = session.convert("r.png", "s.png");
+  CHECK(out.exit_code == 1);
+  CHECK_THAT(out.last_error(), Contains("out/s.png: exists"));
+  // --force replaces the link, not what it leads to.
+  CHECK(session.convert("r.png", "s.png", {"--force"}).exit_code == 0);
+  CHECK_FALSE(fs::exists(session.path("elsewhere.png")));
+  CHECK_FALSE(fs::is_symlink(session.path("out/s.png")));
 }

@@ -1,11 +1,12 @@
 // Folders of texture sets, tiles and frames: what is found, what is written, what happens when one fails.
+#include "cli/texremap_tree.hpp"
+
 #include <algorithm>
 #include <fstream>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cli/texremap_session.hpp"
 #include "support/shared_data.hpp"
 
 using namespace remap;
@@ -14,33 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kSize = 24;
-
-class Tree : public Session {
- public:
-  void map(const std::string& name, const std::vector<std::string>& channels,
-           OIIO::TypeDesc type = OIIO::TypeUInt8, int size = kSize) const {
-    fs::create_directories(fs::path(path(name)).parent_path());
-    write_image(path(name), test_spec(size, size, channels, type), noise);
-  }
-  ProcessResult convert_tree(std::vector<std::string> more = {}) const {
-    std::vector<std::string> words = {"convert",    path("in"),      "--from", "mitsuba/ward", "--to",
-                                      "mitsuba/as", "--color-space", "linear", "-o",           path("out")};
-    words.insert(words.end(), more.begin(), more.end());
-    return texremap(words);
-  }
-  // Every file below `out`, relative to it.
-  std::vector<std::string> results() const {
-    std::vector<std::string> names;
-    std::error_code none;
-    for (const auto& entry : fs::recursive_directory_iterator(path("out"), none))
-      if (entry.is_regular_file()) names.push_back(fs::relative(entry.path(), path("out")).string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-};
-
-const std::vector<std::string> kGrey = {"Y"}, kColour = {"R", "G", "B"}, kWithAlpha = {"R", "G", "B", "A"};
+constexpr int kSize = kTreeMapSize;
 using Names = std::vector<std::string>;
 
 }  // namespace

@@ -25,6 +25,7 @@ struct ProcessResult {
 
 struct ProcessLimits {
   std::optional<rlim_t> file_bytes;  // as by `ulimit -f`: writing beyond fails
+  bool keeps_permissions = false;    // the modes of files hold for it, even where the test runs as root
 };
 
 // A process that runs beside the test. The destructor kills it if it was not waited for.

@@ -1,0 +1,44 @@
+// A folder of texture sets for texremap to convert.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/texremap_session.hpp"
+
+namespace remap {
+
+inline constexpr int kTreeMapSize = 24;
+
+class Tree : public Session {
+ public:
+  void map(const std::string& name, const std::vector<std::string>& channels,
+           OIIO::TypeDesc type = OIIO::TypeUInt8, int size = kTreeMapSize) const {
+    std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
+    write_image(path(name), test_spec(size, size, channels, type), noise);
+  }
+  ProcessResult convert_tree(const std::vector<std::string>& more = {},
+                             const ProcessLimits& limits = {}) const {
+    std::vector<std::string> words = {"convert",    path("in"),      "--from", "mitsuba/ward", "--to",
+                                      "mitsuba/as", "--color-space", "linear", "-o",           path("out")};
+    words.insert(words.end(), more.begin(), more.end());
+    return texremap(words, limits);
+  }
+  // Every file below `out`, relative to it.
+  std::vector<std::string> results() const {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path("out"), none))
+      if (entry.is_regular_file())
+        names.push_back(std::filesystem::relative(entry.path(), path("out")).string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+inline const std::vector<std::string> kGrey = {"Y"}, kColour = {"R", "G", "B"},
+                                      kWithAlpha = {"R", "G", "B", "A"};
+
+}  // namespace remap

@@ -1,0 +1,36 @@
+// Images that carry as many attributes as their formats can, in every variant of each format.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+
+namespace remap {
+
+struct AttributeImage {
+  std::string title;                   // the variant, for messages
+  std::string extension;               // of the file
+  std::vector<OIIO::ImageSpec> parts;  // one, or several of a file of several parts
+  bool has_levels = false;             // mip levels below the only part
+  bool is_lossless = true;             // every bit that is written comes back
+};
+
+std::vector<AttributeImage> exr_storage_images();    // pixel types, compressions, tiles, mip levels
+std::vector<AttributeImage> exr_structure_images();  // layers, windows, parts
+std::vector<AttributeImage> tiff_images();
+std::vector<AttributeImage> png_images();
+std::vector<AttributeImage> small_format_images();  // JPEG, Targa, BMP, Radiance
+
+// Noise in all planes. Throws std::runtime_error where OpenImageIO fails.
+void write_attribute_image(const std::filesystem::path& path, const AttributeImage& image);
+
+// All parts and levels as OpenImageIO describes them, and their texels as they are stored.
+struct StoredPlane {
+  OIIO::ImageSpec spec;
+  std::vector<unsigned char> bytes;
+};
+std::vector<std::vector<StoredPlane>> read_planes(const std::filesystem::path& path);
+
+}  // namespace remap
