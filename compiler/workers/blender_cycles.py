@@ -29,9 +29,11 @@ MODELS = [{"name": f"{PREFIX}/{name}", "noise": name == "multiscatter-ggx" and n
           for name in DISTRIBUTIONS]
 MODELS += [
     {"name": f"{PREFIX}/principled-metal", "parameters": [
-        ROUGHNESS, parameter("base_color", "specular", 0, 1), parameter("specular", "other", 0, 1, default=0.5)]},
+        ROUGHNESS, parameter("base_color", "specular", 0, 1),
+        parameter("specular", "other", 0, 1, default=0.5, grey=True)]},
     {"name": f"{PREFIX}/principled-dielectric", "parameters": [
-        ROUGHNESS, parameter("specular", "specular", 0, 1), parameter("base_color", "diffuse", 0, 1)]},
+        ROUGHNESS, parameter("specular", "specular", 0, 1, grey=True),
+        parameter("base_color", "diffuse", 0, 1)]},
 ]
 
 

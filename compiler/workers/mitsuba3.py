@@ -22,14 +22,14 @@ MODELS = [
     # Exact Fresnel of a dielectric; its diffuse lobe is below the interface and loses what that reflects.
     {"name": "mitsuba3/plastic", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
                                                 parameter("diffuse", "diffuse", 0, 1),
-                                                parameter("ior", "other", 1.01, 4, default=1.5)]},
+                                                parameter("ior", "other", 1.01, 4, default=1.5, grey=True)]},
     {"name": "mitsuba3/principled-metal", "parameters": [
         parameter("roughness", "roughness", 0.0317, 1, convention="roughness"),
         parameter("base_color", "specular", 0, 1),
-        parameter("specular", "other", 0, 1, default=0.5)]},
+        parameter("specular", "other", 0, 1, default=0.5, grey=True)]},
     {"name": "mitsuba3/principled-dielectric", "parameters": [
         parameter("roughness", "roughness", 0.0317, 1, convention="roughness"),
-        parameter("specular", "specular", 0.0, 1),
+        parameter("specular", "specular", 0, 1, grey=True),
         parameter("base_color", "diffuse", 0, 1)]},
 ]
 

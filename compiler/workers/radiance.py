@@ -12,7 +12,7 @@ import tempfile
 import numpy as np
 import pyradiance
 
-from worker_loop import Refused, grey_or_rgb, parameter, serve
+from worker_loop import grey_or_rgb, parameter, serve
 
 HOME = os.path.dirname(pyradiance.__file__)
 ENVIRONMENT = {**os.environ, "RAYPATH": os.path.join(HOME, "lib")}
@@ -22,7 +22,7 @@ OPTIONS = "-h -fff -ov -ab 0 -lr 0 -st 1 -dj 0 -ds 0 -dt 0 -dv- -n 1".split()
 # A width up to 1e-6 is a mirror. `plastic` takes 1 - specular of its diffuse, so diffuse stands for what is left.
 MODELS = [
     {"name": "radiance/plastic", "parameters": [parameter("roughness", "roughness", 1e-4, 1, convention="alpha"),
-                                                parameter("specularity", "specular", 0, 1),
+                                                parameter("specularity", "specular", 0, 1, grey=True),
                                                 parameter("diffuse", "diffuse", 0, 1)]},
     {"name": "radiance/metal", "parameters": [parameter("roughness", "roughness", 1e-4, 1, convention="alpha"),
                                               parameter("reflectance", "specular", 0, 1)]},
@@ -66,8 +66,6 @@ def material_of(model, values):
     if model == "radiance/metal":
         red, green, blue = grey_or_rgb(values["reflectance"])
         return f"void metal skin 0 0 5 {red!r} {green!r} {blue!r} 1 {width!r}"
-    if len(values["specularity"]) != 1:
-        raise Refused("specularity has 3 values; expected one: the highlight of plastic is white")
     specular = values["specularity"][0]
     # The diffuse of `plastic` is multiplied by what the highlight leaves; at specularity 1 nothing is left.
     left = max(1 - specular, 1e-9)

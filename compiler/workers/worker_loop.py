@@ -27,6 +27,8 @@ def check_material(models, request):
         name, (least, most) = described["name"], described["range"]
         if name not in values:
             raise Refused(f"{name} is missing")
+        if described.get("grey") and len(values[name]) != 1:
+            raise Refused(f"{name} has {len(values[name])} values; expected one: the model has no colour in it")
         for value in values[name]:
             if not least <= value <= most:
                 raise Refused(f"{name} is {value}; expected {least} to {most}")
