@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   remapc::add_import_command(app);
   remapc::add_compare_command(app);
   remapc::add_list_command(app);
+  remapc::add_renderers_command(app);
+  remapc::add_worker_check_command(app);
   remapc::add_show_command(app);
   remapc::add_study_command(app);
   return remap::run_app(app, argc, argv);

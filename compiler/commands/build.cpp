@@ -10,6 +10,7 @@
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
+#include "commands/renderer_options.hpp"
 #include "error.hpp"
 #include "number_text.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 
 struct BuildCommand {
   BuildFolders folders;
+  RendererOptions renderers;
   unsigned jobs = 0;
   bool force = false, check = false, json = false;
 };
@@ -64,7 +66,7 @@ void run(const BuildCommand& command) {
     return;
   }
   remap::watch_interruptions();
-  const auto renderer = make_builtin_renderer();
+  const auto renderer = make_renderers(command.renderers);
   std::vector<BuiltItem> built;
   {
     remap::Progress progress("build " + command.folders.fits.string(), manifest.items.size());
@@ -95,6 +97,7 @@ void add_build_command(CLI::App& app) {
   command
       ->add_option("--jobs", options->jobs, "Items at once; 0: one a core. The results do not depend on it")
       ->capture_default_str();
+  add_renderer_options(*command, options->renderers);
   command->add_flag("--force", options->force, "Make everything anew");
   command->add_flag("--check", options->check, "Write nothing; say what is not up to date, exit code 1 then");
   command->add_flag("--json", options->json, "What was made as JSON on standard output");

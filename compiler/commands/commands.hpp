@@ -16,6 +16,8 @@ void add_eval_command(CLI::App& app);
 void add_import_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_list_command(CLI::App& app);
+void add_renderers_command(CLI::App& app);
+void add_worker_check_command(CLI::App& app);
 void add_show_command(CLI::App& app);
 void add_build_command(CLI::App& app);
 void add_chain_command(CLI::App& app);

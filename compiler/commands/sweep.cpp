@@ -11,6 +11,7 @@
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
+#include "commands/renderer_options.hpp"
 #include "error.hpp"
 #include "files.hpp"
 #include "number_text.hpp"
@@ -38,6 +39,7 @@ struct SweepCommand {
   unsigned jobs = 0;
   bool resume = false, force = false, json = false, quiet = false;
   std::filesystem::path output;
+  RendererOptions renderers;
 };
 
 remap::Range parse_range(const std::string& option, const std::vector<double>& values) {
@@ -106,7 +108,14 @@ void warn_of_subpixel(const Table& table, const SweepOptions& options) {
               << ", where the highlight is smaller than a pixel; take more --resolution or --pixel-samples\n";
 }
 
-void report(const SweepCommand& command, const Table& table, double seconds) {
+// Nothing where no worker took part.
+std::string pictures_text(const PictureCount& pictures) {
+  if (pictures.rendered + pictures.cached == 0) return "";
+  return ", " + std::to_string(pictures.rendered) + " pictures rendered and " +
+         std::to_string(pictures.cached) + " from the cache";
+}
+
+void report(const SweepCommand& command, const Table& table, const PictureCount& pictures, double seconds) {
   std::map<std::string, std::size_t> statuses;
   double square = 0.0;
   for (const TableRow& row : table.rows) {
@@ -119,6 +128,8 @@ void report(const SweepCommand& command, const Table& table, double seconds) {
                                          {"rows", table.rows.size()},
                                          {"status", statuses},
                                          {"rms_image_error", error},
+                                         {"pictures_rendered", pictures.rendered},
+                                         {"pictures_cached", pictures.cached},
                                          {"seconds", seconds}};
     std::cout << json.dump(2) << "\n";
   } else if (!command.quiet) {
@@ -128,20 +139,20 @@ void report(const SweepCommand& command, const Table& table, double seconds) {
       std::cerr << (first ? "" : ", ") << count << " " << status;
       first = false;
     }
-    std::cerr << "), image error " << number_text(std::round(1000.0 * error) / 10.0) << " % rms, "
-              << number_text(std::round(10.0 * seconds) / 10.0) << " s\n";
+    std::cerr << "), image error " << number_text(std::round(1000.0 * error) / 10.0) << " % rms"
+              << pictures_text(pictures) << ", " << number_text(std::round(10.0 * seconds) / 10.0) << " s\n";
   }
 }
 
 void run(const SweepCommand& command) {
   const auto start = std::chrono::steady_clock::now();
-  const auto renderer = make_builtin_renderer();
+  remap::watch_interruptions();
+  const auto renderer = make_renderers(command.renderers);
   const SweepOptions options = sweep_options(command, *renderer);
   const std::filesystem::path journal = command.output.string() + ".partial";
   require_free_output(command, journal);
   remap::create_parent(command.output);
 
-  remap::watch_interruptions();
   Table table;
   {
     remap::Progress progress("sweep " + command.source + " -> " + command.target, options.samples.size(),
@@ -155,7 +166,9 @@ void run(const SweepCommand& command) {
   remap::write_file(command.output, table_text(table));
   std::filesystem::remove(journal);
   warn_of_subpixel(table, options);
-  report(command, table, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  for (const std::string& remark : renderer->remarks()) std::cerr << "remapc: " << remark << "\n";
+  report(command, table, renderer->pictures(),
+         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
 constexpr int kMostSamples = 4096;  // of each axis
@@ -200,6 +213,7 @@ void add_options(CLI::App& app, SweepCommand& command) {
                "Leave a factor between the light of two renderers in specular and diffuse");
   app.add_option("--jobs", command.jobs, "Threads; 0: one a core. The table does not depend on it")
       ->capture_default_str();
+  add_renderer_options(app, command.renderers);
   app.add_flag("--resume", command.resume, "Continue a sweep that was interrupted");
   app.add_flag("--force", command.force, "Replace the table");
   app.add_flag("--json", command.json, "Summary as JSON on standard output");
@@ -213,7 +227,10 @@ void add_sweep_command(CLI::App& app) {
       app.add_subcommand("sweep", "Match a grid of source materials with the target model, into a table");
   auto options = std::make_shared<SweepCommand>();
   add_options(*command, *options);
-  command->footer("Example:\n  remapc sweep --source mitsuba/ward --target mitsuba/as -o ward_to_as.csv");
+  command->footer(
+      "Example:\n  remapc sweep --source mitsuba/ward --target mitsuba/as -o ward_to_as.csv\n"
+      "  remapc sweep --source radiance/plastic --target mitsuba3/ggx --resolution 256 -o "
+      "radiance_to_ggx.csv");
   command->callback([options] { run(*options); });
 }
 

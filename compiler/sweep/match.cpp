@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "sweep/interpolation.hpp"
 #include "sweep/picture_sums.hpp"
@@ -103,6 +104,9 @@ std::size_t Matcher::descend(std::size_t node, const std::vector<double>& coeffi
 Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients) {
   const std::size_t first =
       std::min(node - std::min(node, kInterpolationNodes / 2 - 1), bank_.size() - kInterpolationNodes);
+  std::array<std::size_t, kInterpolationNodes> nodes{};
+  std::iota(nodes.begin(), nodes.end(), first);
+  bank_.prepare(nodes);
   std::array<Quadratic, kInterpolationNodes> window;
   LagrangeBasis::Values logs{};
   for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
@@ -154,6 +158,7 @@ std::vector<std::size_t> Matcher::coarse_minima(const std::vector<double>& coeff
   std::vector<std::size_t> coarse;
   for (std::size_t node = 0; node < bank_.size(); node += kCoarseStride) coarse.push_back(node);
   if (coarse.back() + 1 != bank_.size()) coarse.push_back(bank_.size() - 1);
+  bank_.prepare(coarse);
   std::vector<std::size_t> minima;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     const double loss = loss_at_node(coarse[i], coefficients);

@@ -94,13 +94,19 @@ remap::Range Subject::linear_range() const {
   return {whole.min, response.law == SpecularLaw::kClamped ? response.knee : whole.max};
 }
 
-const remap::Range& Subject::diffuse_range() const { return model.parameter(ParameterRole::kDiffuse).range; }
+remap::Range Subject::diffuse_range() const {
+  if (!model.has(ParameterRole::kDiffuse)) return {0.0, 0.0};
+  return model.parameter(ParameterRole::kDiffuse).range;
+}
 
 AffinePictures take_affine(const Photographer& photographer, const Subject& subject, double alpha) {
   const remap::Range range = subject.linear_range();
   AffinePictures pictures;
-  pictures.base = photographer.take(subject, {alpha, range.min, 0.0});
   pictures.full = photographer.take(subject, {alpha, range.max, 0.0});
+  if (subject.response.proportional() && range.min == 0.0)
+    pictures.base.resize(pictures.full.size());
+  else
+    pictures.base = photographer.take(subject, {alpha, range.min, 0.0});
   pictures.slope.resize(pictures.base.size());
   const double scale = 1.0 / (range.max - range.min);
   for (std::size_t i = 0; i < pictures.base.size(); ++i) {

@@ -27,7 +27,7 @@ struct Subject {
   // Canonical speculars that the model takes, and those in which its picture is linear: they end at a knee.
   remap::Range specular_range() const;
   remap::Range linear_range() const;
-  const remap::Range& diffuse_range() const;
+  remap::Range diffuse_range() const;  // 0 to 0 where it has none
 };
 
 class Photographer {
@@ -63,7 +63,8 @@ class Photographer {
 };
 
 // Pictures of a subject that is affine in canonical specular, at one width: base + specular * slope, and the
-// picture at the largest specular of the linear range.
+// picture at the largest specular of the linear range. A subject in proportion is black at 0 and not rendered
+// there: real renderers take their time.
 struct AffinePictures {
   std::vector<float> base, slope, full;
 };

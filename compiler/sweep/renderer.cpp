@@ -1,6 +1,7 @@
 #include "sweep/renderer.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "error.hpp"
 #include "nearest_name.hpp"
@@ -21,11 +22,19 @@ const char* role_name(ParameterRole role) {
       return "index of refraction";
     case ParameterRole::kExtinction:
       return "extinction";
+    case ParameterRole::kOther:
+      return "anything else";
   }
   return "";
 }
 
 }  // namespace
+
+std::string_view role_word(ParameterRole role) {
+  if (role == ParameterRole::kIndex) return "index";
+  if (role == ParameterRole::kOther) return "other";
+  return role_name(role);
+}
 
 bool ModelDescription::has(ParameterRole role) const {
   return std::any_of(parameters.begin(), parameters.end(),
@@ -39,21 +48,43 @@ const ParameterDescription& ModelDescription::parameter(ParameterRole role) cons
                                                    "; expected a model with one (remapc list --models)");
 }
 
-ModelDescription find_model(const Renderer& renderer, const std::string& name) {
+std::string Renderer::version_of(const std::string&) const { return version(); }
+
+ModelDescription Renderer::model(const std::string& name) const {
   std::vector<std::string> names;
-  for (const ModelDescription& model : renderer.models()) {
+  for (const ModelDescription& model : models()) {
     if (model.name == name) return model;
     names.push_back(model.name);
   }
   throw remap::Error(remap::ErrorKind::kUsage,
-                     name + ": is no model of " + renderer.version() + remap::suggestion(name, names));
+                     name + ": is no model of " + version() + remap::suggestion(name, names));
 }
 
+ModelDescription find_model(const Renderer& renderer, const std::string& name) {
+  return renderer.model(name);
+}
+
+namespace {
+
+// A width in the model's own parameter. The end of a range, there and back through alpha, may be an ulp off.
+double own_width(const ModelDescription& model, double alpha) {
+  const remap::Range range = model.parameter(ParameterRole::kRoughness).range;
+  const double own = remap::from_alpha(model.roughness, alpha);
+  const double held = std::clamp(own, range.min, range.max);
+  return std::fabs(own - held) <= 1e-12 * std::fabs(held) ? held : own;
+}
+
+}  // namespace
+
 Material grey_material(const ModelDescription& model, double alpha, double specular, double diffuse) {
-  return {model.name,
-          {{model.parameter(ParameterRole::kRoughness).name, {remap::from_alpha(model.roughness, alpha)}},
-           {model.parameter(ParameterRole::kSpecular).name, {specular}},
-           {model.parameter(ParameterRole::kDiffuse).name, {diffuse}}}};
+  Material material{model.name,
+                    {{model.parameter(ParameterRole::kRoughness).name, {own_width(model, alpha)}},
+                     {model.parameter(ParameterRole::kSpecular).name, {specular}}}};
+  for (const ParameterDescription& parameter : model.parameters) {
+    if (parameter.role == ParameterRole::kDiffuse) material.parameters[parameter.name] = {diffuse};
+    if (parameter.role == ParameterRole::kOther) material.parameters[parameter.name] = {parameter.standard};
+  }
+  return material;
 }
 
 remap::ModelSide model_side(const ModelDescription& model) {

@@ -2,9 +2,11 @@
 // images. The built-in renderer is one implementation; nothing in the sweep may look behind this interface.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/convention.hpp"
@@ -15,13 +17,21 @@
 namespace remapc {
 
 // What a parameter does, so that a sweep can turn it without knowing its name.
-// A sweep turns the first three; a conductor has an index and an extinction in place of one specular value.
-enum class ParameterRole { kRoughness, kSpecular, kDiffuse, kIndex, kExtinction };
+// A sweep turns the first three; a conductor has an index and an extinction in place of one specular value;
+// any other stays at its standard value.
+enum class ParameterRole { kRoughness, kSpecular, kDiffuse, kIndex, kExtinction, kOther };
+inline constexpr std::array kParameterRoles = {ParameterRole::kRoughness,  ParameterRole::kSpecular,
+                                               ParameterRole::kDiffuse,    ParameterRole::kIndex,
+                                               ParameterRole::kExtinction, ParameterRole::kOther};
+
+// `roughness`, `specular`, `diffuse`, `index`, `extinction`, `other`.
+std::string_view role_word(ParameterRole role);
 
 struct ParameterDescription {
   std::string name;  // the model's own word: alpha, exponent, specular, f0, ior, eta, k, diffuse
   ParameterRole role = ParameterRole::kSpecular;
-  remap::Range range;  // values the renderer accepts, in the parameter's own unit
+  remap::Range range;     // values the renderer accepts, in the parameter's own unit
+  double standard = 0.0;  // of kOther
 };
 
 struct ModelDescription {
@@ -29,6 +39,7 @@ struct ModelDescription {
   remap::RoughnessConvention roughness = remap::RoughnessConvention::kAlpha;
   remap::Range alpha;  // widths that the model can take, canonical
   std::vector<ParameterDescription> parameters;
+  bool noise = false;  // another seed gives another picture
 
   bool has(ParameterRole role) const;
   // Throws kUsage where it has none.
@@ -47,8 +58,12 @@ class Renderer {
 
   // Name and version of what makes the pictures; part of every cache key and table.
   virtual std::string version() const = 0;
+  // The same for one model, where several programs stand behind this renderer.
+  virtual std::string version_of(const std::string& model) const;
 
   virtual std::vector<ModelDescription> models() const = 0;
+  // The description of one model. Throws kUsage with the nearest known name.
+  virtual ModelDescription model(const std::string& name) const;
 
   // Radiance of the sphere with `material` in `scene`. One channel where every parameter is grey, else three.
   // Safe to call from many threads. Throws kUsage for a model, parameter or value that the renderer does not
@@ -59,7 +74,8 @@ class Renderer {
 // The description of `name`. Throws kUsage with the nearest known name.
 ModelDescription find_model(const Renderer& renderer, const std::string& name);
 
-// A grey material from canonical coordinates: the width as alpha, linear specular and diffuse.
+// A grey material from canonical coordinates: the width as alpha, linear specular and diffuse (of a model
+// that has it); other parameters at their standard values.
 Material grey_material(const ModelDescription& model, double alpha, double specular, double diffuse);
 
 // The end of a conversion that `model` stands for.

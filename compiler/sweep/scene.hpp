@@ -22,6 +22,7 @@ struct Scene {
   int resolution = 512;  // width and height in pixels
   int samples_per_axis = 1;
   Light light;
+  int seed = 0;  // of renderers with noise
   bool operator==(const Scene&) const = default;
 };
 

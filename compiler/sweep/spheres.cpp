@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "number_text.hpp"
 #include "sweep/likeness.hpp"
@@ -32,8 +33,13 @@ std::vector<const TableRow*> compared_rows(const SweepSetup& setup, const std::v
   return spread;
 }
 
-// The factor that makes the brightest point of a white diffuse sphere 1.
+// The factor that makes the brightest point of a white diffuse sphere 1. Without diffuse: that of an albedo
+// of 1 hit at right angles from the distance of the light.
 double white_exposure(const SweepSetup& setup) {
+  if (!setup.target.model.has(ParameterRole::kDiffuse)) {
+    const double distance = setup.options.objective.lights.front().distance - 1.0;
+    return std::numbers::pi * distance * distance;
+  }
   const double alpha = std::sqrt(setup.target.model.alpha.min * setup.target.model.alpha.max);
   const double black = setup.target.specular_range().min;
   const double white = setup.target.model.parameter(ParameterRole::kDiffuse).range.max;

@@ -46,12 +46,15 @@ Range sampled_alphas(const std::vector<SamplePoint>& samples) {
   return {low->alpha, high->alpha};
 }
 
-void require_options(const SweepOptions& options, const ModelDescription& source) {
+void require_options(const SweepOptions& options, const ModelDescription& source,
+                     const ModelDescription& target) {
   if (options.samples.empty())
     throw Error(ErrorKind::kUsage, "samples: there are none; expected at least one");
   if (options.stages < 1 || options.stages > 3)
     throw Error(ErrorKind::kUsage, "stages: " + std::to_string(options.stages) + "; expected 1, 2 or 3");
+  if (!has_diffuse(options)) return;
   const Range diffuses = source.parameter(ParameterRole::kDiffuse).range;
+  target.parameter(ParameterRole::kDiffuse);  // throws where there is none to match
   if (!diffuses.contains(options.diffuse))
     throw Error(ErrorKind::kUsage, source.name + ": diffuse " + number_text(options.diffuse) + "; expected " +
                                        range_text(diffuses));
@@ -126,9 +129,18 @@ void add_stages(const SweepSetup& setup, Table* table) {
                              number_text(kFixedGuess.diffuse) + " of the ranges of alpha, specular, diffuse");
   }
   if (table->has_diffuse) comments.emplace_back("diffuse", number_text(options.diffuse));
+  for (const ModelDescription* model : {&setup.source.model, &setup.target.model})
+    if (!model->has(ParameterRole::kDiffuse))
+      comments.emplace_back("irradiance", "taken to be the same: " + model->name + " has no diffuse");
   comments.emplace_back("irradiance_scale", number_text(rounded_ratio(setup.irradiance_scale)));
   comments.emplace_back("diffuse_scale", number_text(rounded_ratio(setup.diffuse.scale)));
   comments.emplace_back("diffuse_error", number_text(remap::rounded_up(setup.diffuse.error, 2)));
+}
+
+std::string versions_text(const Renderer& renderer, const SweepOptions& options) {
+  const std::string source = renderer.version_of(options.source),
+                    target = renderer.version_of(options.target);
+  return source == target ? source : source + "; " + target;
 }
 
 Table empty_table(const Renderer& renderer, const SweepSetup& setup) {
@@ -140,7 +152,7 @@ Table empty_table(const Renderer& renderer, const SweepSetup& setup) {
   table.comments = {{"tool", std::string("remapc ") + remap::kVersion}};
   add_side("source", setup.source, &table);
   add_side("target", setup.target, &table);
-  table.comments.emplace_back("renderer", renderer.version());
+  table.comments.emplace_back("renderer", versions_text(renderer, options));
   table.comments.emplace_back("objective", options.objective_name);
   table.comments.emplace_back("lights", lights_text(options.objective.lights));
   table.comments.emplace_back("weighting", weighting_name(options.objective.weighting));
@@ -156,21 +168,27 @@ Table empty_table(const Renderer& renderer, const SweepSetup& setup) {
   return table;
 }
 
+// Light is compared by diffuse-only pictures; where a model has no diffuse parameter it counts as the same.
+bool light_matched(const ModelDescription& source, const ModelDescription& target) {
+  return source.has(ParameterRole::kDiffuse) && target.has(ParameterRole::kDiffuse);
+}
+
 // Probes both models, matches their light, and makes what the blocks need.
 SweepSetup make_setup(const SweepOptions& options, const Photographer& photographer,
                       const ModelDescription& source, const ModelDescription& target) {
   const Range alphas = sampled_alphas(options.samples);
   const Range probed{std::max(target.alpha.min, alphas.min), target.alpha.max};
   const Range searched{std::max(target.alpha.min, alphas.min / kNarrowing), target.alpha.max};
-  SweepSetup setup{options,
-                   photographer,
-                   {source, probe_specular(photographer, source, alphas)},
-                   {target, probe_specular(photographer, target, probed)},
-                   1.0,
-                   match_diffuse(photographer, source, target),
-                   nullptr,
-                   nullptr,
-                   nullptr};
+  SweepSetup setup{
+      options,
+      photographer,
+      {source, probe_specular(photographer, source, alphas)},
+      {target, probe_specular(photographer, target, probed)},
+      1.0,
+      light_matched(source, target) ? match_diffuse(photographer, source, target) : DiffuseMatch{},
+      nullptr,
+      nullptr,
+      nullptr};
   if (options.match_irradiance) {
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;
@@ -225,7 +243,7 @@ Table run_sweep(const Renderer& renderer, const SweepOptions& options, const Swe
                 const std::filesystem::path& journal_path, bool resume) {
   const ModelDescription source = find_model(renderer, options.source);
   const ModelDescription target = find_model(renderer, options.target);
-  require_options(options, source);
+  require_options(options, source, target);
   require_alphas(options, source);
   const Photographer photographer(renderer, options.objective, options.resolution, options.samples_per_axis);
   const SweepSetup setup = make_setup(options, photographer, source, target);

@@ -27,16 +27,22 @@ TargetBank::TargetBank(const Photographer& photographer, const Subject& target, 
   }
   for (auto log = logs.rbegin(); log != logs.rend(); ++log) alphas_.push_back(std::exp(*log));
   alphas_.back() = alphas.max;
-  slots_.resize(alphas_.size());
+  for (std::size_t i = 0; i < alphas_.size(); ++i) slots_.emplace_back();
 }
 
 const BankEntry& TargetBank::entry(std::size_t node) const {
   Slot& slot = slots_[node];
+  slot.begun = true;
   std::call_once(slot.once, [&] {
     AffinePictures pictures = take_affine(photographer_, target_, alphas_[node]);
     slot.entry = {std::move(pictures.base), std::move(pictures.slope)};
   });
   return slot.entry;
+}
+
+void TargetBank::prepare(std::span<const std::size_t> nodes) const {
+  for (const std::size_t node : nodes)
+    if (!slots_[node].begun.exchange(true)) entry(node);
 }
 
 }  // namespace remapc

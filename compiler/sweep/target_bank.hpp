@@ -2,8 +2,10 @@
 // specular, each rendered once, when a search first asks for it.
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "sweep/photographer.hpp"
@@ -36,9 +38,14 @@ class TargetBank {
   // The pictures of a node; rendered on the first call, kept for the next. Safe from many threads.
   const BankEntry& entry(std::size_t node) const;
 
+  // Renders those of `nodes` that no other thread has begun: threads that want the same nodes share the work
+  // instead of waiting for each other at every one.
+  void prepare(std::span<const std::size_t> nodes) const;
+
  private:
   struct Slot {
     std::once_flag once;
+    std::atomic<bool> begun{false};
     BankEntry entry;
   };
   const Photographer& photographer_;

@@ -1,0 +1,40 @@
+#include "commands/renderer_options.hpp"
+
+#include "command_line/interruption.hpp"
+#include "worker/worker_list.hpp"
+
+namespace remapc {
+
+void add_renderer_options(CLI::App& app, RendererOptions& options) {
+  const std::string group = "Real renderers (remapc renderers lists them)";
+  app.add_option("--worker", options.workers,
+                 "NAME=COMMAND: a worker for models NAME/..., as compiler/workers/PROTOCOL.md describes them")
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option("--worker-processes", options.processes, "Of one worker at once; 0: one a core")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--worker-timeout", options.seconds, "Seconds that a worker may take for an answer")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--cache", options.cache,
+                 "Folder where pictures of workers are kept; default: remap/pictures in the user's cache")
+      ->group(group);
+  app.add_flag("--no-cache", options.no_cache, "Render every picture, keep none")->group(group);
+}
+
+WorkerSettings worker_settings(const RendererOptions& options) {
+  WorkerSettings settings;
+  if (!options.no_cache) settings.cache = options.cache.empty() ? default_cache_folder() : options.cache;
+  settings.processes = options.processes;
+  settings.limits.seconds = options.seconds;
+  settings.limits.cancelled = &remap::interruption();
+  return settings;
+}
+
+std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options) {
+  return std::make_unique<RendererSet>(known_workers(options.workers), worker_settings(options));
+}
+
+}  // namespace remapc

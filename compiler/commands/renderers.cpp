@@ -1,0 +1,82 @@
+// `remapc renderers`: which real renderers answer here, and what they can do.
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "command_line/interruption.hpp"
+#include "commands/commands.hpp"
+#include "commands/renderer_options.hpp"
+#include "error.hpp"
+#include "table/domain.hpp"
+#include "worker/worker_list.hpp"
+
+namespace remapc {
+namespace {
+
+struct RenderersCommand {
+  RendererOptions renderers;
+  bool json = false;
+};
+
+nlohmann::ordered_json model_json(const ModelDescription& model) {
+  nlohmann::ordered_json parameters;
+  for (const ParameterDescription& parameter : model.parameters) {
+    parameters[parameter.name] = {{"role", role_word(parameter.role)},
+                                  {"range", {parameter.range.min, parameter.range.max}}};
+    if (parameter.role == ParameterRole::kRoughness)
+      parameters[parameter.name]["convention"] = remap::convention_name(model.roughness);
+    if (parameter.role == ParameterRole::kOther) parameters[parameter.name]["default"] = parameter.standard;
+  }
+  return {{"model", model.name}, {"noise", model.noise}, {"parameters", parameters}};
+}
+
+void print_model(const ModelDescription& model) {
+  std::cout << "  " << std::left << std::setw(28) << model.name;
+  for (const ParameterDescription& parameter : model.parameters)
+    std::cout << "  " << parameter.name << " " << range_text(parameter.range);
+  std::cout << (model.noise ? "  (noise)" : "") << "\n";
+}
+
+void run(const RenderersCommand& command) {
+  remap::watch_interruptions();
+  WorkerSettings settings = worker_settings(command.renderers);
+  settings.processes = 1;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const WorkerEntry& entry : known_workers(command.renderers.workers)) {
+    try {
+      const WorkerRenderer renderer(entry, settings);
+      nlohmann::ordered_json models = nlohmann::ordered_json::array();
+      if (!command.json) std::cout << entry.name << ": " << renderer.version() << "\n";
+      for (const ModelDescription& model : renderer.models()) {
+        models.push_back(model_json(model));
+        if (!command.json) print_model(model);
+      }
+      list.push_back({{"name", entry.name}, {"version", renderer.version()}, {"models", models}});
+    } catch (const remap::Error& error) {
+      if (error.kind() != remap::ErrorKind::kInput) throw;
+      list.push_back({{"name", entry.name}, {"missing", error.what()}, {"install", entry.install}});
+      if (command.json) continue;
+      if (entry.install.empty())
+        std::cout << entry.name << ": " << error.what() << "\n";
+      else
+        std::cout << entry.name << ": not here; to install it: " << entry.install << "\n";
+    }
+  }
+  if (command.json) std::cout << list.dump(2) << "\n";
+}
+
+}  // namespace
+
+void add_renderers_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "renderers", "List the real renderers that answer here: versions, models, parameters");
+  auto options = std::make_shared<RenderersCommand>();
+  add_renderer_options(*command, options->renderers);
+  command->add_flag("--json", options->json, "As JSON on standard output, with why a renderer is missing");
+  command->footer("Example:\n  remapc renderers");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace remapc

@@ -1,0 +1,107 @@
+// `remapc worker-check`: what is wrong with a worker, in words.
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "command_line/interruption.hpp"
+#include "commands/commands.hpp"
+#include "commands/renderer_options.hpp"
+#include "error.hpp"
+#include "worker/conformance.hpp"
+#include "worker/worker_list.hpp"
+
+namespace remapc {
+namespace {
+
+struct WorkerCheck {
+  std::string command;
+  int resolution = 48;
+  double seconds = WorkerLimits{}.seconds;
+  bool json = false;
+};
+
+const char* verdict_word(Finding::Verdict verdict) {
+  switch (verdict) {
+    case Finding::Verdict::kGood:
+      return "good";
+    case Finding::Verdict::kRemark:
+      return "remark";
+    case Finding::Verdict::kWrong:
+      return "wrong";
+  }
+  return "";
+}
+
+// A worker that is registered, by its name; else a command.
+WorkerEntry entry_of(const std::string& command) {
+  for (const WorkerEntry& entry : known_workers({}))
+    if (entry.name == command) return entry;
+  return {"", command, std::filesystem::current_path().string(), ""};
+}
+
+void print(const std::vector<Finding>& findings) {
+  std::string model;
+  for (const Finding& finding : findings) {
+    if (finding.model != model) std::cout << finding.model << "\n";
+    model = finding.model;
+    std::cout << "  " << std::left << std::setw(8) << verdict_word(finding.verdict) << std::setw(16)
+              << finding.check << finding.words << "\n";
+  }
+}
+
+void run(const WorkerCheck& check) {
+  remap::watch_interruptions();
+  WorkerSettings settings;
+  settings.limits.seconds = check.seconds;
+  settings.limits.cancelled = &remap::interruption();
+  const PrivateFolder folder;
+  Worker worker(entry_of(check.command), settings.limits, folder.path() / "picture.f32");
+  const std::vector<Finding> findings = check_worker(worker, check.resolution);
+  const auto wrong = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.verdict == Finding::Verdict::kWrong;
+  });
+  if (check.json) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Finding& finding : findings)
+      list.push_back({{"model", finding.model},
+                      {"check", finding.check},
+                      {"verdict", verdict_word(finding.verdict)},
+                      {"words", finding.words}});
+    const nlohmann::ordered_json json = {
+        {"renderer", worker.description().renderer}, {"wrong", wrong}, {"findings", list}};
+    std::cout << json.dump(2) << "\n";
+  } else {
+    std::cout << worker.description().renderer << "\n";
+    print(findings);
+  }
+  if (wrong != 0)
+    throw remap::Error(remap::ErrorKind::kInput, "worker " + check.command + ": " + std::to_string(wrong) +
+                                                     " of " + std::to_string(findings.size()) +
+                                                     " checks found something wrong; expected none");
+}
+
+}  // namespace
+
+void add_worker_check_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "worker-check", "Render known scenes with a worker and say what is wrong with its pictures");
+  auto options = std::make_shared<WorkerCheck>();
+  command
+      ->add_option("command", options->command,
+                   "Command of the worker, or the name of one that is registered")
+      ->required();
+  command->add_option("--resolution", options->resolution, "Of the pictures")
+      ->check(CLI::Range(16, 1024))
+      ->capture_default_str();
+  command->add_option("--worker-timeout", options->seconds, "Seconds that the worker may take for an answer")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "As JSON on standard output");
+  command->footer("Example:\n  remapc worker-check \"python3 examples/lambert_worker.py\"");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace remapc

@@ -1,0 +1,247 @@
+// One thread a child: it forks, reads what the child says, and reaps it. The kernel's signal at the death of
+// a parent is one at the death of the thread that forked, so that thread must live as long as the child.
+#include "worker/child_process.hpp"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+#include "error.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+constexpr std::size_t kMostLog = 8192;          // bytes of standard error that are kept
+constexpr std::size_t kShownLogLines = 4;       // of those, in a message
+constexpr std::size_t kLongestLine = 16 << 20;  // an answer is a few kilobytes
+constexpr int kWatchMilliseconds = 20;          // how late the end of a process may be noticed
+
+struct Pipe {
+  int read = -1, write = -1;
+  Pipe() {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+      throw Error(ErrorKind::kInput, std::string("pipe: cannot be made: ") + std::strerror(errno));
+    read = ends[0], write = ends[1];
+  }
+};
+
+void close_end(int* end) {
+  if (*end >= 0) ::close(*end);
+  *end = -1;
+}
+
+// Between fork and exec: only calls that are safe there.
+[[noreturn]] void become(pid_t parent, char* const* arguments, int input, int output, int errors) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(127);  // it died before it could be watched
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::dup2(input, STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(errors, STDERR_FILENO);
+  ::execv(arguments[0], arguments);
+  ::_exit(127);
+}
+
+// A write to a process that is gone raises SIGPIPE, which would end this program: it is taken back.
+class PipeSignalBlocked {
+ public:
+  PipeSignalBlocked() {
+    ::sigemptyset(&signal_);
+    ::sigaddset(&signal_, SIGPIPE);
+    sigset_t pending;
+    ::sigpending(&pending);
+    was_pending_ = ::sigismember(&pending, SIGPIPE) == 1;
+    ::pthread_sigmask(SIG_BLOCK, &signal_, &before_);
+  }
+  ~PipeSignalBlocked() {
+    const timespec at_once{0, 0};
+    if (!was_pending_) {
+      while (::sigtimedwait(&signal_, nullptr, &at_once) < 0 && errno == EINTR) {
+      }
+    }
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  PipeSignalBlocked(const PipeSignalBlocked&) = delete;
+  PipeSignalBlocked& operator=(const PipeSignalBlocked&) = delete;
+
+ private:
+  sigset_t signal_{}, before_{};
+  bool was_pending_ = false;
+};
+
+}  // namespace
+
+ChildProcess::ChildProcess(std::string script) {
+  watcher_ = std::thread([this, text = std::move(script)] { start_and_watch(text); });
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return started_; });
+  if (start_failure_ == 0) return;
+  lock.unlock();
+  watcher_.join();
+  throw Error(ErrorKind::kInput, std::string("process: cannot be started: ") + std::strerror(start_failure_));
+}
+
+ChildProcess::~ChildProcess() {
+  {
+    const std::lock_guard lock(mutex_);
+    close_end(&pipes_.input);
+    leaving_ = true;
+    leave_by_ = Clock::now() + kGrace;
+  }
+  watcher_.join();
+  close_end(&pipes_.output);
+  close_end(&pipes_.errors);
+}
+
+void ChildProcess::start_and_watch(const std::string& script) {
+  const pid_t parent = ::getpid();
+  std::string shell = "/bin/sh", option = "-c", text = script;
+  const std::array<char*, 4> arguments = {shell.data(), option.data(), text.data(), nullptr};
+  int failure = 0;
+  try {
+    Pipe input, output, errors;
+    id_ = ::fork();
+    if (id_ == 0) become(parent, arguments.data(), input.read, output.write, errors.write);
+    failure = id_ < 0 ? errno : 0;
+    if (id_ > 0) ::setpgid(id_, id_);  // whoever is first
+    for (int end : {input.read, output.write, errors.write}) ::close(end);
+    pipes_ = {input.write, output.read, errors.read};
+  } catch (const Error&) {
+    failure = errno != 0 ? errno : EMFILE;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    started_ = true;
+    start_failure_ = failure;
+  }
+  changed_.notify_all();
+  if (failure == 0) watch();
+}
+
+// Reads both streams until the process has ended, or has to.
+void ChildProcess::watch() {
+  std::array<pollfd, 2> streams = {pollfd{pipes_.output, POLLIN, 0}, pollfd{pipes_.errors, POLLIN, 0}};
+  std::vector<char> buffer(1 << 16);
+  bool gone = false;
+  for (;;) {
+    const int ready = ::poll(streams.data(), streams.size(), gone ? 0 : kWatchMilliseconds);
+    bool read_something = false;
+    for (pollfd& stream : streams) {
+      if (ready <= 0 || stream.fd < 0 || stream.revents == 0) continue;
+      const ssize_t count = ::read(stream.fd, buffer.data(), buffer.size());
+      if (count > 0) {
+        const std::string_view bytes(buffer.data(), static_cast<std::size_t>(count));
+        stream.fd == pipes_.output ? take_output(bytes) : take_log(bytes);
+        read_something = true;
+      } else if (count == 0) {
+        stream.fd = -1;  // poll leaves it out
+      }
+    }
+    if (gone && !read_something) break;  // what it said before it ended has been read
+    siginfo_t info{};
+    gone = ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == id_;
+    const std::lock_guard lock(mutex_);
+    // Its own children go with it, before it is reaped: until then the group's number is surely its own.
+    if (gone || (leaving_ && Clock::now() >= leave_by_)) ::kill(-id_, SIGKILL);
+  }
+  reap();
+}
+
+void ChildProcess::reap() {
+  int status = 0;
+  while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+  }
+  const std::lock_guard lock(mutex_);
+  status_ = status;
+  ended_ = true;
+  changed_.notify_all();
+}
+
+void ChildProcess::take_output(std::string_view bytes) {
+  const std::lock_guard lock(mutex_);
+  part_of_line_ += bytes;
+  std::size_t start = 0;
+  for (std::size_t end; (end = part_of_line_.find('\n', start)) != std::string::npos; start = end + 1)
+    lines_.push_back(part_of_line_.substr(start, end - start));
+  part_of_line_.erase(0, start);
+  if (part_of_line_.size() > kLongestLine && !overlong_) {
+    overlong_ = true;
+    ::kill(-id_, SIGKILL);
+  }
+  changed_.notify_all();
+}
+
+void ChildProcess::take_log(std::string_view bytes) {
+  const std::lock_guard lock(mutex_);
+  for (const char c : bytes) log_ += c == '\n' || c < 0 || c >= ' ' ? c : ' ';
+  if (log_.size() > kMostLog) log_.erase(0, log_.size() - kMostLog);
+}
+
+bool ChildProcess::write_line(const std::string& line) {
+  const PipeSignalBlocked blocked;
+  const std::string bytes = line + "\n";
+  std::size_t written = 0;
+  while (written < bytes.size()) {
+    const ssize_t count = ::write(pipes_.input, bytes.data() + written, bytes.size() - written);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    written += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+ChildProcess::Reading ChildProcess::read_line(Clock::time_point deadline, std::string* line) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_until(lock, deadline, [&] { return !lines_.empty() || ended_; });
+  if (lines_.empty()) return ended_ ? Reading::kEnded : Reading::kLate;
+  *line = std::move(lines_.front());
+  lines_.pop_front();
+  return Reading::kLine;
+}
+
+void ChildProcess::note(const std::string& line) { take_log(line + "\n"); }
+
+std::string ChildProcess::ending() {
+  const std::lock_guard lock(mutex_);
+  if (overlong_) return "wrote a line of more than 16 MB";
+  if (!ended_) return "closed its input";
+  if (WIFSIGNALED(status_)) return "died with signal " + std::to_string(WTERMSIG(status_));
+  return "ended with exit code " + std::to_string(WEXITSTATUS(status_));
+}
+
+std::string ChildProcess::log_end() {
+  const std::lock_guard lock(mutex_);
+  std::deque<std::string> shown;
+  std::size_t end = log_.size();
+  while (end > 0 && shown.size() < kShownLogLines) {
+    const std::size_t line_break = log_.rfind('\n', end - 1);
+    const std::size_t start = line_break == std::string::npos ? 0 : line_break + 1;
+    if (start < end) shown.push_front(log_.substr(start, end - start));
+    end = line_break == std::string::npos ? 0 : line_break;
+  }
+  std::string text;
+  for (const std::string& line : shown) text += (text.empty() ? "" : " | ") + line;
+  return text;
+}
+
+void ChildProcess::kill() {
+  const std::lock_guard lock(mutex_);
+  if (!ended_) ::kill(-id_, SIGKILL);
+}
+
+}  // namespace remapc

@@ -1,0 +1,98 @@
+#include "worker/folders.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <unistd.h>
+
+#include "error.hpp"
+
+namespace remapc {
+namespace {
+
+namespace fs = std::filesystem;
+using remap::Error;
+using remap::ErrorKind;
+
+const std::string kPrefix = "remap-pictures-";
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+// A folder of the XDG base directory specification.
+fs::path user_folder(const char* name, const char* below_home) {
+  // Paths that are not absolute are to be ignored, by the specification.
+  if (const fs::path folder = variable(name); folder.is_absolute()) return folder;
+  return fs::path(variable("HOME")) / below_home;
+}
+
+bool is_writable_folder(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_directory(folder, ignored) && ::access(folder.c_str(), W_OK) == 0;
+}
+
+// The process that a private folder is named after; 0 for another name.
+pid_t owner_of(const std::string& name) {
+  pid_t owner = 0;
+  if (!name.starts_with(kPrefix)) return 0;
+  std::from_chars(name.data() + kPrefix.size(), name.data() + name.size(), owner);
+  return owner;
+}
+
+// A process of another container that shares the file system cannot be seen, but its folder changes often.
+constexpr std::chrono::hours kAbandonedAfter{1};
+
+void remove_abandoned(const fs::path& parent) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(parent, ignored)) {
+    const pid_t owner = owner_of(entry.path().filename());
+    if (owner <= 0 || ::kill(owner, 0) == 0 || errno != ESRCH) continue;
+    if (fs::file_time_type::clock::now() - entry.last_write_time(ignored) > kAbandonedAfter)
+      fs::remove_all(entry.path(), ignored);
+  }
+}
+
+}  // namespace
+
+fs::path renderers_folder() {
+  if (const std::string own = variable("REMAP_RENDERERS"); !own.empty()) return own;
+  return user_folder("XDG_DATA_HOME", ".local/share") / "remap" / "renderers";
+}
+
+fs::path default_cache_folder() { return user_folder("XDG_CACHE_HOME", ".cache") / "remap" / "pictures"; }
+
+fs::path own_worker_list() {
+  if (const std::string own = variable("REMAP_WORKERS"); !own.empty()) return own;
+  return user_folder("XDG_CONFIG_HOME", ".config") / "remap" / "workers.json";
+}
+
+fs::path shipped_worker_list() {
+  std::error_code failure;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failure);
+  const fs::path installed = program.parent_path().parent_path() / REMAP_INSTALLED_WORKERS / "workers.json";
+  if (!failure && fs::exists(installed, failure)) return installed;
+  return fs::path(REMAP_SOURCE_WORKERS) / "workers.json";
+}
+
+PrivateFolder::PrivateFolder() {
+  const fs::path memory = "/dev/shm";
+  const fs::path parent = is_writable_folder(memory) ? memory : fs::temp_directory_path();
+  remove_abandoned(parent);
+  std::string name = (parent / (kPrefix + std::to_string(::getpid()) + "-XXXXXX")).string();
+  if (::mkdtemp(name.data()) == nullptr)
+    throw Error(ErrorKind::kOutput, name + ": cannot be made: " + std::strerror(errno));
+  path_ = name;
+}
+
+PrivateFolder::~PrivateFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+}  // namespace remapc

@@ -1,0 +1,188 @@
+#include "worker/protocol.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "error.hpp"
+#include "json_field.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using nlohmann::ordered_json;
+using remap::Error;
+using remap::ErrorKind;
+using remap::Field;
+using remap::Range;
+using remap::RoughnessConvention;
+
+double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+
+ordered_json scene_json(const Scene& scene) {
+  const double angle = scene.light.angle * std::numbers::pi / 180.0, distance = scene.light.distance;
+  return {
+      {"resolution", scene.resolution},
+      {"samples_per_axis", scene.samples_per_axis},
+      {"camera", {{"distance", kCameraDistance}, {"half_angle", degrees(std::asin(1.0 / kCameraDistance))}}},
+      {"light",
+       {{"angle", scene.light.angle},
+        {"distance", distance},
+        {"position", {distance * std::sin(angle), 0.0, distance * std::cos(angle)}},
+        {"intensity", 1.0}}}};
+}
+
+std::string shown_request(const Material& material, const Scene& scene) {
+  std::string text = material.model + " ";
+  for (const auto& [name, values] : material.parameters) {
+    text += name + " ";
+    for (std::size_t i = 0; i < values.size(); ++i)
+      text += (i == 0 ? "" : ":") + remap::number_text(values[i]);
+    text += ", ";
+  }
+  const std::string side = std::to_string(scene.resolution);
+  text += scene.light.angle == 0.0 ? light_name(scene.light) : "light " + light_name(scene.light);
+  return text + ", " + side + " x " + side + (scene.seed == 0 ? "" : ", seed " + std::to_string(scene.seed));
+}
+
+ParameterRole read_role(const Field& field) {
+  for (const ParameterRole role : kParameterRoles)
+    if (field.text() == role_word(role)) return role;
+  field.fail("is \"" + field.text() +
+             "\"; expected roughness, specular, diffuse, index, extinction or other");
+}
+
+Range read_range(const Field& field) {
+  const Range range{field.at(0, 2).number(), field.at(1, 2).number()};
+  field.require(range.min < range.max, "a smaller number and a larger one");
+  return range;
+}
+
+ParameterDescription read_parameter(const Field& field, RoughnessConvention* convention) {
+  ParameterDescription parameter{field["name"].text(), read_role(field["role"]), read_range(field["range"])};
+  if (parameter.role == ParameterRole::kRoughness) {
+    const auto known = remap::convention_from_name(field["convention"].text());
+    field["convention"].require(known.has_value(), "alpha, roughness, exponent, glossiness or squared");
+    *convention = *known;
+  }
+  if (parameter.role == ParameterRole::kOther) {
+    parameter.standard = field["default"].number();
+    field["default"].require(parameter.range.contains(parameter.standard), "a number of the range");
+  }
+  return parameter;
+}
+
+void require_once(const ModelDescription& model, ParameterRole role, bool needed, const std::string& place) {
+  const auto count =
+      std::count_if(model.parameters.begin(), model.parameters.end(),
+                    [&](const ParameterDescription& parameter) { return parameter.role == role; });
+  if (count > 1 || (needed && count == 0))
+    throw Error(ErrorKind::kInput, place + ": has " + std::to_string(count) + " parameters of the role " +
+                                       std::string(role_word(role)) + "; expected " +
+                                       (needed ? "one" : "at most one"));
+}
+
+ModelDescription read_model(const Field& field, const std::string& prefix) {
+  ModelDescription model;
+  model.name = field["name"].text();
+  const std::size_t slash = model.name.find('/');
+  const bool named = slash != std::string::npos && slash != 0 && slash + 1 < model.name.size();
+  if (!named || (!prefix.empty() && model.name.substr(0, slash) != prefix))
+    field["name"].fail("is \"" + model.name + "\"; expected " + (prefix.empty() ? "PREFIX" : prefix) +
+                       "/MODEL");
+  const Field parameters = field["parameters"];
+  model.parameters =
+      parameters.list(1, [&](const Field& parameter) { return read_parameter(parameter, &model.roughness); });
+  require_once(model, ParameterRole::kRoughness, true, model.name);
+  require_once(model, ParameterRole::kSpecular, true, model.name);
+  require_once(model, ParameterRole::kDiffuse, false, model.name);
+  const Range own = model.parameter(ParameterRole::kRoughness).range;
+  const double a = remap::to_alpha(model.roughness, own.min), b = remap::to_alpha(model.roughness, own.max);
+  model.alpha = {std::min(a, b), std::max(a, b)};
+  if (!std::isfinite(a) || !std::isfinite(b) || !(model.alpha.min >= 0.0) || !(model.alpha.max > 0.0))
+    throw Error(ErrorKind::kInput, model.name + ": the range of its roughness is none of widths");
+  if (field.json().contains("noise")) {
+    field["noise"].require(field["noise"].json().is_boolean(), "true or false");
+    model.noise = field["noise"].json().get<bool>();
+  }
+  return model;
+}
+
+// The parsed answer, which must be the one to `id` and no complaint. nlohmann's own words for what is no JSON
+// quote the place in the text and no more; the line itself says more.
+ordered_json parse_answer(const std::string& line, std::int64_t id, const std::string& place) {
+  const auto shown = [&] { return line.size() > 80 ? line.substr(0, 77) + "..." : line; };
+  const ordered_json answer = ordered_json::parse(line, nullptr, false);
+  if (!answer.is_object())
+    throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\"; expected a line of JSON");
+  const bool own = answer.contains("id") && answer["id"].is_number_integer() && answer["id"] == id;
+  if (!own)
+    throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\"; expected the id " +
+                                       std::to_string(id) + " of the request");
+  if (answer.contains("error"))
+    throw Error(ErrorKind::kInput, place + ": " + Field(answer, "answer")["error"].text());
+  return answer;
+}
+
+}  // namespace
+
+PictureRequest picture_request(const Material& material, const Scene& scene) {
+  PictureRequest request{"", shown_request(material, scene), scene.resolution, 1};
+  ordered_json parameters = ordered_json::object();
+  for (const auto& [name, values] : material.parameters) {
+    parameters[name] = values;
+    if (values.size() > 1) request.channels = 3;
+  }
+  const ordered_json json = {{"model", material.model},
+                             {"parameters", parameters},
+                             {"scene", scene_json(scene)},
+                             {"seed", scene.seed},
+                             {"channels", request.channels}};
+  request.text = json.dump();
+  return request;
+}
+
+std::string describe_line(std::int64_t id, unsigned threads) {
+  const ordered_json json = {
+      {"id", id}, {"request", "describe"}, {"protocol", kWorkerProtocol}, {"threads", threads}};
+  return json.dump();
+}
+
+std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image) {
+  ordered_json json = {{"id", id}, {"request", "render"}};
+  json.update(ordered_json::parse(request.text));
+  json["image"] = image.string();
+  return json.dump();
+}
+
+std::string quit_line(std::int64_t id) { return ordered_json{{"id", id}, {"request", "quit"}}.dump(); }
+
+bool is_answer(const std::string& line) { return line.starts_with('{'); }
+
+void read_answer(const std::string& line, std::int64_t id, const std::string& place) {
+  parse_answer(line, id, place);
+}
+
+bool is_complaint(const std::string& line, std::int64_t id) {
+  const ordered_json answer = ordered_json::parse(line, nullptr, false);
+  return answer.is_object() && answer.contains("error") && answer.contains("id") && answer["id"] == id;
+}
+
+WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
+                                   const std::string& place) {
+  const ordered_json answer = parse_answer(line, id, place);
+  const Field field(answer, place);
+  if (field["protocol"].count() != kWorkerProtocol)
+    field["protocol"].fail("is " + field["protocol"].json().dump() + "; expected " +
+                           std::to_string(kWorkerProtocol));
+  WorkerDescription description;
+  description.renderer = field["renderer"].text();
+  field["renderer"].require(!description.renderer.empty(), "a name and a version");
+  description.models = field["models"].list(1, [&](const Field& model) { return read_model(model, prefix); });
+  return description;
+}
+
+}  // namespace remapc

@@ -1,0 +1,141 @@
+#include "worker/worker.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include "error.hpp"
+#include "number_text.hpp"
+#include "worker/folders.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+using std::chrono::duration;
+using std::chrono::duration_cast;
+
+// How often a wait looks whether somebody asked the program to stop.
+constexpr std::chrono::milliseconds kGlance{100};
+
+// `text` as one word of the shell.
+std::string quoted(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) c == '\'' ? word += "'\\''" : word += c;
+  return word + "'";
+}
+
+std::string without(const std::string& opening, const std::string& text) {
+  return text.starts_with(opening) ? text.substr(opening.size()) : text;
+}
+
+std::string script_of(const WorkerEntry& entry) {
+  return "REMAP_WORKER_FOLDER=" + quoted(entry.folder) + "; REMAP_RENDERERS=" + quoted(renderers_folder()) +
+         "; export REMAP_WORKER_FOLDER REMAP_RENDERERS; exec " + entry.command;
+}
+
+}  // namespace
+
+Worker::Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesystem::path picture_file)
+    : entry_(entry), limits_(limits), picture_file_(std::move(picture_file)) {
+  process_ = std::make_unique<ChildProcess>(script_of(entry_));
+  const std::string answer = ask(describe_line(++last_id_, limits_.threads), "describe");
+  try {
+    description_ = read_description(answer, last_id_, entry_.name, place("describe"));
+  } catch (const Error& error) {
+    fail("describe", without(place("describe") + ": ", error.what()));
+  }
+}
+
+Worker::~Worker() {
+  if (usable_) process_->write_line(quit_line(++last_id_));
+  std::error_code ignored;
+  std::filesystem::remove(picture_file_, ignored);
+}
+
+std::string Worker::place(const std::string& shown) const {
+  return "worker " + (entry_.name.empty() ? entry_.command : entry_.name) + ", request " + shown;
+}
+
+void Worker::fail(const std::string& shown, const std::string& what) {
+  usable_ = false;
+  process_->kill();
+  std::string message = place(shown) + ": " + what;
+  if (const std::string log = process_->log_end(); !log.empty()) message += "; last lines of its log: " + log;
+  if (!has_answered_ && !entry_.install.empty()) message += "; to install it: " + entry_.install;
+  throw Error(ErrorKind::kInput, message);
+}
+
+std::string Worker::next_answer(const std::string& shown) {
+  const auto start = ChildProcess::Clock::now();
+  const auto deadline =
+      start + duration_cast<ChildProcess::Clock::duration>(duration<double>(limits_.seconds));
+  std::string line;
+  for (;;) {
+    const auto now = ChildProcess::Clock::now();
+    const auto reading = process_->read_line(std::min(deadline, now + kGlance), &line);
+    if (reading == ChildProcess::Reading::kEnded) fail(shown, process_->ending());
+    if (reading == ChildProcess::Reading::kLine) {
+      if (is_answer(line) || has_answered_) return line;
+      process_->note(line);  // a banner
+    }
+    if (limits_.cancelled != nullptr && *limits_.cancelled) {
+      process_->kill();
+      usable_ = false;
+      throw Error(ErrorKind::kInterrupted, place(shown) + ": interrupted");
+    }
+    if (now >= deadline)
+      fail(shown, "no answer after " + remap::number_text(limits_.seconds) + " s; expected one in time");
+  }
+}
+
+std::string Worker::ask(const std::string& line, const std::string& shown) {
+  usable_ = false;
+  process_->write_line(line);  // where nobody reads any more, the end of the process says why
+  std::string answer = next_answer(shown);
+  has_answered_ = usable_ = true;
+  return answer;
+}
+
+Image Worker::render(const PictureRequest& request) {
+  std::error_code ignored;
+  std::filesystem::remove(picture_file_, ignored);  // what is there later is this picture
+  const std::string answer = ask(render_line(++last_id_, request, picture_file_), request.shown);
+  try {
+    read_answer(answer, last_id_, place(request.shown));
+  } catch (const Error& error) {
+    // An error in reply is a worker in good order; anything else leaves the conversation out of step.
+    const bool in_order = is_complaint(answer, last_id_);
+    if (in_order) throw;
+    fail(request.shown, without(place(request.shown) + ": ", error.what()));
+  }
+  return read_picture(request);
+}
+
+Image Worker::read_picture(const PictureRequest& request) {
+  const auto side = static_cast<std::size_t>(request.resolution);
+  const auto channels = static_cast<std::size_t>(request.channels);
+  const std::size_t expected = side * side * channels * sizeof(float);
+  std::error_code failure;
+  const auto size = std::filesystem::file_size(picture_file_, failure);
+  if (failure) fail(request.shown, "wrote no picture: " + failure.message());
+  if (size != expected)
+    fail(request.shown, "the picture has " + std::to_string(size) + " bytes; expected " +
+                            std::to_string(expected) + ", " + std::to_string(side) + " x " +
+                            std::to_string(side) + " pixels of " + std::to_string(channels) + " floats");
+  Image image{request.resolution, request.resolution, request.channels,
+              std::vector<float>(expected / sizeof(float))};
+  std::ifstream file(picture_file_, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(image.values.data()), static_cast<std::streamsize>(expected)))
+    fail(request.shown, "the picture cannot be read");
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    if (std::isfinite(image.values[i])) continue;
+    const std::size_t pixel = i / channels;
+    fail(request.shown, "the picture is " + remap::number_text(static_cast<double>(image.values[i])) +
+                            " in row " + std::to_string(pixel / side) + ", column " +
+                            std::to_string(pixel % side) + "; expected finite numbers");
+  }
+  return image;
+}
+
+}  // namespace remapc

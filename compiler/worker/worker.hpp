@@ -1,0 +1,67 @@
+// One worker process and the conversation with it: a request, an answer, in turn.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "sweep/image.hpp"
+#include "worker/child_process.hpp"
+#include "worker/protocol.hpp"
+
+namespace remapc {
+
+// A worker as it is registered (compiler/workers/PROTOCOL.md).
+struct WorkerEntry {
+  std::string name;     // prefix of its models; empty: any
+  std::string command;  // for the shell
+  std::string folder;   // of the file that names it: REMAP_WORKER_FOLDER
+  std::string install;  // what to do where it does not start; may be empty
+};
+
+struct WorkerLimits {
+  double seconds = 120.0;  // for any one answer
+  unsigned threads = 1;    // of each process
+  const std::atomic<bool>* cancelled =
+      nullptr;  // an answer is not waited for any longer; throws kInterrupted
+};
+
+class Worker {
+ public:
+  // Starts the process and asks it what it is. Pictures pass through `picture_file`. Throws kInput where it
+  // does not start, does not answer, or answers what is against the protocol.
+  Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesystem::path picture_file);
+  ~Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  const WorkerDescription& description() const { return description_; }
+
+  // Throws kInput, naming the request and the end of the worker's log, where it fails. The worker can be
+  // asked again if it answered with an error, and is_usable() says so.
+  Image render(const PictureRequest& request);
+  bool is_usable() const { return usable_; }
+
+  pid_t process_id() const { return process_->id(); }
+
+ private:
+  std::string place(const std::string& shown) const;
+  // Sends a line and waits for the answer to it.
+  std::string ask(const std::string& line, const std::string& shown);
+  std::string next_answer(const std::string& shown);
+  [[noreturn]] void fail(const std::string& shown, const std::string& what);
+  Image read_picture(const PictureRequest& request);
+
+  const WorkerEntry entry_;
+  const WorkerLimits limits_;
+  const std::filesystem::path picture_file_;
+  std::unique_ptr<ChildProcess> process_;
+  WorkerDescription description_;
+  std::int64_t last_id_ = 0;
+  bool has_answered_ = false;
+  bool usable_ = false;
+};
+
+}  // namespace remapc

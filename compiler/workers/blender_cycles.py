@@ -1,0 +1,177 @@
+"""Cycles: Glossy BSDF in its distributions, and Principled. For the module `bpy` (Blender 5) and inside Blender 3.4.
+
+The sphere is a point cloud of one point, which Cycles intersects exactly; a mesh never is. Sample 0 of a pixel is its
+centre with any filter, so one sample is exact; an N x N grid is a larger picture, averaged. The masking function of
+GGX and Beckmann changed between 3.4 (separable) and 5.0 (height-correlated), so the prefix holds the version.
+This file must not be named cycles.py: Blender would take it for its own add-on.
+"""
+import math
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import bpy
+import addon_utils  # is on the path only once bpy is loaded
+import numpy as np
+
+from worker_loop import grey_or_rgb, parameter, serve
+
+MODERN = bpy.app.version >= (4, 0, 0)
+PREFIX = f"cycles-{bpy.app.version[0]}" if MODERN else "cycles-" + ".".join(map(str, bpy.app.version[:2]))
+DISTRIBUTIONS = {"ggx": "GGX", "beckmann": "BECKMANN", "ashikhmin-shirley": "ASHIKHMIN_SHIRLEY",
+                 "multiscatter-ggx": "MULTI_GGX"}
+
+# Squared, the least roughness is a width that both versions still take for a surface and not for a mirror.
+ROUGHNESS = parameter("roughness", "roughness", 0.02, 1, convention="roughness")
+MODELS = [{"name": f"{PREFIX}/{name}", "noise": name == "multiscatter-ggx" and not MODERN,
+           "parameters": [ROUGHNESS, parameter("color", "specular", 0, 1), parameter("diffuse", "diffuse", 0, 1)]}
+          for name in DISTRIBUTIONS]
+MODELS += [
+    {"name": f"{PREFIX}/principled-metal", "parameters": [
+        ROUGHNESS, parameter("base_color", "specular", 0, 1),
+        parameter("specular", "other", 0, 1, default=0.5, grey=True)]},
+    {"name": f"{PREFIX}/principled-dielectric", "parameters": [
+        ROUGHNESS, parameter("specular", "specular", 0, 1, grey=True),
+        parameter("base_color", "diffuse", 0, 1)]},
+]
+
+
+def describe(threads):
+    make_scene(threads)
+    return {"renderer": f"Cycles of Blender {bpy.app.version_string}", "models": MODELS}
+
+
+def make_scene(threads):
+    """Everything that stays: settings, camera, light, the point of the sphere."""
+    addon_utils.enable("cycles")
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    addon_utils.enable("cycles")
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    cycles = scene.cycles
+    cycles.device, cycles.samples = "CPU", 1
+    cycles.use_denoising = cycles.use_adaptive_sampling = False
+    # The default threshold drops dim pixels at random.
+    cycles.sample_clamp_direct = cycles.light_sampling_threshold = cycles.blur_glossy = cycles.max_bounces = 0
+    cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN", 0.01
+    render = scene.render
+    render.use_persistent_data, render.resolution_percentage = True, 100
+    render.threads_mode, render.threads = "FIXED", threads
+    image = render.image_settings
+    image.file_format, image.color_depth, image.exr_codec = "OPEN_EXR", "32", "NONE"
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.data.sensor_fit = "HORIZONTAL"
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    lamp = bpy.data.lights.new("lamp", "POINT")
+    lamp.shadow_soft_size = 0
+    scene.collection.objects.link(bpy.data.objects.new("lamp", lamp))
+    material = bpy.data.materials.new("skin")
+    material.use_nodes = True
+    scene.collection.objects.link(one_point(material))
+
+
+def one_point(material):
+    """A point cloud of one point of radius 1, made by geometry nodes."""
+    mesh = bpy.data.meshes.new("point")
+    mesh.from_pydata([(0, 0, 0)], [], [])
+    mesh.materials.append(material)
+    ball = bpy.data.objects.new("ball", mesh)
+    group = bpy.data.node_groups.new("sphere", "GeometryNodeTree")
+    if MODERN:
+        group.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+        group.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    else:
+        group.inputs.new("NodeSocketGeometry", "Geometry")
+        group.outputs.new("NodeSocketGeometry", "Geometry")
+    start, end = group.nodes.new("NodeGroupInput"), group.nodes.new("NodeGroupOutput")
+    point, skin = group.nodes.new("GeometryNodeMeshToPoints"), group.nodes.new("GeometryNodeSetMaterial")
+    point.inputs["Radius"].default_value = 1
+    skin.inputs["Material"].default_value = material
+    group.links.new(start.outputs[0], point.inputs[0])
+    group.links.new(point.outputs[0], skin.inputs[0])
+    group.links.new(skin.outputs[0], end.inputs[0])
+    ball.modifiers.new("sphere", "NODES").node_group = group
+    return ball
+
+
+shader_of = {"model": None}
+
+
+def shader(model):
+    """The nodes of a model; made anew when it changes."""
+    if shader_of["model"] == model:
+        return shader_of
+    tree = bpy.data.materials["skin"].node_tree
+    tree.nodes.clear()
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    kind = model.split("/")[1]
+    shader_of.update(model=model, lobe=None, paint=None)
+    if kind in DISTRIBUTIONS:
+        glossy = "ShaderNodeBsdfAnisotropic" if MODERN else "ShaderNodeBsdfGlossy"
+        lobe, paint = tree.nodes.new(glossy), tree.nodes.new("ShaderNodeBsdfDiffuse")
+        lobe.distribution = DISTRIBUTIONS[kind]
+        both = tree.nodes.new("ShaderNodeAddShader")
+        tree.links.new(lobe.outputs[0], both.inputs[0])
+        tree.links.new(paint.outputs[0], both.inputs[1])
+        tree.links.new(both.outputs[0], output.inputs["Surface"])
+        shader_of.update(lobe=lobe, paint=paint)
+    else:
+        lobe = tree.nodes.new("ShaderNodeBsdfPrincipled")
+        lobe.distribution = "GGX"
+        lobe.inputs["Metallic"].default_value = 1 if kind == "principled-metal" else 0
+        tree.links.new(lobe.outputs[0], output.inputs["Surface"])
+        shader_of.update(lobe=lobe)
+    return shader_of
+
+
+def rgba(values):
+    return (*grey_or_rgb(values), 1)
+
+
+def set_material(model, values):
+    nodes = shader(model)
+    inputs = nodes["lobe"].inputs
+    inputs["Roughness"].default_value = values["roughness"][0]
+    if nodes["paint"] is not None:
+        inputs["Color"].default_value = rgba(values["color"])
+        nodes["paint"].inputs["Color"].default_value = rgba(values["diffuse"])
+        return
+    inputs["Base Color"].default_value = rgba(values["base_color"])
+    inputs["Specular IOR Level" if MODERN else "Specular"].default_value = values["specular"][0]
+
+
+def read_exr(path, side):
+    """The picture as it lies in the file, row 0 at the top."""
+    image = bpy.data.images.load(path)
+    image.colorspace_settings.is_data = True
+    pixels = np.empty(side * side * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    return pixels.reshape(side, side, 4)[::-1, :, :3]
+
+
+def render(request, values):
+    scene, place = bpy.context.scene, request["scene"]
+    set_material(request["model"], values)
+    camera, lamp = scene.camera, scene.objects["lamp"]
+    camera.location = (0, 0, place["camera"]["distance"])  # not turned: looks down -z, +y is up
+    camera.data.angle = 2 * math.radians(place["camera"]["half_angle"])
+    lamp.location = place["light"]["position"]
+    lamp.data.energy = 4 * math.pi * place["light"]["intensity"]  # watts of all directions
+    side, samples = place["resolution"], place["samples_per_axis"]
+    scene.render.resolution_x = scene.render.resolution_y = side * samples
+    scene.cycles.seed = request["seed"]
+    path = request["image"] + ".exr"
+    scene.render.filepath = path
+    try:
+        bpy.ops.render.render(write_still=True)
+        picture = read_exr(path, side * samples)
+    finally:
+        if os.path.exists(path):
+            os.remove(path)
+    return picture.reshape(side, samples, side, samples, 3).mean(axis=(1, 3), dtype=np.float64)
+
+
+serve(describe, render)

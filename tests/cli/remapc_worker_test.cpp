@@ -1,0 +1,141 @@
+// remapc with a worker: sweeps that go through the cache, runs that are broken off, what is listed and
+// checked.
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+#include "cli/remapc_session.hpp"
+#include "worker/fake_session.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::vector<std::string> sweep(const Session& session, const remapc::FakeSession& fake,
+                               const std::string& table, const std::string& fault = "",
+                               const std::string& cache = "cache") {
+  return {"sweep",
+          "--source",
+          "fake/ggx",
+          "--target",
+          "mitsuba/ggx-plain",
+          "--resolution",
+          "32",
+          "--roughness-samples",
+          "5",
+          "--specular-samples",
+          "2",
+          "--roughness-range",
+          "0.2,0.9",
+          "--worker",
+          "fake=" + fake.command(fault),
+          "--cache",
+          session.path(cache),
+          "-o",
+          session.path(table)};
+}
+
+// Until the workers have made `count` pictures.
+void wait_for_pictures(const remapc::FakeSession& fake, std::size_t count) {
+  for (int i = 0; i < 1200 && fake.pictures() < count; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  REQUIRE(fake.pictures() >= count);
+}
+
+}  // namespace
+
+TEST_CASE("remapc sweep: a worker is the source, and the second run is from the cache") {
+  const Session session;
+  const remapc::FakeSession fake;
+  const ProcessResult first = session.remapc(sweep(session, fake, "a.csv"));
+  INFO(first.errors);
+  REQUIRE(first.exit_code == 0);
+  const std::size_t pictures = fake.pictures();
+  CHECK_THAT(first.errors, Contains(std::to_string(pictures) + " pictures rendered and "));
+  const std::string table = read_file(session.path("a.csv"));
+  CHECK_THAT(table, Contains("# renderer: Fake 1; remapc "));
+  CHECK_THAT(table, Contains("\n0.9,0.5,0.89999999"));  // the identity, to the float
+  const ProcessResult second = session.remapc(sweep(session, fake, "b.csv"));
+  REQUIRE(second.exit_code == 0);
+  CHECK_THAT(second.errors, Contains(", 0 pictures rendered and "));
+  CHECK(fake.pictures() == pictures);
+  CHECK(read_file(session.path("b.csv")) == table);
+  CHECK(fake.nobody_is_left());
+}
+
+TEST_CASE("remapc sweep: broken off by a worker, resumed, it ends in the same table") {
+  const Session session;
+  const remapc::FakeSession fake;
+  REQUIRE(session.remapc(sweep(session, fake, "whole.csv")).exit_code == 0);
+  const std::size_t pictures = fake.pictures();
+  auto broken = sweep(session, fake, "a.csv", "die' --after '24", "other");
+  broken.insert(broken.end(), {"--jobs", "1"});
+  check_failure(session.remapc(broken), 1, "died with signal 9; last lines of its log: ");
+  CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
+  auto resumed = sweep(session, fake, "a.csv", "", "other");
+  resumed.insert(resumed.end(), {"--resume"});
+  REQUIRE(session.remapc(resumed).exit_code == 0);
+  CHECK(read_file(session.path("a.csv")) == read_file(session.path("whole.csv")));
+  CHECK(fake.pictures() == 2 * pictures);  // none of them twice
+}
+
+TEST_CASE("remapc sweep: a resumed sweep does not mix versions of a renderer") {
+  const Session session;
+  const remapc::FakeSession fake;
+  auto broken = sweep(session, fake, "a.csv", "die' --after '24");
+  broken.insert(broken.end(), {"--jobs", "1"});
+  check_failure(session.remapc(broken), 1, "died with signal 9");
+  REQUIRE(std::filesystem::exists(session.path("a.csv.partial")));
+  auto resumed = sweep(session, fake, "a.csv", "' --version '2");
+  resumed.push_back("--resume");
+  check_failure(session.remapc(resumed), 1, "was begun with other options or another version");
+}
+
+TEST_CASE("remapc sweep: no worker stays behind when it is interrupted, or killed") {
+  for (const int signal : {SIGINT, SIGKILL}) {
+    const Session session;
+    const remapc::FakeSession fake;
+    auto arguments = sweep(session, fake, "a.csv", "hang' --after '4");
+    arguments.insert(arguments.begin(), REMAPC_PROGRAM);
+    Process process(arguments);
+    wait_for_pictures(fake, 4);
+    process.send(signal);
+    const ProcessResult result = process.wait();
+    if (signal == SIGINT) CHECK_THAT(result.errors, Contains("interrupted"));
+    CHECK(fake.nobody_is_left());
+  }
+}
+
+TEST_CASE("remapc renderers: what is there is listed, and why the rest is not") {
+  const Session session;
+  const remapc::FakeSession fake;
+  const ProcessResult result = session.remapc(
+      {"renderers", "--json", "--worker", "fake=" + fake.command(), "--worker", "gone=/no/such/program"});
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.output, Contains("\"version\": \"Fake 1\"") && Contains("\"model\": \"fake/ggx\""));
+  CHECK_THAT(result.output, Contains("worker gone, request describe: ended with exit code 127"));
+}
+
+TEST_CASE("remapc worker-check: says in words what is wrong, and fails then") {
+  const Session session;
+  const remapc::FakeSession fake;
+  ProcessResult result = session.remapc({"worker-check", "--resolution", "32", fake.command()});
+  INFO(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Contains("orientation") && !Contains("wrong"));
+  result = session.remapc({"worker-check", "--resolution", "32", fake.command("bright")});
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.output, Contains("which is pi; the light must have a radiant intensity of 1"));
+}
+
+TEST_CASE("remapc worker-check: the examples pass") {
+  const Session session;
+  CHECK(session.remapc({"worker-check", "--resolution", "24", REMAP_EXAMPLE_WORKER}).exit_code == 0);
+  CHECK(session
+            .remapc({"worker-check", "--resolution", "24",
+                     "python3 " REMAP_SOURCE_DIR "/examples/lambert_worker.py"})
+            .exit_code == 0);
+}

@@ -1,0 +1,93 @@
+// What the tests of workers share: the fake worker with a fault, in a folder of its own.
+#pragma once
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "error.hpp"
+#include "files.hpp"
+#include "support/temporary_folder.hpp"
+#include "worker/worker_renderer.hpp"
+
+namespace remapc {
+
+// Gone, or dead and not yet collected by whoever adopted it.
+inline bool is_gone(pid_t id) {
+  std::ifstream file("/proc/" + std::to_string(id) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  const std::size_t end = text.rfind(')');
+  return end == std::string::npos || text.substr(end + 2, 1) == "Z";
+}
+
+class FakeSession {
+ public:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  std::string command(const std::string& fault = "", const std::string& more = "") const {
+    return std::string(REMAP_FAKE_WORKER) + " --log '" + path("log") + "' --fault '" + fault + "' " + more;
+  }
+  WorkerEntry entry(const std::string& fault = "", const std::string& more = "") const {
+    return {"fake", command(fault, more), folder_.path().string(), ""};
+  }
+  WorkerSettings settings(bool cache = false) const {
+    WorkerSettings settings;
+    if (cache) settings.cache = folder_.path() / "cache";
+    settings.processes = 2;
+    settings.limits.seconds = 60.0;
+    return settings;
+  }
+
+  std::vector<std::string> log_lines(const std::string& opening) const {
+    std::ifstream file(path("log"));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(file, line);)
+      if (line.starts_with(opening + " ")) lines.push_back(line.substr(opening.size() + 1));
+    return lines;
+  }
+  std::size_t pictures() const { return log_lines("picture").size(); }
+
+  // Waits for the end of every process that the workers logged; false where one stays for ten seconds.
+  bool nobody_is_left() const {
+    for (const std::string& id : log_lines("process")) {
+      int tries = 0;
+      while (!is_gone(std::stoi(id))) {
+        if (++tries == 200) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      }
+    }
+    return true;
+  }
+
+ private:
+  remap::TemporaryFolder folder_;
+};
+
+inline Material fake_material(double alpha = 0.2) {
+  return {"fake/ggx", {{"alpha", {alpha}}, {"specular", {0.5}}, {"diffuse", {0.0}}, {"tint", {0.5}}}};
+}
+
+inline constexpr Scene kSmallScene{32, 1, {}};
+
+// The message of the error that `work` throws; of another kind than kInput it fails the test.
+template <typename Work>
+std::string input_error(const Work& work) {
+  try {
+    work();
+  } catch (const remap::Error& error) {
+    CHECK(error.kind() == remap::ErrorKind::kInput);
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace remapc

@@ -1,0 +1,180 @@
+// A worker that fails in every way that workers fail in: the built-in renderer's GGX behind the protocol, and
+// one fault of choice. It shares no code with the side that it talks to.
+//
+//   fake_worker [--fault NAME] [--after N] [--version TEXT] [--log FILE]
+//
+// The fault strikes at the picture after the first N. To the log go a line for each picture and the process
+// ids of the worker and of its children.
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <string>
+#include <thread>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sweep/renderer.hpp"
+
+namespace {
+
+using nlohmann::json;
+
+std::map<std::string, std::string> options = {{"fault", ""}, {"after", "0"}, {"version", "1"}, {"log", ""}};
+int rendered = 0;
+
+bool has_fault(const std::string& name) {
+  return options["fault"] == name && rendered >= std::stoi(options["after"]);
+}
+
+void log_line(const std::string& line) {
+  if (!options["log"].empty()) std::ofstream(options["log"], std::ios::app) << line << std::endl;
+}
+
+json description(const json& request) {
+  const auto parameter = [](const char* name, const char* role, double least, double most) {
+    return json{{"name", name}, {"role", role}, {"range", {least, most}}};
+  };
+  json alpha = parameter("alpha", "roughness", 1e-4, 1.0), tint = parameter("tint", "other", 0.0, 1.0);
+  alpha["convention"] = has_fault("convention") ? "width" : "alpha";
+  tint["default"] = 0.5;
+  const json model = {{"name", has_fault("prefix") ? "other/ggx" : "fake/ggx"},
+                      {"parameters",
+                       {alpha, parameter("specular", "specular", 0.0, 1.0),
+                        parameter("diffuse", "diffuse", 0.0, 1.0), tint}}};
+  const int protocol = has_fault("protocol") ? 2 : 1;
+  return {{"id", request.at("id")},
+          {"protocol", protocol},
+          {"renderer", "Fake " + options["version"]},
+          {"models", {model}}};
+}
+
+// What is wrong with a picture, by the name of the fault.
+void spoil(const json& request, remapc::Image* image) {
+  auto& values = image->values;
+  const auto side = static_cast<std::size_t>(image->width),
+             channels = static_cast<std::size_t>(image->channels);
+  const std::size_t middle = (side / 2 * side + side / 2) * channels;
+  if (has_fault("nan")) values[middle] = std::nanf("");
+  if (has_fault("short")) values.pop_back();
+  if (has_fault("bright"))
+    for (float& value : values) value *= 3.14159265f;
+  if (has_fault("gamma"))
+    for (float& value : values) value = std::pow(value, 1.0f / 2.2f);
+  if (has_fault("eight-bit"))
+    for (float& value : values) value = std::round(std::min(value, 1.0f) * 255.0f) / 255.0f;
+  if (has_fault("grey-background"))
+    for (float& value : values) value += 0.01f;
+  if (has_fault("unrepeatable")) values[middle] *= 1.0f + 1e-3f * static_cast<float>(rendered % 7);
+  if (has_fault("noise")) values[middle] *= 1.0f + 0.1f * request.at("seed").get<float>();
+  if (has_fault("channels") && channels == 3)
+    for (std::size_t i = 0; i < values.size(); i += 3) std::swap(values[i], values[i + 2]);
+  const auto pixels = values;
+  const auto move = [&](auto from) {
+    for (std::size_t row = 0; row < side; ++row)
+      for (std::size_t column = 0; column < side; ++column)
+        for (std::size_t c = 0; c < channels; ++c)
+          values[(row * side + column) * channels + c] = pixels[from(row, column) * channels + c];
+  };
+  if (has_fault("mirrored"))
+    move([&](std::size_t row, std::size_t column) { return row * side + side - 1 - column; });
+  if (has_fault("transposed")) move([&](std::size_t row, std::size_t column) { return column * side + row; });
+  if (has_fault("shifted"))
+    move([&](std::size_t row, std::size_t column) { return (row + 1) % side * side + column; });
+}
+
+remapc::Image picture(const json& request) {
+  const json &values = request.at("parameters"), &scene = request.at("scene");
+  remapc::Scene place{scene.at("resolution"),
+                      scene.at("samples_per_axis"),
+                      {scene.at("light").at("angle"), scene.at("light").at("distance")}};
+  if (has_fault("jitter") && place.samples_per_axis == 1) place.samples_per_axis = 2;  // no centre among them
+  if (has_fault("no-square")) place.light.distance = 3.0;
+  remapc::Material material{"mitsuba/ggx-plain", {}};
+  if (request.at("model") != "fake/ggx") throw std::runtime_error("the model is unknown; expected fake/ggx");
+  for (const char* name : {"alpha", "specular", "diffuse"})
+    material.parameters[name] = values.at(name).get<std::vector<double>>();
+  values.at("tint");
+  if (has_fault("clamping"))
+    for (double& value : material.parameters["specular"]) value = std::min(value, 1.0);
+  if (has_fault("inverted")) material.parameters["alpha"][0] = 1.0 - 0.9 * material.parameters["alpha"][0];
+  remapc::Image image = remapc::make_builtin_renderer()->render(material, place);
+  const std::size_t channels = request.at("channels");
+  if (channels == 3 && image.channels == 1) {
+    std::vector<float> rgb;
+    for (const float value : image.values) rgb.insert(rgb.end(), 3, value);
+    image.values = rgb;
+    image.channels = 3;
+  }
+  spoil(request, &image);
+  return image;
+}
+
+// Faults of the process and of the conversation. True where an answer has been given.
+bool misbehave(const json& request) {
+  std::cerr << "rendering number " << rendered << std::endl;
+  if (has_fault("die")) ::raise(SIGKILL);
+  if (has_fault("exit")) std::exit(3);
+  if (has_fault("hang")) std::this_thread::sleep_for(std::chrono::hours(1));
+  if (has_fault("garbage")) std::cout << "Saved: picture.exr" << std::endl;
+  if (has_fault("wrong-id")) std::cout << json{{"id", request.at("id").get<int>() + 1}} << std::endl;
+  if (has_fault("refuse"))
+    std::cout << json{{"id", request.at("id")}, {"error", "no licence left"}} << std::endl;
+  if (has_fault("no-file")) std::cout << json{{"id", request.at("id")}} << std::endl;
+  if (has_fault("flood")) std::cout << std::string(20 << 20, 'x') << std::endl;
+  for (const char* fault : {"garbage", "wrong-id", "refuse", "no-file", "flood"})
+    if (has_fault(fault)) return true;
+  return false;
+}
+
+void render(const json& request) {
+  if (misbehave(request)) return;
+  const remapc::Image image = picture(request);
+  std::ofstream file(request.at("image").get<std::string>(), std::ios::binary);
+  file.write(reinterpret_cast<const char*>(image.values.data()),
+             static_cast<std::streamsize>(image.values.size() * sizeof(float)));
+  file.close();
+  ++rendered;
+  log_line("picture " + request.at("parameters").dump());
+  std::cout << json{{"id", request.at("id")}} << std::endl;
+}
+
+void answer(const json& request) {
+  try {
+    if (request.at("request") == "describe")
+      std::cout << description(request) << std::endl;
+    else
+      render(request);
+  } catch (const std::exception& failure) {
+    std::cout << json{{"id", request.at("id")}, {"error", failure.what()}} << std::endl;
+  }
+}
+
+// A helper of its own, as a renderer may have: it outlives whoever does not care for it.
+void start_child() {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execlp("sleep", "sleep", "3600", nullptr);
+    ::_exit(127);
+  }
+  log_line("process " + std::to_string(child));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (int i = 1; i + 1 < argc; i += 2) options[std::string(argv[i]).substr(2)] = argv[i + 1];
+  log_line("process " + std::to_string(::getpid()));
+  if (options["fault"] == "child") start_child();
+  if (options["fault"] == "banner") std::cout << "Fake renderer 1\nLoading...\n" << std::endl;
+  if (options["fault"] == "mute") std::this_thread::sleep_for(std::chrono::hours(1));
+  for (std::string line; std::getline(std::cin, line);) {
+    const json request = json::parse(line);
+    if (request.at("request") == "quit") break;
+    answer(request);
+  }
+  if (options["fault"] == "stays") std::this_thread::sleep_for(std::chrono::hours(1));
+}
