@@ -85,7 +85,8 @@ class Builder {
         manifest_(manifest),
         folders_(folders),
         execution_(execution),
-        lock_(execution.force ? Lock{} : load_lock(folders.fits)) {}
+        last_lock_(load_lock(folders.fits)),
+        lock_(execution.force ? Lock{} : last_lock_) {}
 
   std::vector<BuiltItem> run() {
     forget_others();
@@ -132,7 +133,9 @@ class Builder {
       record = lock_[item.id];
       record.recipe = recipe_hash(item, lock_);
     }
+    std::string kept_table;
     try {
+      if (!fresh.table && keeps_table(item, &record, &kept_table)) fresh.table = true;
       make(item, fresh, &record);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
@@ -143,10 +146,29 @@ class Builder {
     if (!fresh.header) {
       save_lock(folders_.fits, lock_);
       built_.push_back({item.id, !fresh.table && has_table(item), !fresh.fit, true,
-                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+                        kept_table});
     }
     ++done_;
     if (execution_.progress) execution_.progress(done_, manifest_.items.size());
+  }
+
+  // Whether the table of the last build serves again, since a renderer that would make it anew is not here.
+  bool keeps_table(const ManifestItem& item, LockedItem* record, std::string* reason) const {
+    const auto* swept = std::get_if<SweptItem>(&item.kind);
+    const auto last = last_lock_.find(item.id);
+    if (swept == nullptr || last == last_lock_.end() || last->second.recipe != record->recipe ||
+        file_sha256(paths_of(folders_, item.id).table) != last->second.table)
+      return false;
+    try {
+      find_model(renderer_, swept->source);
+      find_model(renderer_, swept->target);
+      return false;
+    } catch (const Error& error) {
+      *reason = error.what();
+      record->table = last->second.table;
+      return true;
+    }
   }
 
   void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record) const {
@@ -229,6 +251,7 @@ class Builder {
   const Manifest& manifest_;
   const BuildFolders& folders_;
   const BuildExecution& execution_;
+  const Lock last_lock_;  // of the build before
   Lock lock_;
   std::mutex mutex_;
   std::size_t done_ = 0;

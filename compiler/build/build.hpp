@@ -31,12 +31,15 @@ struct BuiltItem {
   std::string id;
   bool table = false, fit = false, header = false;
   double seconds = 0.0;
+  std::string kept_table;  // why the table is that of an earlier build; empty where that needs no reason
 };
 
 // Makes every item of `manifest` whose recipe changed, whose inputs changed, or whose files are not those
 // that the last build left; then the registry of all fits in the folder, and the report. Items are
 // independent of each other but for their inputs: each is swept and fitted by one thread. Throws what
-// sweeping, fitting and lowering throw, opened by the item's id; what other items made stays.
+// sweeping, fitting and lowering throw, opened by the item's id; what other items made stays. Where a
+// renderer is not here, even `force` keeps a table that was made by the same recipe; without one it is an
+// error.
 std::vector<BuiltItem> build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
                              const BuildExecution& execution);
 

@@ -20,7 +20,27 @@ std::size_t read_count(const Field& field) {
   return static_cast<std::size_t>(field.count());
 }
 
-// Every ordered pair of a group of models.
+// The ordered pairs of a group: all of its `models`, or those of `pairs`, both ways.
+std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  const auto name = [](const Field& model) { return model.text(); };
+  if (group.json().contains("pairs")) {
+    group["pairs"].list(1, [&](const Field& entry) {
+      const std::vector<std::string> models = entry.list(2, name);
+      entry.require(models.size() == 2, "two models");
+      pairs.emplace_back(models[0], models[1]);
+      pairs.emplace_back(models[1], models[0]);
+      return 0;
+    });
+    return pairs;
+  }
+  const std::vector<std::string> models = group["models"].list(2, name);
+  for (const std::string& source : models)
+    for (const std::string& target : models)
+      if (source != target) pairs.emplace_back(source, target);
+  return pairs;
+}
+
 void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
   SweepRecipe recipe;
   recipe.objective = group["objective"].text();
@@ -29,16 +49,13 @@ void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
   recipe.roughness_samples = read_count(group["roughness_samples"]);
   recipe.specular_samples = read_count(group["specular_samples"]);
   const auto seed = static_cast<std::uint64_t>(group["seed"].count());
-  const std::vector<std::string> models =
-      group["models"].list(2, [](const Field& model) { return model.text(); });
-  for (const std::string& source : models)
-    for (const std::string& target : models) {
-      if (source == target) continue;
-      nlohmann::ordered_json text = group.json();
-      text["models"] = {source, target};
-      items->push_back(
-          {remap::converter_id(source, target), SweptItem{source, target, recipe}, text.dump(), seed});
-    }
+  for (const auto& [source, target] : read_pairs(group)) {
+    nlohmann::ordered_json text = group.json();
+    text.erase("pairs");
+    text["models"] = {source, target};
+    items->push_back(
+        {remap::converter_id(source, target), SweptItem{source, target, recipe}, text.dump(), seed});
+  }
 }
 
 // Coefficients as the paper prints them (Sztrajman et al. 2019, section 7 and appendix A):

@@ -25,7 +25,7 @@ struct SweepRecipe {
 };
 
 // One converter. Every kind but the first needs no renderer.
-struct SweptItem {  // a pair of the built-in renderer's models
+struct SweptItem {  // a pair of models, of the built-in renderer or of real ones
   std::string source, target;
   SweepRecipe recipe;
 };

@@ -47,10 +47,13 @@ void report(const BuildCommand& command, const Manifest& manifest, const std::ve
                                {"table", item.table},
                                {"fit", item.fit},
                                {"header", item.header},
+                               {"kept_table", item.kept_table},
                                {"seconds", item.seconds}});
     std::cout << json.dump(2) << "\n";
     return;
   }
+  for (const BuiltItem& item : built)
+    if (!item.kept_table.empty()) std::cerr << item.id << ": its table is kept; " << item.kept_table << "\n";
   for (const BuiltItem& item : built)
     std::cerr << item.id << ": " << (item.table ? "table, " : "") << (item.fit ? "fit, " : "") << "header in "
               << remap::number_text(remap::rounded_up(item.seconds, 2)) << " s\n";

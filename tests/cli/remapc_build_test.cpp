@@ -200,3 +200,34 @@ TEST_CASE("remapc chain: one fit, and what cannot be one") {
   check_failure(chain({"a_b_to_mitsuba_ward"}), 2, "at least 2");
   CHECK(made.output.find("coloured") != std::string::npos);
 }
+
+TEST_CASE("remapc build: pairs of real renderers, whose tables stay where the renderer is gone") {
+  const Session session;
+  session.write("fits/manifest.json",
+                R"({"format": "remap-manifest", "version": 1, "published": [], "inverses": [], "chains": [],
+  "sweeps": [{"pairs": [["fake/ggx", "mitsuba/ggx"]], "objective": "natural", "resolution": 48,
+    "alpha": [0.05, 0.6], "roughness_samples": 12, "specular_samples": 3, "seed": 1}]})");
+  const auto with_worker = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--no-cache", "--worker", std::string("fake=") + REMAP_FAKE_WORKER});
+    return session.remapc(build_of(session, more));
+  };
+  CHECK(built_ids(with_worker({})) ==
+        std::vector<std::string>{"fake_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_fake_ggx"});
+  const std::string table = read_file(session.path("fits/tables/fake_ggx_to_mitsuba_ggx.csv"));
+
+  // Without the worker: nothing to do; all anew from the tables that are there; no table, no way.
+  const std::vector<std::string> elsewhere = {"--worker", "fake=/nowhere/to-be-found"};
+  CHECK(built_ids(session.remapc(build_of(session, elsewhere))).empty());
+  std::vector<std::string> forced = elsewhere;
+  forced.emplace_back("--force");
+  const ProcessResult again = session.remapc(build_of(session, forced));
+  REQUIRE(built_ids(again).size() == 2);
+  CHECK(read_file(session.path("fits/tables/fake_ggx_to_mitsuba_ggx.csv")) == table);
+  const auto built = nlohmann::json::parse(again.output)["built"];
+  CHECK(built[0]["table"] == false);
+  CHECK_THAT(built[0]["kept_table"].get<std::string>(), Catch::Matchers::Contains("fake"));
+  append(session.path("fits/tables/fake_ggx_to_mitsuba_ggx.csv"), "# changed\n");
+  const ProcessResult refused = session.remapc(build_of(session, forced));
+  CHECK(refused.exit_code == 1);
+  CHECK_THAT(refused.last_error(), Catch::Matchers::Contains("fake_ggx_to_mitsuba_ggx: worker fake"));
+}
