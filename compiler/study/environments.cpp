@@ -132,7 +132,7 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
   const SpherePictures pictures = render_spheres(pyramid, sitters.materials, sampling);
 
   const std::size_t environment_count = options.environments.size();
-  std::vector<Comparison> comparisons(sittings.size() * environment_count);
+  std::vector<EnvironmentComparison> comparisons(sittings.size() * environment_count);
   const bool on_sheet = options.sheet_alpha == conversions.front().alpha;
   if (on_sheet)
     result->sheets.assign(
@@ -237,24 +237,24 @@ EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
     begin = end;
   }
   double sum = 0.0;
-  for (const Comparison& comparison : result.comparisons) sum += comparison.squared_noise;
+  for (const EnvironmentComparison& comparison : result.comparisons) sum += comparison.squared_noise;
   result.noise = 100.0 * std::sqrt(sum / static_cast<double>(result.comparisons.size()));
   return result;
 }
 
-std::vector<const Comparison*> comparisons_of(const EnvironmentsResult& result, Method method,
-                                              std::size_t pair) {
-  std::vector<const Comparison*> chosen;
-  for (const Comparison& comparison : result.comparisons)
+std::vector<const EnvironmentComparison*> comparisons_of(const EnvironmentsResult& result, Method method,
+                                                         std::size_t pair) {
+  std::vector<const EnvironmentComparison*> chosen;
+  for (const EnvironmentComparison& comparison : result.comparisons)
     if (comparison.conversion.method == method && (pair == kAllPairs || comparison.conversion.pair == pair))
       chosen.push_back(&comparison);
   return chosen;
 }
 
-PictureLikeness mean_likeness(const std::vector<const Comparison*>& comparisons) {
+PictureLikeness mean_likeness(const std::vector<const EnvironmentComparison*>& comparisons) {
   PictureLikeness mean;
   const auto count = static_cast<double>(comparisons.size());
-  for (const Comparison* comparison : comparisons) {
+  for (const EnvironmentComparison* comparison : comparisons) {
     mean.rmse += comparison->likeness.rmse / count;
     mean.ssim += comparison->likeness.ssim / count;
     mean.energy += std::fabs(comparison->likeness.energy) / count;

@@ -67,7 +67,7 @@ struct PictureLikeness {
   double energy = 0.0;  // mean radiance of the target relative to the source's, less 1; linear luminance
 };
 
-struct Comparison {
+struct EnvironmentComparison {
   Conversion conversion;
   std::size_t environment = 0;  // index into EnvironmentsOptions::environments
   PictureLikeness likeness;
@@ -75,8 +75,8 @@ struct Comparison {
 };
 
 struct EnvironmentsResult {
-  std::vector<Comparison> comparisons;  // by alpha, pair, method, environment
-  std::vector<std::string> remarks;     // what was left out, a sentence each
+  std::vector<EnvironmentComparison> comparisons;  // by alpha, pair, method, environment
+  std::vector<std::string> remarks;                // what was left out, a sentence each
   // For each environment where `sheet_alpha` is given, in display values: a row a pair; the source, then what
   // it becomes by each method. Dark where a pair has no such method.
   std::vector<Image> sheets;
@@ -91,11 +91,11 @@ struct EnvironmentsResult {
 EnvironmentsResult study_environments(const EnvironmentsOptions& options);
 
 // Means over comparisons; energy is the mean of its magnitude.
-PictureLikeness mean_likeness(const std::vector<const Comparison*>& comparisons);
+PictureLikeness mean_likeness(const std::vector<const EnvironmentComparison*>& comparisons);
 
 // The comparisons of one method, of one pair where `pair` is an index.
 inline constexpr std::size_t kAllPairs = static_cast<std::size_t>(-1);
-std::vector<const Comparison*> comparisons_of(const EnvironmentsResult& result, Method method,
-                                              std::size_t pair = kAllPairs);
+std::vector<const EnvironmentComparison*> comparisons_of(const EnvironmentsResult& result, Method method,
+                                                         std::size_t pair = kAllPairs);
 
 }  // namespace remapc

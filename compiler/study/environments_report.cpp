@@ -59,9 +59,10 @@ std::string listed(const std::vector<double>& values) {
   return text;
 }
 
-std::vector<const Comparison*> at_alpha(const std::vector<const Comparison*>& comparisons, double alpha) {
-  std::vector<const Comparison*> chosen;
-  for (const Comparison* comparison : comparisons)
+std::vector<const EnvironmentComparison*> at_alpha(
+    const std::vector<const EnvironmentComparison*>& comparisons, double alpha) {
+  std::vector<const EnvironmentComparison*> chosen;
+  for (const EnvironmentComparison* comparison : comparisons)
     if (comparison->conversion.alpha == alpha) chosen.push_back(comparison);
   return chosen;
 }
@@ -116,7 +117,7 @@ std::string comparisons_csv(const EnvironmentsOptions& options, const Environmen
   std::string text = comments_of(options, result) +
                      "source,target,alpha,specular,environment,method,target_alpha,target_specular,"
                      "rmse_percent,ssim,energy_error\n";
-  for (const Comparison& comparison : result.comparisons) {
+  for (const EnvironmentComparison& comparison : result.comparisons) {
     const Conversion& c = comparison.conversion;
     text += options.pairs[c.pair].source + "," + options.pairs[c.pair].target + "," + number_text(c.alpha) +
             "," + number_text(options.specular) + "," + options.environments[comparison.environment].name +
