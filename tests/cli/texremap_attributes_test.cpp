@@ -138,6 +138,35 @@ TEST_CASE("texremap attributes: all that JPEG, Targa, BMP and Radiance files say
   check_images(small_format_images());
 }
 
+TEST_CASE("texremap attributes: what files of other programs say is kept, but for what cannot be written") {
+  std::vector<Exception> exceptions = kExceptions;
+  exceptions.insert(exceptions.end(), kForeignExceptions.begin(), kForeignExceptions.end());
+  std::vector<bool> used(exceptions.size());
+  for (const char* file :
+       {"BoomBox_occlusionRoughnessMetallic.png:G", "brass_roughness.jpg:Y", "king_black_roughness.jpg:Y",
+        "king_black_base_color.jpg:G", "grid_udim/grid.1001.png:R"}) {
+    const std::string words(file);
+    const fs::path path = shared_data("textures/" + words.substr(0, words.rfind(':')));
+    if (path.empty()) continue;
+    const Session session;
+    const ProcessResult result =
+        session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
+                          path.string() + words.substr(words.rfind(':')), "--specular", "0.4", "--only",
+                          "roughness", "-o", session.path("out")});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    const OIIO::ImageSpec before = read_image(path).spec,
+                          after = read_image(session.path("out/" + path.filename().string())).spec;
+    CHECK(unexplained(differences(before, after), path.extension().string().substr(1), exceptions, used) ==
+          "");
+  }
+  if (shared_data("textures/king_black_roughness.jpg").empty()) return;
+  for (std::size_t i = kExceptions.size(); i < used.size(); ++i) {
+    INFO(exceptions[i].name << " is an exception that nothing needs");
+    CHECK(used[i]);
+  }
+}
+
 TEST_CASE("texremap attributes: the comparison sees what is lost, added, and of another type or value") {
   OIIO::ImageSpec before = test_spec(8, 8, {"R", "G"}, OIIO::TypeHalf), after = before;
   CHECK(differences(before, after).empty());
