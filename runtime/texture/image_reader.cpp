@@ -125,6 +125,9 @@ void ImageReader::State::find_planes() {
     fail("cannot be read: " + first_line(input->geterror(), "no image in it"));
   if (spec().deep) fail("is a deep image; expected a flat one");
   if (spec().depth > 1) fail("is a volume; expected a flat image");
+  if (spec().width < 1 || spec().height < 1)  // Targa and Radiance files may say so
+    fail("has " + std::to_string(spec().width) + " x " + std::to_string(spec().height) +
+         " texels; expected at least one");
 }
 
 ImageReader::ImageReader(const fs::path& path, int part) : state_(std::make_unique<State>()) {

@@ -111,6 +111,10 @@ void suit_targa(OIIO::ImageSpec& spec) {
 void suit_format(OIIO::ImageSpec& spec, std::string_view format) {
   // TIFF tags associated alpha as such and stores it as it is; the other formats would divide by it.
   if (format != "tiff" || spec.alpha_channel < 0) spec.attribute(kUnassociatedAlpha, 1);
+  // The writers of EXR and TIFF would put the time of this run: the same inputs would give other bytes each
+  // time. An empty one reads as none.
+  if (spec.find_attribute("DateTime") == nullptr && (format == "openexr" || format == "tiff"))
+    spec.attribute("DateTime", "");
   if (format == "openexr") suit_openexr(spec);
   if (format == "tiff") suit_tiff(spec);
   if (format == "jpeg") suit_jpeg(spec);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include <OpenImageIO/imagebufalgo.h>
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
@@ -27,7 +28,13 @@ const std::vector<Exception> kExceptions = {
     {"tif", "Software", "TIFF has no place for that but the tag of the writing program"},
     {"jpg", "Software", "nor has JPEG"},
     {"jpg", "IPTC:OriginatingProgram", "OpenImageIO writes Software here, too"},
-    {"jpg", "jpeg:subsampling", "colours are written for every texel: converted maps are data"}};
+    {"jpg", "jpeg:subsampling", "colours are written for every texel: converted maps are data"},
+    {"tx", "Software", "a TIFF by another name"}};
+
+// Of textures with mip levels.
+const std::vector<Exception> kTextureExceptions = {
+    {"", "oiio:SHA-1", "sums over the texels that are no longer there"},
+    {"", "oiio:AverageColor", "as above"}};
 
 // Only in files that OpenImageIO cannot write itself.
 const std::vector<Exception> kForeignExceptions = {
@@ -41,15 +48,28 @@ const std::vector<Exception> kForeignExceptions = {
     {"jpg", "IPTC:MetadataDate", "as above: a date of XMP"},
     {"jpg", "IPTC:ModifyDate", "as above"}};
 
+struct Comparison {
+  std::vector<Exception> exceptions;
+  std::vector<bool> used;  // those that some file needed
+};
+
+Comparison comparison(const std::vector<Exception>& more = {}) {
+  Comparison all{kExceptions, {}};
+  all.exceptions.insert(all.exceptions.end(), more.begin(), more.end());
+  all.used.resize(all.exceptions.size());
+  return all;
+}
+
 bool covers(const Exception& exception, const std::string& extension, const std::string& name) {
   if (!exception.extension.empty() && exception.extension != extension) return false;
   if (exception.name.back() != '*') return exception.name == name;
   return name.starts_with(exception.name.substr(0, exception.name.size() - 1));
 }
 
-// The differences without a reason, a line each. Exceptions that were needed are marked in `used`.
+// The differences without a reason, a line each. Exceptions that were needed are marked.
 std::string unexplained(const std::vector<SpecDifference>& all, const std::string& extension,
-                        const std::vector<Exception>& exceptions, std::vector<bool>& used) {
+                        Comparison& comparison) {
+  const std::vector<Exception>& exceptions = comparison.exceptions;
   std::string lines;
   for (const SpecDifference& difference : all) {
     const auto found = std::find_if(exceptions.begin(), exceptions.end(), [&](const Exception& exception) {
@@ -58,7 +78,7 @@ std::string unexplained(const std::vector<SpecDifference>& all, const std::strin
     if (found == exceptions.end())
       lines += difference.name + ": was " + difference.before + "; is " + difference.after + "\n";
     else
-      used[static_cast<std::size_t>(found - exceptions.begin())] = true;
+      comparison.used[static_cast<std::size_t>(found - exceptions.begin())] = true;
   }
   return lines;
 }
@@ -79,49 +99,59 @@ int changed_channels(const StoredPlane& before, const StoredPlane& after, int co
   return changed;
 }
 
-// Converts one channel of the first part and compares all that there is.
-void check_image(const AttributeImage& image, std::vector<bool>& used) {
+// Converts channel `converted` of the first part and compares all that there is.
+void check_file(const fs::path& file, int converted, bool is_lossless, Comparison& comparison) {
   const Session session;
-  const std::string name = "map." + image.extension;
-  INFO(image.extension << ", " << image.title);
-  write_attribute_image(session.path(name), image);
-  const auto before = read_planes(session.path(name));
+  INFO(file);
+  const auto before = read_planes(file);
   const OIIO::ImageSpec& first = before.front().front().spec;
-  const int converted = first.nchannels < 3 ? 0 : 1;
   std::string channel = first.channelnames[static_cast<std::size_t>(converted)];
-  if (before.size() > 1 && image.extension == "exr") channel = "beauty." + channel;
-  const ProcessResult result =
-      session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
-                        session.path(name) + ":" + channel, "--specular", "0.4", "--only", "roughness", "-o",
-                        session.path("out")});
+  const std::string part_name = first.get_string_attribute("oiio:subimagename");
+  if (before.size() > 1 && !part_name.empty()) channel = part_name + "." + channel;
+  const ProcessResult result = session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as",
+                                                 "--roughness", file.string() + ":" + channel, "--specular",
+                                                 "0.4", "--only", "roughness", "-o", session.path("out")});
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
-  const auto after = read_planes(session.path("out/" + name));
+  const auto after = read_planes(session.path("out/" + file.filename().string()));
   REQUIRE(after.size() == before.size());
   for (std::size_t part = 0; part < before.size(); ++part) {
     REQUIRE(after[part].size() == before[part].size());
     for (std::size_t level = 0; level < before[part].size(); ++level) {
       INFO("part " << part << ", level " << level);
       const StoredPlane &in = before[part][level], &out = after[part][level];
-      CHECK(unexplained(differences(in.spec, out.spec), image.extension, kExceptions, used) == "");
-      if (!image.is_lossless) continue;
+      const std::string extension = file.extension().string().substr(1);
+      CHECK(unexplained(differences(in.spec, out.spec), extension, comparison) == "");
+      if (!is_lossless) continue;
       CHECK(changed_channels(in, out, part == 0 ? converted : -1) == 0);
       if (part == 0) CHECK(changed_channels(in, out, -1) == 1);  // the converted one
     }
   }
 }
 
-void check_images(const std::vector<AttributeImage>& images) {
-  std::vector<bool> used(kExceptions.size());
-  for (const AttributeImage& image : images) check_image(image, used);
-  const auto has_format = [&](const Exception& exception) {
-    return std::any_of(images.begin(), images.end(),
-                       [&](const AttributeImage& image) { return image.extension == exception.extension; });
-  };
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    INFO(kExceptions[i].name << " is an exception that nothing needs");
-    if (has_format(kExceptions[i])) CHECK(used[i]);
+// Every exception for these formats was needed by one of the files.
+void check_used(const Comparison& comparison, const std::vector<std::string>& extensions) {
+  for (std::size_t i = 0; i < comparison.used.size(); ++i) {
+    const Exception& exception = comparison.exceptions[i];
+    INFO(exception.extension << " " << exception.name << " is an exception that nothing needs");
+    const bool is_of_these =
+        std::find(extensions.begin(), extensions.end(), exception.extension) != extensions.end();
+    if (is_of_these) CHECK(comparison.used[i]);
   }
+}
+
+void check_images(const std::vector<AttributeImage>& images) {
+  const TemporaryFolder folder;
+  Comparison all = comparison();
+  std::vector<std::string> extensions;
+  for (const AttributeImage& image : images) {
+    INFO(image.title);
+    const fs::path file = folder.path() / ("map." + image.extension);
+    write_attribute_image(file, image);
+    check_file(file, image.parts.front().nchannels < 3 ? 0 : 1, image.is_lossless, all);
+    extensions.push_back(image.extension);
+  }
+  check_used(all, extensions);
 }
 
 }  // namespace
@@ -136,6 +166,58 @@ TEST_CASE("texremap attributes: all that a TIFF says is kept") { check_images(ti
 TEST_CASE("texremap attributes: all that a PNG says is kept") { check_images(png_images()); }
 TEST_CASE("texremap attributes: all that JPEG, Targa, BMP and Radiance files say is kept") {
   check_images(small_format_images());
+}
+
+TEST_CASE("texremap attributes: all that a texture says of its levels is kept") {
+  const TemporaryFolder folder;
+  const fs::path plain = folder.path() / "plain.exr";
+  write_image(plain, test_spec(40, 32, {"R", "G", "B"}, OIIO::TypeHalf), noise);
+  Comparison all = comparison(kTextureExceptions);
+  for (const char* name : {"map.exr", "map.tif", "map.tx"}) {
+    OIIO::ImageSpec config;
+    config.attribute("maketx:fileformatname", std::string(name) == "map.exr" ? "openexr" : "tiff");
+    config.attribute("wrapmodes", "periodic,mirror");
+    const fs::path file = folder.path() / name;
+    REQUIRE(OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, plain.string(), file.string(),
+                                             config));
+    REQUIRE(read_planes(file).front().size() > 4);
+    check_file(file, 1, true, all);
+  }
+  check_used(all, {"tif", "tx"});
+}
+
+TEST_CASE("texremap attributes: what files of other programs say is kept, but for what cannot be written") {
+  const fs::path folder = shared_data("textures");
+  if (folder.empty()) return;
+  Comparison all = comparison(kForeignExceptions);
+  const auto check = [&](const char* name, int converted, bool is_lossless) {
+    check_file(folder / name, converted, is_lossless, all);
+  };
+  check("BoomBox_occlusionRoughnessMetallic.png", 1, true);
+  check("grid_udim/grid.1001.png", 1, true);
+  check("brass_roughness.jpg", 0, false);
+  check("king_black_roughness.jpg", 0, false);
+  check("king_black_base_color.jpg", 1, false);
+  for (std::size_t i = kExceptions.size(); i < all.used.size(); ++i) {
+    INFO(all.exceptions[i].name << " is an exception that nothing needs");
+    CHECK(all.used[i]);
+  }
+}
+
+TEST_CASE("texremap attributes: a map without a date is not given that of the run") {
+  const Session session;
+  session.write_pair("exr", 16);
+  for (const char* name :
+       {"r.exr", "s.exr"}) {  // OpenImageIO writes the date, under the name that EXR has for it
+    std::string bytes = read_file(session.path(name));
+    bytes.replace(bytes.find("capDate"), 7, "anyDate");
+    write_file(session.path(name), bytes);
+    REQUIRE(read_image(session.path(name)).spec.find_attribute("DateTime") == nullptr);
+  }
+  const std::string extension = GENERATE("exr", "tif", "png", "jpg", "tga");
+  REQUIRE(session.convert("r.exr", "s.exr", {"--format", extension}).exit_code == 0);
+  for (const char* name : {"out/r.", "out/s."})
+    CHECK(read_image(session.path(name + extension)).spec.find_attribute("DateTime") == nullptr);
 }
 
 TEST_CASE("texremap attributes: the comparison sees what is lost, added, and of another type or value") {

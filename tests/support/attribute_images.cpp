@@ -167,8 +167,9 @@ OIIO::ImageSpec next_level(OIIO::ImageSpec spec, bool round_up) {
 
 std::vector<AttributeImage> exr_storage_images() {
   std::vector<AttributeImage> images;
-  for (const char* compression : {"none", "rle", "zips", "zip", "piz"}) {
+  for (const char* compression : {"none", "rle", "zips", "zip", "piz"})
     images.push_back({std::string("half, ") + compression, "exr", {exr_spec(OIIO::TypeHalf, compression)}});
+  for (const char* compression : {"none", "zip", "piz"}) {
     images.push_back({std::string("float, ") + compression, "exr", {exr_spec(OIIO::TypeFloat, compression)}});
     images.push_back(
         {std::string("half, tiled, ") + compression, "exr", {exr_spec(OIIO::TypeHalf, compression, 32, 16)}});
@@ -230,20 +231,23 @@ std::vector<AttributeImage> exr_structure_images() {
   }
   set_window(parts.parts[1], OIIO::ROI(3, 21, 5, 19, 0, 1), parts.parts[0].roi_full());
   images.push_back(parts);
+  // OpenImageIO writes no file of which some parts are tiled and some are not.
+  parts.title += ", tiled";
+  for (OIIO::ImageSpec& part : parts.parts) part.tile_width = part.tile_height = 16;
+  images.push_back(parts);
   return images;
 }
 
 std::vector<AttributeImage> tiff_images() {
   std::vector<AttributeImage> images;
+  const auto add = [&images](OIIO::TypeDesc type, const std::string& compression, int tile) {
+    const std::string title = std::string(type.c_str()) + ", " + compression + (tile > 0 ? ", tiled" : "");
+    images.push_back({title, "tif", {rich_spec(kWithAlpha, type, compression, tile, tile)}});
+    add_profile(images.back().parts.front());
+  };
   for (const OIIO::TypeDesc& type : {OIIO::TypeUInt8, OIIO::TypeUInt16, OIIO::TypeFloat})
-    for (const char* compression : {"none", "lzw", "zip"})
-      for (const int tile : {0, 16}) {
-        AttributeImage image{std::string(type.c_str()) + ", " + compression + (tile > 0 ? ", tiled" : ""),
-                             "tif",
-                             {rich_spec(kWithAlpha, type, compression, tile, tile)}};
-        add_profile(image.parts.front());
-        images.push_back(image);
-      }
+    for (const int tile : {0, 16}) add(type, "zip", tile);
+  for (const char* compression : {"none", "lzw", "packbits"}) add(OIIO::TypeUInt8, compression, 0);
   images.push_back({"grey", "tif", {rich_spec(kGrey, OIIO::TypeUInt8, "zip")}});
   images.push_back(
       {"five channels", "tif", {rich_spec({"R", "G", "B", "A", "mask"}, OIIO::TypeUInt16, "zip")}});

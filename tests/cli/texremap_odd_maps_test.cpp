@@ -1,0 +1,131 @@
+// Maps of odd sizes, with too few and too many channels, and with names that meet.
+#include <fstream>
+
+#include <catch2/catch.hpp>
+
+#include "cli/texremap_session.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string little_endian(int value) {
+  return {static_cast<char>(value & 255), static_cast<char>(value >> 8 & 255)};
+}
+
+// The head of an image without texels, in the formats whose readers take one.
+std::string head_of(const std::string& extension, int width, int height) {
+  if (extension == "hdr")
+    return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
+           std::to_string(width) + "\n";
+  std::string targa(12, '\0');
+  targa[2] = 2;  // colours, not packed
+  return targa + little_endian(width) + little_endian(height) + std::string{24, 0};
+}
+
+std::vector<std::string> words(const Session& session, const std::string& specular) {
+  std::vector<std::string> all = session.conversion("", specular);
+  all[6] = "0.3";
+  all.insert(all.end(), {"--only", "specular", "--color-space", "linear"});
+  return all;
+}
+
+OIIO::TypeDesc type_in(const std::string& extension) {
+  return extension == "exr" ? OIIO::TypeHalf : extension == "hdr" ? OIIO::TypeFloat : OIIO::TypeUInt8;
+}
+
+}  // namespace
+
+TEST_CASE("texremap odd maps: an image without texels is refused") {
+  const Session session;
+  const std::string name = "s." + std::string(GENERATE("tga", "hdr"));
+  for (const auto& [width, height] : {std::pair{0, 0}, {0, 5}, {5, 0}}) {
+    INFO(name << ", " << width << " x " << height);
+    std::ofstream(session.path(name), std::ios::binary) << head_of(name.substr(2), width, height);
+    const ProcessResult result = session.texremap(words(session, name));
+    CHECK(result.signal == 0);
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.last_error(), Contains(name + ": has " + std::to_string(width) + " x " +
+                                             std::to_string(height) + " texels; expected at least one"));
+    CHECK_FALSE(fs::exists(session.path("out")));
+  }
+}
+
+TEST_CASE("texremap odd maps: one texel, and strips, in every format") {
+  const Session session;
+  const std::string extension = GENERATE("exr", "tif", "png", "tga", "bmp", "jpg", "hdr");
+  const int longest = extension == "exr" || extension == "tif" || extension == "png" ? 100000 : 32000;
+  for (const auto& [width, height] : {std::pair{1, 1}, {1, longest}, {longest, 1}}) {
+    INFO(extension << ", " << width << " x " << height);
+    const std::string name = "s." + extension;
+    write_image(session.path(name), test_spec(width, height, {"R", "G", "B"}, type_in(extension)), noise);
+    const ProcessResult result = session.texremap(words(session, name));
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    const TestImage in = read_image(session.path(name)), out = read_image(session.path("out/" + name));
+    REQUIRE(out.spec.width == width);
+    REQUIRE(out.spec.height == height);
+    const int x = width - 1, y = height - 1;  // the last texel
+    const auto expected = converted_texel(0.3f, {in.at(x, y, 0), in.at(x, y, 1), in.at(x, y, 2)});
+    // Exact, but for a step of JPEG and for the shared exponent of Radiance: 8 bits of the largest channel.
+    const double step = extension == "jpg" ? 6.0 / 255.0 : extension == "hdr" ? 1.0 / 128.0 : 0.0;
+    for (int c = 0; c < 3; ++c)
+      CHECK(static_cast<double>(out.at(x, y, c)) ==
+            Approx(static_cast<double>(as_stored(expected[static_cast<std::size_t>(c) + 1], out.spec.format)))
+                .margin(step));
+    fs::remove_all(session.path("out"));
+  }
+}
+
+TEST_CASE("texremap odd maps: one to five channels where three are expected") {
+  const Session session;
+  const std::string extension = GENERATE("exr", "tif", "png");
+  const std::vector<std::string> names = {"R", "G", "B", "A", "mask"};
+  for (int count = 1; count <= (extension == "png" ? 4 : 5); ++count) {
+    INFO(extension << ", " << count << " channels");
+    const std::string name = "s." + extension;
+    std::vector<std::string> channels(names.begin(), names.begin() + count);
+    if (count == 1) channels = {"Y"};
+    write_image(session.path(name), test_spec(16, 16, channels, type_in(extension)), noise);
+    const ProcessResult result = session.texremap(words(session, name));
+    INFO(result.errors);
+    if (count == 2 && extension != "png") {  // which means grey and alpha by it
+      CHECK(result.exit_code == 1);
+      CHECK_THAT(result.last_error(), Contains(name + ": has the channels R, G; expected R, G and B"));
+      continue;
+    }
+    REQUIRE(result.exit_code == 0);
+    const TestImage in = read_image(session.path(name)), out = read_image(session.path("out/" + name));
+    REQUIRE(out.spec.nchannels == count);
+    for (int c = 0; c < count; ++c) {
+      const float value = in.at(5, 7, c);
+      const bool is_colour = c < 3 && (count != 2 || c == 0);
+      const float expected = converted_texel(0.3f, {value, value, value})[1];
+      CHECK(out.at(5, 7, c) == (is_colour ? as_stored(expected, out.spec.format) : value));
+    }
+    fs::remove_all(session.path("out"));
+  }
+}
+
+TEST_CASE("texremap odd maps: two results of one name are refused before anything is written") {
+  const Session session;
+  fs::create_directories(session.path("a"));
+  for (const char* name : {"map.png", "a/map.png", "map.tif", "specular.png"})
+    write_image(session.path(name), test_spec(8, 8, {"Y"}, OIIO::TypeUInt8), noise);
+  const auto refused = [&](const std::string& roughness, const std::string& specular,
+                           const std::vector<std::string>& more) {
+    std::vector<std::string> all = session.conversion(roughness, "");
+    all[8] = specular;
+    all.insert(all.end(), more.begin(), more.end());
+    const ProcessResult result = session.texremap(all);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.last_error(), Contains(": would be the name of two results; expected"));
+    CHECK_FALSE(fs::exists(session.path("out")));
+  };
+  refused("map.png", session.path("a/map.png"), {});
+  refused("map.png", session.path("map.tif"), {"--format", "exr"});
+  refused("specular.png", "0.4", {});  // the map of the number has that name
+  refused("map.png", "0.4", {"--mask", "map.png"});
+}

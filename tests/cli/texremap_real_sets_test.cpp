@@ -1,0 +1,167 @@
+// Texture sets that people have, converted as they would: BoomBox, brass, a chess king and six tiles.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/texremap_tree.hpp"
+#include "support/shared_data.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr float kSpecular = 0.04f;
+
+// What the converter makes of each of the 256 values of a map of roughness, the square root of alpha.
+std::array<float, 256> converted_roughness() {
+  std::array<float, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const float roughness = static_cast<float>(i) / 255.0f;
+    table[i] = std::sqrt(converted_texel(roughness * roughness, {kSpecular, kSpecular, kSpecular})[0]);
+  }
+  return table;
+}
+
+// The largest difference between channel `channel` of `out` and the conversion of that of `in`, and the mean.
+std::pair<double, double> difference(const TestImage& in, const TestImage& out, std::size_t channel) {
+  REQUIRE(in.bytes.size() == out.bytes.size());
+  const std::array<float, 256> expected = converted_roughness();
+  const auto channels = static_cast<std::size_t>(in.spec.nchannels);
+  double largest = 0.0, sum = 0.0;
+  for (std::size_t i = channel; i < in.bytes.size(); i += channels) {
+    const double texel = std::abs(static_cast<double>(expected[in.bytes[i]]) - out.bytes[i] / 255.0);
+    largest = std::max(largest, texel);
+    sum += texel;
+  }
+  return {largest, sum / static_cast<double>(in.bytes.size() / channels)};
+}
+
+bool same_channel(const TestImage& in, const TestImage& out, std::size_t channel) {
+  const auto channels = static_cast<std::size_t>(in.spec.nchannels);
+  if (in.bytes.size() != out.bytes.size()) return false;
+  for (std::size_t i = channel; i < in.bytes.size(); i += channels)
+    if (in.bytes[i] != out.bytes[i]) return false;
+  return true;
+}
+
+constexpr double kHalfStep = 0.501 / 255.0;  // 8 bits round by half a step; floats add a little
+
+std::vector<std::string> words(const std::vector<std::string>& maps) {
+  std::vector<std::string> all = {"convert",    "--from", "mitsuba/ward", "--to",      "mitsuba/as",
+                                  "--specular", "0.04",   "--only",       "roughness", "--roughness-encoding",
+                                  "roughness"};
+  all.insert(all.end(), maps.begin(), maps.end());
+  return all;
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king") {
+  const fs::path folder = shared_data("textures");
+  if (folder.empty()) return;
+  const Tree tree;
+  const ProcessResult result = tree.texremap(words({folder.string(), "--json", "-o", tree.path("out")}));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  const auto sets = nlohmann::json::parse(result.output)["sets"];
+  REQUIRE(sets.size() == 3);
+  for (const auto& set : sets) CHECK(set["texels"] == 2048 * 2048);
+  CHECK(tree.results() == std::vector<std::string>{"BoomBox_occlusionRoughnessMetallic.png",
+                                                   "brass_roughness.jpg", "king_black_roughness.jpg"});
+  // The king's metallic map goes with both kings and makes no set of its own.
+  CHECK_THAT(result.errors, Contains("left out: king_shared: no map of roughness or glossiness"));
+  for (const char* name : {"brass", "king_black"})
+    CHECK_THAT(result.errors,
+               Contains(std::string(name) + "_roughness.jpg: jpeg compression changes values; --format png"));
+  CHECK(count_of(result.errors, "compression changes values") == 2);  // not of a PNG
+
+  const auto in = [&](const char* name) { return read_image(folder / name); };
+  const auto out = [&](const char* name) { return read_image(tree.path(std::string("out/") + name)); };
+  const char* box = "BoomBox_occlusionRoughnessMetallic.png";
+  const TestImage packed = in(box), packed_out = out(box);
+  CHECK(same_channel(packed, packed_out, 0));
+  CHECK(same_channel(packed, packed_out, 2));
+  CHECK(difference(packed, packed_out, 1).first <= kHalfStep);
+  // JPEG at quality 100 rounds 64 coefficients of 8 x 8 cosines by half a step: together at most 4 steps, and
+  // of random sign.
+  for (const char* name : {"brass_roughness.jpg", "king_black_roughness.jpg"}) {
+    const auto [largest, mean] = difference(in(name), out(name), 0);
+    CHECK(largest <= kHalfStep + 4.0 / 255.0);
+    CHECK(mean <= 0.5 / 255.0);
+  }
+}
+
+TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps what JPEG would not") {
+  const fs::path map = shared_data("textures/king_black_roughness.jpg");
+  if (map.empty()) return;
+  const Tree tree;
+  const ProcessResult result = tree.texremap(
+      words({"--roughness", map.string(), "--format", "png", "--type", "uint16", "-o", tree.path("out")}));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(count_of(result.errors, "compression changes values") == 0);
+  const TestImage in = read_image(map), out = read_image(tree.path("out/king_black_roughness.png"));
+  REQUIRE(out.spec.format == OIIO::TypeUInt16);
+  const std::array<float, 256> expected = converted_roughness();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < in.bytes.size(); ++i)
+    largest = std::max(largest, static_cast<double>(std::abs(expected[in.bytes[i]] - out.values[i])));
+  CHECK(largest <= 0.51 / 65535.0);
+}
+
+TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile") {
+  const fs::path tiles = shared_data("textures/grid_udim");
+  if (tiles.empty()) return;
+  const Tree tree;
+  const std::string pattern = (tiles / "grid.<UDIM>.png").string() + ":R";
+  const ProcessResult result =
+      tree.texremap(words({"--roughness", pattern, "--json", "-o", tree.path("out")}));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  const auto sets = nlohmann::json::parse(result.output)["sets"];
+  REQUIRE(sets.size() == 1);
+  CHECK(sets[0]["texels"] == 6 * 512 * 512);
+  CHECK(sets[0]["tiles"] == std::vector<std::string>{"1001", "1002", "1003", "1011", "1012", "1013"});
+  CHECK(count_of(result.errors, " texels in ") == 1 + 1);  // of the set, and of the run
+  for (const auto& entry : fs::directory_iterator(tiles)) {
+    INFO(entry.path());
+    const TestImage in = read_image(entry.path()),
+                    out = read_image(tree.path("out/" + entry.path().filename().string()));
+    CHECK(difference(in, out, 0).first <= kHalfStep);
+    CHECK(same_channel(in, out, 1));
+    CHECK(same_channel(in, out, 2));
+  }
+}
+
+TEST_CASE("texremap real sets: a tile that one map lacks is named, the others are converted") {
+  const fs::path tiles = shared_data("textures/grid_udim");
+  if (tiles.empty()) return;
+  const Tree tree;
+  fs::create_directory(tree.path("specular"));
+  for (const auto& entry : fs::directory_iterator(tiles))
+    if (entry.path().filename() != "grid.1012.png")
+      fs::create_symlink(entry.path(), tree.path("specular/" + entry.path().filename().string()));
+  std::vector<std::string> all =
+      words({"--roughness", (tiles / "grid.<UDIM>.png").string() + ":R", "--json", "-o", tree.path("out")});
+  all[6] = tree.path("specular/grid.<UDIM>.png") + ":G";
+  const ProcessResult result = tree.texremap(all);
+  INFO(result.errors);
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.errors, Contains("specular/grid.1012.png: is missing; expected every tile of the set"));
+  const auto sets = nlohmann::json::parse(result.output)["sets"];
+  REQUIRE(sets.size() == 1);
+  CHECK(sets[0]["tiles"] == std::vector<std::string>{"1001", "1002", "1003", "1011", "1013"});
+  CHECK(tree.results() == std::vector<std::string>{"grid.1001.png", "grid.1002.png", "grid.1003.png",
+                                                   "grid.1011.png", "grid.1013.png"});
+}
