@@ -1,4 +1,4 @@
-"""A whole worker (compiler/workers/PROTOCOL.md): Lambert and Blinn-Phong, traced here. Yours calls a renderer instead."""
+"""A whole worker (compiler/workers/PROTOCOL.md): Lambert and Blinn-Phong, traced here. Yours calls a renderer."""
 import array
 import json
 import math

@@ -26,6 +26,14 @@ constexpr double kRatioTolerance = 1e-6;
 // A knee below this share of the range is no knee that a person would meet.
 constexpr int kMostHalvings = 20;
 
+// Deviations up to this come from the rounding of the pictures that a law is looked for in.
+double picture_tolerance(const ModelDescription& model) {
+  return std::max(kPictureTolerance, 2.0 * model.precision);
+}
+
+// The same for a quotient of sums.
+double ratio_tolerance(const ModelDescription& model) { return std::max(kRatioTolerance, model.precision); }
+
 double brightest(const Picture& picture) { return *std::max_element(picture.begin(), picture.end()); }
 
 // Largest |(1 - t) low + t high - found|, relative to the brightest pixel of `high`.
@@ -65,17 +73,17 @@ class SpecularProbe {
   SpecularResponse law() const {
     const double from_affine = affine_deviation();
     SpecularResponse response{SpecularLaw::kOther, black_at_zero(), 0.0, from_affine};
-    if (from_affine <= kPictureTolerance) {
+    if (from_affine <= picture_tolerance(model_)) {
       response.law = response.black_base ? SpecularLaw::kProportional : SpecularLaw::kAffine;
       return response;
     }
-    if (const double deviation = ior_deviation(); deviation <= kPictureTolerance) {
+    if (const double deviation = ior_deviation(); deviation <= picture_tolerance(model_)) {
       response.law = SpecularLaw::kIor;
       response.residual = deviation;
     } else if (const auto found = knee()) {
       response.law = SpecularLaw::kClamped;
       response.knee = *found;
-      response.residual = kRatioTolerance;
+      response.residual = ratio_tolerance(model_);
     }
     return response;
   }
@@ -124,7 +132,7 @@ class SpecularProbe {
       power += whole * whole;
     }
     if (!(power > 0.0)) return std::nullopt;
-    if (line_deviation(probe.low, probe.high, product / power, picture) > kPictureTolerance)
+    if (line_deviation(probe.low, probe.high, product / power, picture) > picture_tolerance(model_))
       return std::nullopt;
     return product / power;
   }
@@ -133,7 +141,7 @@ class SpecularProbe {
   std::optional<double> knee_at(const WidthProbe& probe) const {
     double step = 0.5 * (range_.max - range_.min);
     std::optional<double> reached = share(probe, range_.min + step);
-    for (int halving = 0; reached && *reached > 1.0 - kRatioTolerance; ++halving) {
+    for (int halving = 0; reached && *reached > 1.0 - ratio_tolerance(model_); ++halving) {
       if (halving == kMostHalvings) return std::nullopt;
       step *= 0.5;
       reached = share(probe, range_.min + step);
@@ -144,7 +152,7 @@ class SpecularProbe {
          {0.3 * length, 0.97 * length, 1.03 * length, 0.5 * (length + range_.max - range_.min)}) {
       if (range_.min + distance > range_.max) return std::nullopt;
       const auto found = share(probe, range_.min + distance);
-      if (!found || std::fabs(*found - std::min(1.0, distance / length)) > 10.0 * kRatioTolerance)
+      if (!found || std::fabs(*found - std::min(1.0, distance / length)) > 10.0 * ratio_tolerance(model_))
         return std::nullopt;
     }
     return range_.min + length;
@@ -156,7 +164,7 @@ class SpecularProbe {
       const auto found = knee_at(probe);
       if (!found) return std::nullopt;
       if (!common) common = found;
-      if (std::fabs(*found - *common) > 10.0 * kRatioTolerance * *common) return std::nullopt;
+      if (std::fabs(*found - *common) > 10.0 * ratio_tolerance(model_) * *common) return std::nullopt;
     }
     return std::round(*common / kRatioTolerance) / (1.0 / kRatioTolerance);
   }
@@ -210,8 +218,8 @@ bool probe_diffuse(const Photographer& photographer, const ModelDescription& mod
     const Picture half = take(alpha, speculars.max, 0.5 * full), with = take(alpha, speculars.max, full);
     Picture expected(without);
     for (std::size_t i = 0; i < expected.size(); ++i) expected[i] += lit[i] - dark[i];
-    if (line_deviation(expected, with, 1.0, expected) > kPictureTolerance) return false;
-    if (line_deviation(without, with, 0.5, half) > kPictureTolerance) return false;
+    if (line_deviation(expected, with, 1.0, expected) > picture_tolerance(model)) return false;
+    if (line_deviation(without, with, 0.5, half) > picture_tolerance(model)) return false;
   }
   return true;
 }
@@ -236,7 +244,8 @@ DiffuseMatch match_diffuse(const Photographer& photographer, const ModelDescript
     throw Error(ErrorKind::kInput, source.name + " to " + target.name + ": a diffuse picture is black");
   const double left = std::max(0.0, wanted_2 - cross * cross / given_2);
   const double scale = cross / given_2;
-  return {std::fabs(scale - 1.0) < kRatioTolerance ? 1.0 : scale, std::sqrt(left / wanted_2)};
+  const double tolerance = std::max(ratio_tolerance(source), ratio_tolerance(target));
+  return {std::fabs(scale - 1.0) < tolerance ? 1.0 : scale, std::sqrt(left / wanted_2)};
 }
 
 }  // namespace remapc

@@ -39,7 +39,8 @@ struct ModelDescription {
   remap::RoughnessConvention roughness = remap::RoughnessConvention::kAlpha;
   remap::Range alpha;  // widths that the model can take, canonical
   std::vector<ParameterDescription> parameters;
-  bool noise = false;  // another seed gives another picture
+  bool noise = false;      // another seed gives another picture
+  double precision = 0.0;  // relative error of a pixel, where that is more than a float's
 
   bool has(ParameterRole role) const;
   // Throws kUsage where it has none.

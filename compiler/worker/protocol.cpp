@@ -104,6 +104,10 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
   model.alpha = {std::min(a, b), std::max(a, b)};
   if (!std::isfinite(a) || !std::isfinite(b) || !(model.alpha.min >= 0.0) || !(model.alpha.max > 0.0))
     throw Error(ErrorKind::kInput, model.name + ": the range of its roughness is none of widths");
+  if (field.json().contains("precision")) {
+    model.precision = field["precision"].number();
+    field["precision"].require(model.precision >= 0.0 && model.precision < 0.1, "a number from 0 to 0.1");
+  }
   if (field.json().contains("noise")) {
     field["noise"].require(field["noise"].json().is_boolean(), "true or false");
     model.noise = field["noise"].json().get<bool>();
