@@ -73,12 +73,16 @@ std::string seconds_text(double seconds) {
   return text.data();
 }
 
-std::string files_text(const std::vector<JobReport::Result>& results) {
+std::string files_text(const JobReport& report) {
   constexpr std::size_t kShown = 3;
+  const std::vector<JobReport::Result>& results = report.results;
   std::string text;
   for (std::size_t i = 0; i < std::min(results.size(), kShown); ++i)
     text += (i == 0 ? "" : ", ") + results[i].path.string();
   if (results.size() > kShown) text += " and " + std::to_string(results.size() - kShown) + " more";
+  if (!report.copies.empty())
+    text += (report.copies.size() == 1 ? ", and a copy of " : ", and copies of ") +
+            counted(report.copies.size(), "other file");
   return text;
 }
 
@@ -178,8 +182,8 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
   }
   if (report.was_done) return;
   if (outcome.dry_run) {
-    print_message(program, place + "would make " + files_text(report.results) + " of " +
-                               std::to_string(report.inputs.size()) + " files, the first " +
+    print_message(program, place + "would make " + files_text(report) + " of " +
+                               counted(report.inputs.size(), "file") + ", the first " +
                                report.inputs.front().string());
     return;
   }
@@ -188,8 +192,7 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
     if (count > 0) print_message(program, place + std::to_string(count) + what);
   };
   const std::string by = outcome.list.is_tree ? "" : " by " + converter_text(outcome.chosen);
-  line(counts.texel_count,
-       " texels in " + seconds_text(report.seconds) + by + ": " + files_text(report.results));
+  line(counts.texel_count, " texels in " + seconds_text(report.seconds) + by + ": " + files_text(report));
   line(counts.out_of_domain_count, " texels outside " + outside_text(outcome.chosen) +
                                        ": width clamped, specular extrapolated in proportion");
   line(counts.nan_count, " texels with NaN" + first_text(counts));
