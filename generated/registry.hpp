@@ -13,6 +13,12 @@
 #include "cycles_2_7_ggx_to_blender_internal_2_7_ward.hpp"
 #include "cycles_2_7_ggx_to_mitsuba_as.hpp"
 #include "cycles_2_7_ggx_to_mitsuba_ggx.hpp"
+#include "cycles_3_4_beckmann_to_mitsuba_beckmann.hpp"
+#include "cycles_3_4_ggx_to_mitsuba_ggx.hpp"
+#include "cycles_5_beckmann_to_mitsuba_beckmann.hpp"
+#include "cycles_5_ggx_to_mitsuba_ggx.hpp"
+#include "mitsuba3_beckmann_to_mitsuba_beckmann.hpp"
+#include "mitsuba3_ggx_to_mitsuba_ggx.hpp"
 #include "mitsuba_as_to_cycles_2_7_ggx.hpp"
 #include "mitsuba_as_to_mitsuba_beckmann.hpp"
 #include "mitsuba_as_to_mitsuba_ggx.hpp"
@@ -20,6 +26,9 @@
 #include "mitsuba_as_to_mitsuba_ward.hpp"
 #include "mitsuba_as_to_mitsuba_ward_balanced.hpp"
 #include "mitsuba_as_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_beckmann_to_cycles_3_4_beckmann.hpp"
+#include "mitsuba_beckmann_to_cycles_5_beckmann.hpp"
+#include "mitsuba_beckmann_to_mitsuba3_beckmann.hpp"
 #include "mitsuba_beckmann_to_mitsuba_as.hpp"
 #include "mitsuba_beckmann_to_mitsuba_ggx.hpp"
 #include "mitsuba_beckmann_to_mitsuba_phong.hpp"
@@ -27,6 +36,9 @@
 #include "mitsuba_beckmann_to_mitsuba_ward_balanced.hpp"
 #include "mitsuba_beckmann_to_mitsuba_ward_duer.hpp"
 #include "mitsuba_ggx_to_cycles_2_7_ggx.hpp"
+#include "mitsuba_ggx_to_cycles_3_4_ggx.hpp"
+#include "mitsuba_ggx_to_cycles_5_ggx.hpp"
+#include "mitsuba_ggx_to_mitsuba3_ggx.hpp"
 #include "mitsuba_ggx_to_mitsuba_as.hpp"
 #include "mitsuba_ggx_to_mitsuba_beckmann.hpp"
 #include "mitsuba_ggx_to_mitsuba_phong.hpp"
@@ -45,6 +57,8 @@
 #include "mitsuba_ward_balanced_to_mitsuba_phong.hpp"
 #include "mitsuba_ward_balanced_to_mitsuba_ward.hpp"
 #include "mitsuba_ward_balanced_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_ward_balanced_to_radiance_metal.hpp"
+#include "mitsuba_ward_balanced_to_radiance_plastic.hpp"
 #include "mitsuba_ward_duer_to_mitsuba_as.hpp"
 #include "mitsuba_ward_duer_to_mitsuba_beckmann.hpp"
 #include "mitsuba_ward_duer_to_mitsuba_ggx.hpp"
@@ -60,6 +74,8 @@
 #include "mitsuba_ward_to_mitsuba_phong.hpp"
 #include "mitsuba_ward_to_mitsuba_ward_balanced.hpp"
 #include "mitsuba_ward_to_mitsuba_ward_duer.hpp"
+#include "radiance_metal_to_mitsuba_ward_balanced.hpp"
+#include "radiance_plastic_to_mitsuba_ward_balanced.hpp"
 
 namespace remap {
 
@@ -85,7 +101,7 @@ struct ConverterEntry {
   bool (*self_test)() noexcept;
 };
 
-inline constexpr std::array<ConverterEntry, 52> kConverters = {{
+inline constexpr std::array<ConverterEntry, 68> kConverters = {{
     {blender_internal_2_7_ward_to_cycles_2_7_ggx::kId, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceModel, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceRoughness, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceSpecular,
      blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetModel, blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetRoughness, blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetSpecular,
      blender_internal_2_7_ward_to_cycles_2_7_ggx::kDomainMin.alpha, blender_internal_2_7_ward_to_cycles_2_7_ggx::kDomainMax.alpha,
@@ -116,6 +132,42 @@ inline constexpr std::array<ConverterEntry, 52> kConverters = {{
      cycles_2_7_ggx_to_mitsuba_ggx::kDomainMin.f0, cycles_2_7_ggx_to_mitsuba_ggx::kDomainMax.f0,
      cycles_2_7_ggx_to_mitsuba_ggx::kAlphaRmsError, cycles_2_7_ggx_to_mitsuba_ggx::kSpecularRmsError, cycles_2_7_ggx_to_mitsuba_ggx::kImageRmsError,
      &cycles_2_7_ggx_to_mitsuba_ggx::evaluate_batch<1>, &cycles_2_7_ggx_to_mitsuba_ggx::evaluate_batch<3>, &cycles_2_7_ggx_to_mitsuba_ggx::self_test},
+    {cycles_3_4_beckmann_to_mitsuba_beckmann::kId, cycles_3_4_beckmann_to_mitsuba_beckmann::kSourceModel, cycles_3_4_beckmann_to_mitsuba_beckmann::kSourceRoughness, cycles_3_4_beckmann_to_mitsuba_beckmann::kSourceSpecular,
+     cycles_3_4_beckmann_to_mitsuba_beckmann::kTargetModel, cycles_3_4_beckmann_to_mitsuba_beckmann::kTargetRoughness, cycles_3_4_beckmann_to_mitsuba_beckmann::kTargetSpecular,
+     cycles_3_4_beckmann_to_mitsuba_beckmann::kDomainMin.roughness, cycles_3_4_beckmann_to_mitsuba_beckmann::kDomainMax.roughness,
+     cycles_3_4_beckmann_to_mitsuba_beckmann::kDomainMin.color, cycles_3_4_beckmann_to_mitsuba_beckmann::kDomainMax.color,
+     cycles_3_4_beckmann_to_mitsuba_beckmann::kAlphaRmsError, cycles_3_4_beckmann_to_mitsuba_beckmann::kSpecularRmsError, cycles_3_4_beckmann_to_mitsuba_beckmann::kImageRmsError,
+     &cycles_3_4_beckmann_to_mitsuba_beckmann::evaluate_batch<1>, &cycles_3_4_beckmann_to_mitsuba_beckmann::evaluate_batch<3>, &cycles_3_4_beckmann_to_mitsuba_beckmann::self_test},
+    {cycles_3_4_ggx_to_mitsuba_ggx::kId, cycles_3_4_ggx_to_mitsuba_ggx::kSourceModel, cycles_3_4_ggx_to_mitsuba_ggx::kSourceRoughness, cycles_3_4_ggx_to_mitsuba_ggx::kSourceSpecular,
+     cycles_3_4_ggx_to_mitsuba_ggx::kTargetModel, cycles_3_4_ggx_to_mitsuba_ggx::kTargetRoughness, cycles_3_4_ggx_to_mitsuba_ggx::kTargetSpecular,
+     cycles_3_4_ggx_to_mitsuba_ggx::kDomainMin.roughness, cycles_3_4_ggx_to_mitsuba_ggx::kDomainMax.roughness,
+     cycles_3_4_ggx_to_mitsuba_ggx::kDomainMin.color, cycles_3_4_ggx_to_mitsuba_ggx::kDomainMax.color,
+     cycles_3_4_ggx_to_mitsuba_ggx::kAlphaRmsError, cycles_3_4_ggx_to_mitsuba_ggx::kSpecularRmsError, cycles_3_4_ggx_to_mitsuba_ggx::kImageRmsError,
+     &cycles_3_4_ggx_to_mitsuba_ggx::evaluate_batch<1>, &cycles_3_4_ggx_to_mitsuba_ggx::evaluate_batch<3>, &cycles_3_4_ggx_to_mitsuba_ggx::self_test},
+    {cycles_5_beckmann_to_mitsuba_beckmann::kId, cycles_5_beckmann_to_mitsuba_beckmann::kSourceModel, cycles_5_beckmann_to_mitsuba_beckmann::kSourceRoughness, cycles_5_beckmann_to_mitsuba_beckmann::kSourceSpecular,
+     cycles_5_beckmann_to_mitsuba_beckmann::kTargetModel, cycles_5_beckmann_to_mitsuba_beckmann::kTargetRoughness, cycles_5_beckmann_to_mitsuba_beckmann::kTargetSpecular,
+     cycles_5_beckmann_to_mitsuba_beckmann::kDomainMin.roughness, cycles_5_beckmann_to_mitsuba_beckmann::kDomainMax.roughness,
+     cycles_5_beckmann_to_mitsuba_beckmann::kDomainMin.color, cycles_5_beckmann_to_mitsuba_beckmann::kDomainMax.color,
+     cycles_5_beckmann_to_mitsuba_beckmann::kAlphaRmsError, cycles_5_beckmann_to_mitsuba_beckmann::kSpecularRmsError, cycles_5_beckmann_to_mitsuba_beckmann::kImageRmsError,
+     &cycles_5_beckmann_to_mitsuba_beckmann::evaluate_batch<1>, &cycles_5_beckmann_to_mitsuba_beckmann::evaluate_batch<3>, &cycles_5_beckmann_to_mitsuba_beckmann::self_test},
+    {cycles_5_ggx_to_mitsuba_ggx::kId, cycles_5_ggx_to_mitsuba_ggx::kSourceModel, cycles_5_ggx_to_mitsuba_ggx::kSourceRoughness, cycles_5_ggx_to_mitsuba_ggx::kSourceSpecular,
+     cycles_5_ggx_to_mitsuba_ggx::kTargetModel, cycles_5_ggx_to_mitsuba_ggx::kTargetRoughness, cycles_5_ggx_to_mitsuba_ggx::kTargetSpecular,
+     cycles_5_ggx_to_mitsuba_ggx::kDomainMin.roughness, cycles_5_ggx_to_mitsuba_ggx::kDomainMax.roughness,
+     cycles_5_ggx_to_mitsuba_ggx::kDomainMin.color, cycles_5_ggx_to_mitsuba_ggx::kDomainMax.color,
+     cycles_5_ggx_to_mitsuba_ggx::kAlphaRmsError, cycles_5_ggx_to_mitsuba_ggx::kSpecularRmsError, cycles_5_ggx_to_mitsuba_ggx::kImageRmsError,
+     &cycles_5_ggx_to_mitsuba_ggx::evaluate_batch<1>, &cycles_5_ggx_to_mitsuba_ggx::evaluate_batch<3>, &cycles_5_ggx_to_mitsuba_ggx::self_test},
+    {mitsuba3_beckmann_to_mitsuba_beckmann::kId, mitsuba3_beckmann_to_mitsuba_beckmann::kSourceModel, mitsuba3_beckmann_to_mitsuba_beckmann::kSourceRoughness, mitsuba3_beckmann_to_mitsuba_beckmann::kSourceSpecular,
+     mitsuba3_beckmann_to_mitsuba_beckmann::kTargetModel, mitsuba3_beckmann_to_mitsuba_beckmann::kTargetRoughness, mitsuba3_beckmann_to_mitsuba_beckmann::kTargetSpecular,
+     mitsuba3_beckmann_to_mitsuba_beckmann::kDomainMin.alpha, mitsuba3_beckmann_to_mitsuba_beckmann::kDomainMax.alpha,
+     mitsuba3_beckmann_to_mitsuba_beckmann::kDomainMin.specular, mitsuba3_beckmann_to_mitsuba_beckmann::kDomainMax.specular,
+     mitsuba3_beckmann_to_mitsuba_beckmann::kAlphaRmsError, mitsuba3_beckmann_to_mitsuba_beckmann::kSpecularRmsError, mitsuba3_beckmann_to_mitsuba_beckmann::kImageRmsError,
+     &mitsuba3_beckmann_to_mitsuba_beckmann::evaluate_batch<1>, &mitsuba3_beckmann_to_mitsuba_beckmann::evaluate_batch<3>, &mitsuba3_beckmann_to_mitsuba_beckmann::self_test},
+    {mitsuba3_ggx_to_mitsuba_ggx::kId, mitsuba3_ggx_to_mitsuba_ggx::kSourceModel, mitsuba3_ggx_to_mitsuba_ggx::kSourceRoughness, mitsuba3_ggx_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba3_ggx_to_mitsuba_ggx::kTargetModel, mitsuba3_ggx_to_mitsuba_ggx::kTargetRoughness, mitsuba3_ggx_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba3_ggx_to_mitsuba_ggx::kDomainMin.alpha, mitsuba3_ggx_to_mitsuba_ggx::kDomainMax.alpha,
+     mitsuba3_ggx_to_mitsuba_ggx::kDomainMin.specular, mitsuba3_ggx_to_mitsuba_ggx::kDomainMax.specular,
+     mitsuba3_ggx_to_mitsuba_ggx::kAlphaRmsError, mitsuba3_ggx_to_mitsuba_ggx::kSpecularRmsError, mitsuba3_ggx_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba3_ggx_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba3_ggx_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba3_ggx_to_mitsuba_ggx::self_test},
     {mitsuba_as_to_cycles_2_7_ggx::kId, mitsuba_as_to_cycles_2_7_ggx::kSourceModel, mitsuba_as_to_cycles_2_7_ggx::kSourceRoughness, mitsuba_as_to_cycles_2_7_ggx::kSourceSpecular,
      mitsuba_as_to_cycles_2_7_ggx::kTargetModel, mitsuba_as_to_cycles_2_7_ggx::kTargetRoughness, mitsuba_as_to_cycles_2_7_ggx::kTargetSpecular,
      mitsuba_as_to_cycles_2_7_ggx::kDomainMin.alpha, mitsuba_as_to_cycles_2_7_ggx::kDomainMax.alpha,
@@ -158,6 +210,24 @@ inline constexpr std::array<ConverterEntry, 52> kConverters = {{
      mitsuba_as_to_mitsuba_ward_duer::kDomainMin.f0, mitsuba_as_to_mitsuba_ward_duer::kDomainMax.f0,
      mitsuba_as_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_as_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_as_to_mitsuba_ward_duer::kImageRmsError,
      &mitsuba_as_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_as_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_as_to_mitsuba_ward_duer::self_test},
+    {mitsuba_beckmann_to_cycles_3_4_beckmann::kId, mitsuba_beckmann_to_cycles_3_4_beckmann::kSourceModel, mitsuba_beckmann_to_cycles_3_4_beckmann::kSourceRoughness, mitsuba_beckmann_to_cycles_3_4_beckmann::kSourceSpecular,
+     mitsuba_beckmann_to_cycles_3_4_beckmann::kTargetModel, mitsuba_beckmann_to_cycles_3_4_beckmann::kTargetRoughness, mitsuba_beckmann_to_cycles_3_4_beckmann::kTargetSpecular,
+     mitsuba_beckmann_to_cycles_3_4_beckmann::kDomainMin.alpha, mitsuba_beckmann_to_cycles_3_4_beckmann::kDomainMax.alpha,
+     mitsuba_beckmann_to_cycles_3_4_beckmann::kDomainMin.f0, mitsuba_beckmann_to_cycles_3_4_beckmann::kDomainMax.f0,
+     mitsuba_beckmann_to_cycles_3_4_beckmann::kAlphaRmsError, mitsuba_beckmann_to_cycles_3_4_beckmann::kSpecularRmsError, mitsuba_beckmann_to_cycles_3_4_beckmann::kImageRmsError,
+     &mitsuba_beckmann_to_cycles_3_4_beckmann::evaluate_batch<1>, &mitsuba_beckmann_to_cycles_3_4_beckmann::evaluate_batch<3>, &mitsuba_beckmann_to_cycles_3_4_beckmann::self_test},
+    {mitsuba_beckmann_to_cycles_5_beckmann::kId, mitsuba_beckmann_to_cycles_5_beckmann::kSourceModel, mitsuba_beckmann_to_cycles_5_beckmann::kSourceRoughness, mitsuba_beckmann_to_cycles_5_beckmann::kSourceSpecular,
+     mitsuba_beckmann_to_cycles_5_beckmann::kTargetModel, mitsuba_beckmann_to_cycles_5_beckmann::kTargetRoughness, mitsuba_beckmann_to_cycles_5_beckmann::kTargetSpecular,
+     mitsuba_beckmann_to_cycles_5_beckmann::kDomainMin.alpha, mitsuba_beckmann_to_cycles_5_beckmann::kDomainMax.alpha,
+     mitsuba_beckmann_to_cycles_5_beckmann::kDomainMin.f0, mitsuba_beckmann_to_cycles_5_beckmann::kDomainMax.f0,
+     mitsuba_beckmann_to_cycles_5_beckmann::kAlphaRmsError, mitsuba_beckmann_to_cycles_5_beckmann::kSpecularRmsError, mitsuba_beckmann_to_cycles_5_beckmann::kImageRmsError,
+     &mitsuba_beckmann_to_cycles_5_beckmann::evaluate_batch<1>, &mitsuba_beckmann_to_cycles_5_beckmann::evaluate_batch<3>, &mitsuba_beckmann_to_cycles_5_beckmann::self_test},
+    {mitsuba_beckmann_to_mitsuba3_beckmann::kId, mitsuba_beckmann_to_mitsuba3_beckmann::kSourceModel, mitsuba_beckmann_to_mitsuba3_beckmann::kSourceRoughness, mitsuba_beckmann_to_mitsuba3_beckmann::kSourceSpecular,
+     mitsuba_beckmann_to_mitsuba3_beckmann::kTargetModel, mitsuba_beckmann_to_mitsuba3_beckmann::kTargetRoughness, mitsuba_beckmann_to_mitsuba3_beckmann::kTargetSpecular,
+     mitsuba_beckmann_to_mitsuba3_beckmann::kDomainMin.alpha, mitsuba_beckmann_to_mitsuba3_beckmann::kDomainMax.alpha,
+     mitsuba_beckmann_to_mitsuba3_beckmann::kDomainMin.f0, mitsuba_beckmann_to_mitsuba3_beckmann::kDomainMax.f0,
+     mitsuba_beckmann_to_mitsuba3_beckmann::kAlphaRmsError, mitsuba_beckmann_to_mitsuba3_beckmann::kSpecularRmsError, mitsuba_beckmann_to_mitsuba3_beckmann::kImageRmsError,
+     &mitsuba_beckmann_to_mitsuba3_beckmann::evaluate_batch<1>, &mitsuba_beckmann_to_mitsuba3_beckmann::evaluate_batch<3>, &mitsuba_beckmann_to_mitsuba3_beckmann::self_test},
     {mitsuba_beckmann_to_mitsuba_as::kId, mitsuba_beckmann_to_mitsuba_as::kSourceModel, mitsuba_beckmann_to_mitsuba_as::kSourceRoughness, mitsuba_beckmann_to_mitsuba_as::kSourceSpecular,
      mitsuba_beckmann_to_mitsuba_as::kTargetModel, mitsuba_beckmann_to_mitsuba_as::kTargetRoughness, mitsuba_beckmann_to_mitsuba_as::kTargetSpecular,
      mitsuba_beckmann_to_mitsuba_as::kDomainMin.alpha, mitsuba_beckmann_to_mitsuba_as::kDomainMax.alpha,
@@ -200,6 +270,24 @@ inline constexpr std::array<ConverterEntry, 52> kConverters = {{
      mitsuba_ggx_to_cycles_2_7_ggx::kDomainMin.f0, mitsuba_ggx_to_cycles_2_7_ggx::kDomainMax.f0,
      mitsuba_ggx_to_cycles_2_7_ggx::kAlphaRmsError, mitsuba_ggx_to_cycles_2_7_ggx::kSpecularRmsError, mitsuba_ggx_to_cycles_2_7_ggx::kImageRmsError,
      &mitsuba_ggx_to_cycles_2_7_ggx::evaluate_batch<1>, &mitsuba_ggx_to_cycles_2_7_ggx::evaluate_batch<3>, &mitsuba_ggx_to_cycles_2_7_ggx::self_test},
+    {mitsuba_ggx_to_cycles_3_4_ggx::kId, mitsuba_ggx_to_cycles_3_4_ggx::kSourceModel, mitsuba_ggx_to_cycles_3_4_ggx::kSourceRoughness, mitsuba_ggx_to_cycles_3_4_ggx::kSourceSpecular,
+     mitsuba_ggx_to_cycles_3_4_ggx::kTargetModel, mitsuba_ggx_to_cycles_3_4_ggx::kTargetRoughness, mitsuba_ggx_to_cycles_3_4_ggx::kTargetSpecular,
+     mitsuba_ggx_to_cycles_3_4_ggx::kDomainMin.alpha, mitsuba_ggx_to_cycles_3_4_ggx::kDomainMax.alpha,
+     mitsuba_ggx_to_cycles_3_4_ggx::kDomainMin.f0, mitsuba_ggx_to_cycles_3_4_ggx::kDomainMax.f0,
+     mitsuba_ggx_to_cycles_3_4_ggx::kAlphaRmsError, mitsuba_ggx_to_cycles_3_4_ggx::kSpecularRmsError, mitsuba_ggx_to_cycles_3_4_ggx::kImageRmsError,
+     &mitsuba_ggx_to_cycles_3_4_ggx::evaluate_batch<1>, &mitsuba_ggx_to_cycles_3_4_ggx::evaluate_batch<3>, &mitsuba_ggx_to_cycles_3_4_ggx::self_test},
+    {mitsuba_ggx_to_cycles_5_ggx::kId, mitsuba_ggx_to_cycles_5_ggx::kSourceModel, mitsuba_ggx_to_cycles_5_ggx::kSourceRoughness, mitsuba_ggx_to_cycles_5_ggx::kSourceSpecular,
+     mitsuba_ggx_to_cycles_5_ggx::kTargetModel, mitsuba_ggx_to_cycles_5_ggx::kTargetRoughness, mitsuba_ggx_to_cycles_5_ggx::kTargetSpecular,
+     mitsuba_ggx_to_cycles_5_ggx::kDomainMin.alpha, mitsuba_ggx_to_cycles_5_ggx::kDomainMax.alpha,
+     mitsuba_ggx_to_cycles_5_ggx::kDomainMin.f0, mitsuba_ggx_to_cycles_5_ggx::kDomainMax.f0,
+     mitsuba_ggx_to_cycles_5_ggx::kAlphaRmsError, mitsuba_ggx_to_cycles_5_ggx::kSpecularRmsError, mitsuba_ggx_to_cycles_5_ggx::kImageRmsError,
+     &mitsuba_ggx_to_cycles_5_ggx::evaluate_batch<1>, &mitsuba_ggx_to_cycles_5_ggx::evaluate_batch<3>, &mitsuba_ggx_to_cycles_5_ggx::self_test},
+    {mitsuba_ggx_to_mitsuba3_ggx::kId, mitsuba_ggx_to_mitsuba3_ggx::kSourceModel, mitsuba_ggx_to_mitsuba3_ggx::kSourceRoughness, mitsuba_ggx_to_mitsuba3_ggx::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba3_ggx::kTargetModel, mitsuba_ggx_to_mitsuba3_ggx::kTargetRoughness, mitsuba_ggx_to_mitsuba3_ggx::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba3_ggx::kDomainMin.alpha, mitsuba_ggx_to_mitsuba3_ggx::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba3_ggx::kDomainMin.f0, mitsuba_ggx_to_mitsuba3_ggx::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba3_ggx::kAlphaRmsError, mitsuba_ggx_to_mitsuba3_ggx::kSpecularRmsError, mitsuba_ggx_to_mitsuba3_ggx::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba3_ggx::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba3_ggx::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba3_ggx::self_test},
     {mitsuba_ggx_to_mitsuba_as::kId, mitsuba_ggx_to_mitsuba_as::kSourceModel, mitsuba_ggx_to_mitsuba_as::kSourceRoughness, mitsuba_ggx_to_mitsuba_as::kSourceSpecular,
      mitsuba_ggx_to_mitsuba_as::kTargetModel, mitsuba_ggx_to_mitsuba_as::kTargetRoughness, mitsuba_ggx_to_mitsuba_as::kTargetSpecular,
      mitsuba_ggx_to_mitsuba_as::kDomainMin.alpha, mitsuba_ggx_to_mitsuba_as::kDomainMax.alpha,
@@ -308,6 +396,18 @@ inline constexpr std::array<ConverterEntry, 52> kConverters = {{
      mitsuba_ward_balanced_to_mitsuba_ward_duer::kDomainMin.specular, mitsuba_ward_balanced_to_mitsuba_ward_duer::kDomainMax.specular,
      mitsuba_ward_balanced_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_ward_balanced_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_ward_balanced_to_mitsuba_ward_duer::kImageRmsError,
      &mitsuba_ward_balanced_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_ward_balanced_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_ward_balanced_to_mitsuba_ward_duer::self_test},
+    {mitsuba_ward_balanced_to_radiance_metal::kId, mitsuba_ward_balanced_to_radiance_metal::kSourceModel, mitsuba_ward_balanced_to_radiance_metal::kSourceRoughness, mitsuba_ward_balanced_to_radiance_metal::kSourceSpecular,
+     mitsuba_ward_balanced_to_radiance_metal::kTargetModel, mitsuba_ward_balanced_to_radiance_metal::kTargetRoughness, mitsuba_ward_balanced_to_radiance_metal::kTargetSpecular,
+     mitsuba_ward_balanced_to_radiance_metal::kDomainMin.alpha, mitsuba_ward_balanced_to_radiance_metal::kDomainMax.alpha,
+     mitsuba_ward_balanced_to_radiance_metal::kDomainMin.specular, mitsuba_ward_balanced_to_radiance_metal::kDomainMax.specular,
+     mitsuba_ward_balanced_to_radiance_metal::kAlphaRmsError, mitsuba_ward_balanced_to_radiance_metal::kSpecularRmsError, mitsuba_ward_balanced_to_radiance_metal::kImageRmsError,
+     &mitsuba_ward_balanced_to_radiance_metal::evaluate_batch<1>, &mitsuba_ward_balanced_to_radiance_metal::evaluate_batch<3>, &mitsuba_ward_balanced_to_radiance_metal::self_test},
+    {mitsuba_ward_balanced_to_radiance_plastic::kId, mitsuba_ward_balanced_to_radiance_plastic::kSourceModel, mitsuba_ward_balanced_to_radiance_plastic::kSourceRoughness, mitsuba_ward_balanced_to_radiance_plastic::kSourceSpecular,
+     mitsuba_ward_balanced_to_radiance_plastic::kTargetModel, mitsuba_ward_balanced_to_radiance_plastic::kTargetRoughness, mitsuba_ward_balanced_to_radiance_plastic::kTargetSpecular,
+     mitsuba_ward_balanced_to_radiance_plastic::kDomainMin.alpha, mitsuba_ward_balanced_to_radiance_plastic::kDomainMax.alpha,
+     mitsuba_ward_balanced_to_radiance_plastic::kDomainMin.specular, mitsuba_ward_balanced_to_radiance_plastic::kDomainMax.specular,
+     mitsuba_ward_balanced_to_radiance_plastic::kAlphaRmsError, mitsuba_ward_balanced_to_radiance_plastic::kSpecularRmsError, mitsuba_ward_balanced_to_radiance_plastic::kImageRmsError,
+     &mitsuba_ward_balanced_to_radiance_plastic::evaluate_batch<1>, &mitsuba_ward_balanced_to_radiance_plastic::evaluate_batch<3>, &mitsuba_ward_balanced_to_radiance_plastic::self_test},
     {mitsuba_ward_duer_to_mitsuba_as::kId, mitsuba_ward_duer_to_mitsuba_as::kSourceModel, mitsuba_ward_duer_to_mitsuba_as::kSourceRoughness, mitsuba_ward_duer_to_mitsuba_as::kSourceSpecular,
      mitsuba_ward_duer_to_mitsuba_as::kTargetModel, mitsuba_ward_duer_to_mitsuba_as::kTargetRoughness, mitsuba_ward_duer_to_mitsuba_as::kTargetSpecular,
      mitsuba_ward_duer_to_mitsuba_as::kDomainMin.alpha, mitsuba_ward_duer_to_mitsuba_as::kDomainMax.alpha,
@@ -398,6 +498,18 @@ inline constexpr std::array<ConverterEntry, 52> kConverters = {{
      mitsuba_ward_to_mitsuba_ward_duer::kDomainMin.specular, mitsuba_ward_to_mitsuba_ward_duer::kDomainMax.specular,
      mitsuba_ward_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_ward_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_ward_to_mitsuba_ward_duer::kImageRmsError,
      &mitsuba_ward_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_ward_duer::self_test},
+    {radiance_metal_to_mitsuba_ward_balanced::kId, radiance_metal_to_mitsuba_ward_balanced::kSourceModel, radiance_metal_to_mitsuba_ward_balanced::kSourceRoughness, radiance_metal_to_mitsuba_ward_balanced::kSourceSpecular,
+     radiance_metal_to_mitsuba_ward_balanced::kTargetModel, radiance_metal_to_mitsuba_ward_balanced::kTargetRoughness, radiance_metal_to_mitsuba_ward_balanced::kTargetSpecular,
+     radiance_metal_to_mitsuba_ward_balanced::kDomainMin.alpha, radiance_metal_to_mitsuba_ward_balanced::kDomainMax.alpha,
+     radiance_metal_to_mitsuba_ward_balanced::kDomainMin.reflectance, radiance_metal_to_mitsuba_ward_balanced::kDomainMax.reflectance,
+     radiance_metal_to_mitsuba_ward_balanced::kAlphaRmsError, radiance_metal_to_mitsuba_ward_balanced::kSpecularRmsError, radiance_metal_to_mitsuba_ward_balanced::kImageRmsError,
+     &radiance_metal_to_mitsuba_ward_balanced::evaluate_batch<1>, &radiance_metal_to_mitsuba_ward_balanced::evaluate_batch<3>, &radiance_metal_to_mitsuba_ward_balanced::self_test},
+    {radiance_plastic_to_mitsuba_ward_balanced::kId, radiance_plastic_to_mitsuba_ward_balanced::kSourceModel, radiance_plastic_to_mitsuba_ward_balanced::kSourceRoughness, radiance_plastic_to_mitsuba_ward_balanced::kSourceSpecular,
+     radiance_plastic_to_mitsuba_ward_balanced::kTargetModel, radiance_plastic_to_mitsuba_ward_balanced::kTargetRoughness, radiance_plastic_to_mitsuba_ward_balanced::kTargetSpecular,
+     radiance_plastic_to_mitsuba_ward_balanced::kDomainMin.alpha, radiance_plastic_to_mitsuba_ward_balanced::kDomainMax.alpha,
+     radiance_plastic_to_mitsuba_ward_balanced::kDomainMin.specularity, radiance_plastic_to_mitsuba_ward_balanced::kDomainMax.specularity,
+     radiance_plastic_to_mitsuba_ward_balanced::kAlphaRmsError, radiance_plastic_to_mitsuba_ward_balanced::kSpecularRmsError, radiance_plastic_to_mitsuba_ward_balanced::kImageRmsError,
+     &radiance_plastic_to_mitsuba_ward_balanced::evaluate_batch<1>, &radiance_plastic_to_mitsuba_ward_balanced::evaluate_batch<3>, &radiance_plastic_to_mitsuba_ward_balanced::self_test},
 }};
 
 // The same converters as types. Through a type a compiler sees what it calls, which no pointer of the table above lets
@@ -446,6 +558,60 @@ struct cycles_2_7_ggx_to_mitsuba_ggx {
                                     const std::array<const float*, Channels>& specular, float* roughness_out,
                                     const std::array<float*, Channels>& specular_out) noexcept {
     return ::remap::cycles_2_7_ggx_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_3_4_beckmann_to_mitsuba_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_3_4_beckmann_to_mitsuba_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_3_4_ggx_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_3_4_ggx_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_5_beckmann_to_mitsuba_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_5_beckmann_to_mitsuba_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_5_ggx_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_5_ggx_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba3_beckmann_to_mitsuba_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba3_beckmann_to_mitsuba_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba3_ggx_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba3_ggx_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
   }
 };
 
@@ -512,6 +678,33 @@ struct mitsuba_as_to_mitsuba_ward_duer {
   }
 };
 
+struct mitsuba_beckmann_to_cycles_3_4_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_beckmann_to_cycles_3_4_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_beckmann_to_cycles_5_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_beckmann_to_cycles_5_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_beckmann_to_mitsuba3_beckmann {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_beckmann_to_mitsuba3_beckmann::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct mitsuba_beckmann_to_mitsuba_as {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -572,6 +765,33 @@ struct mitsuba_ggx_to_cycles_2_7_ggx {
                                     const std::array<const float*, Channels>& specular, float* roughness_out,
                                     const std::array<float*, Channels>& specular_out) noexcept {
     return ::remap::mitsuba_ggx_to_cycles_2_7_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_cycles_3_4_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_cycles_3_4_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_cycles_5_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_cycles_5_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba3_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba3_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
   }
 };
 
@@ -737,6 +957,24 @@ struct mitsuba_ward_balanced_to_mitsuba_ward_duer {
   }
 };
 
+struct mitsuba_ward_balanced_to_radiance_metal {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_balanced_to_radiance_metal::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ward_balanced_to_radiance_plastic {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ward_balanced_to_radiance_plastic::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct mitsuba_ward_duer_to_mitsuba_as {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -872,6 +1110,24 @@ struct mitsuba_ward_to_mitsuba_ward_duer {
   }
 };
 
+struct radiance_metal_to_mitsuba_ward_balanced {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::radiance_metal_to_mitsuba_ward_balanced::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct radiance_plastic_to_mitsuba_ward_balanced {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::radiance_plastic_to_mitsuba_ward_balanced::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 }  // namespace converters
 
 template <typename... Converters>
@@ -884,6 +1140,12 @@ using ConverterTypes = ConverterList<
     converters::cycles_2_7_ggx_to_blender_internal_2_7_ward,
     converters::cycles_2_7_ggx_to_mitsuba_as,
     converters::cycles_2_7_ggx_to_mitsuba_ggx,
+    converters::cycles_3_4_beckmann_to_mitsuba_beckmann,
+    converters::cycles_3_4_ggx_to_mitsuba_ggx,
+    converters::cycles_5_beckmann_to_mitsuba_beckmann,
+    converters::cycles_5_ggx_to_mitsuba_ggx,
+    converters::mitsuba3_beckmann_to_mitsuba_beckmann,
+    converters::mitsuba3_ggx_to_mitsuba_ggx,
     converters::mitsuba_as_to_cycles_2_7_ggx,
     converters::mitsuba_as_to_mitsuba_beckmann,
     converters::mitsuba_as_to_mitsuba_ggx,
@@ -891,6 +1153,9 @@ using ConverterTypes = ConverterList<
     converters::mitsuba_as_to_mitsuba_ward,
     converters::mitsuba_as_to_mitsuba_ward_balanced,
     converters::mitsuba_as_to_mitsuba_ward_duer,
+    converters::mitsuba_beckmann_to_cycles_3_4_beckmann,
+    converters::mitsuba_beckmann_to_cycles_5_beckmann,
+    converters::mitsuba_beckmann_to_mitsuba3_beckmann,
     converters::mitsuba_beckmann_to_mitsuba_as,
     converters::mitsuba_beckmann_to_mitsuba_ggx,
     converters::mitsuba_beckmann_to_mitsuba_phong,
@@ -898,6 +1163,9 @@ using ConverterTypes = ConverterList<
     converters::mitsuba_beckmann_to_mitsuba_ward_balanced,
     converters::mitsuba_beckmann_to_mitsuba_ward_duer,
     converters::mitsuba_ggx_to_cycles_2_7_ggx,
+    converters::mitsuba_ggx_to_cycles_3_4_ggx,
+    converters::mitsuba_ggx_to_cycles_5_ggx,
+    converters::mitsuba_ggx_to_mitsuba3_ggx,
     converters::mitsuba_ggx_to_mitsuba_as,
     converters::mitsuba_ggx_to_mitsuba_beckmann,
     converters::mitsuba_ggx_to_mitsuba_phong,
@@ -916,6 +1184,8 @@ using ConverterTypes = ConverterList<
     converters::mitsuba_ward_balanced_to_mitsuba_phong,
     converters::mitsuba_ward_balanced_to_mitsuba_ward,
     converters::mitsuba_ward_balanced_to_mitsuba_ward_duer,
+    converters::mitsuba_ward_balanced_to_radiance_metal,
+    converters::mitsuba_ward_balanced_to_radiance_plastic,
     converters::mitsuba_ward_duer_to_mitsuba_as,
     converters::mitsuba_ward_duer_to_mitsuba_beckmann,
     converters::mitsuba_ward_duer_to_mitsuba_ggx,
@@ -930,7 +1200,9 @@ using ConverterTypes = ConverterList<
     converters::mitsuba_ward_to_mitsuba_ggx_sztrajman_2019,
     converters::mitsuba_ward_to_mitsuba_phong,
     converters::mitsuba_ward_to_mitsuba_ward_balanced,
-    converters::mitsuba_ward_to_mitsuba_ward_duer>;
+    converters::mitsuba_ward_to_mitsuba_ward_duer,
+    converters::radiance_metal_to_mitsuba_ward_balanced,
+    converters::radiance_plastic_to_mitsuba_ward_balanced>;
 
 }  // namespace remap
 
