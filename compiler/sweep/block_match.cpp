@@ -4,6 +4,7 @@
 
 #include "sweep/joint_match.hpp"
 #include "sweep/match.hpp"
+#include "sweep/specular_curve.hpp"
 
 namespace remapc {
 namespace {
@@ -30,13 +31,40 @@ TableRow searched_row(const SweepSetup& setup, const SamplePoint& sample, std::v
       sample.alpha, sample.specular, match.point.alpha, match.point.specular, match.error, match.status, 0};
 }
 
-// Pictures of the source where nothing is known of how they depend on specular: one for each sample.
+// Pictures of the source at one width: rendered, or interpolated where that is as good and takes fewer
+// renders.
+class SourcePictures {
+ public:
+  SourcePictures(const SweepSetup& setup, const SampleBlock& block) : setup_(setup), alpha_(block.alpha) {
+    const remap::Range linear = setup.source.linear_range();
+    nodes_ =
+        setup.source.response.affine() ? std::vector<double>{linear.min, linear.max} : setup.source.curve;
+    if (nodes_.size() >= block.samples.size()) nodes_.clear();
+    for (const double specular : nodes_)
+      pictures_.push_back(setup.photographer.take(setup.source, {alpha_, specular, 0.0}));
+  }
+
+  std::vector<float> at(double specular) const {
+    if (nodes_.empty()) return setup_.photographer.take(setup_.source, {alpha_, specular, 0.0});
+    return curve_picture(nodes_, pictures_, std::min(specular, nodes_.back()));  // constant beyond a knee
+  }
+
+ private:
+  const SweepSetup& setup_;
+  double alpha_;
+  std::vector<double> nodes_;
+  std::vector<std::vector<float>> pictures_;
+};
+
+// Every sample by a picture of its own, since the weights or the law of the source differ from one to the
+// next.
 std::vector<TableRow> match_each(const SweepSetup& setup, const SampleBlock& block) {
+  const SourcePictures pictures(setup, block);
   std::vector<TableRow> rows;
   std::vector<std::size_t> minima;
   for (const std::size_t index : block.samples) {
     const SamplePoint& sample = setup.options.samples[index];
-    auto picture = setup.photographer.take(setup.source, {sample.alpha, sample.specular, 0.0});
+    auto picture = pictures.at(sample.specular);
     if (sample.specular == 0.0 || *std::max_element(picture.begin(), picture.end()) <= 0.0f) {
       rows.push_back(flat_row(sample, setup.target));
       continue;

@@ -23,6 +23,8 @@ struct Subject {
   ModelDescription model;
   SpecularResponse response;
   double exposure = 1.0;
+  std::vector<double> curve =
+      {};  // of a model without a law: speculars that pictures are interpolated between
 
   // Canonical speculars that the model takes, and those in which its picture is linear: they end at a knee.
   remap::Range specular_range() const;

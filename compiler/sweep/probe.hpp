@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "model/fit.hpp"
 
@@ -42,6 +43,12 @@ struct SpecularResponse {
 // Renders `model` at three widths within `alphas` and three values of specular over its whole range each; a
 // few more where it is not affine. Throws kInput where the picture at full specular is black.
 SpecularResponse probe_specular(const Photographer& photographer, const ModelDescription& model,
+                                const remap::Range& alphas);
+
+// Canonical speculars between which pictures of a model that follows no law are interpolated by a polynomial:
+// 3 or 5 of them, where the pictures at others show that this is as good as rendering; else none. 27
+// pictures.
+std::vector<double> probe_curve(const Photographer& photographer, const ModelDescription& model,
                                 const remap::Range& alphas);
 
 // Whether diffuse adds the same picture, in proportion, whatever the width and specular.

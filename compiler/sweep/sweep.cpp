@@ -108,6 +108,9 @@ void add_side(const std::string& role, const Subject& subject, Table* table) {
   comments.emplace_back(role + "_specular_proportional", yes_no(response.proportional()));
   comments.emplace_back(role + "_specular_law", std::string(law_name(response.law)));
   if (response.law == SpecularLaw::kIor) comments.emplace_back(role + "_specular_column", "f0");
+  if (!subject.curve.empty())
+    comments.emplace_back(role + "_specular_interpolated",
+                          std::to_string(subject.curve.size()) + " pictures a width");
   if (response.law == SpecularLaw::kClamped)
     comments.emplace_back(role + "_specular_knee", number_text(response.knee));
 }
@@ -182,8 +185,8 @@ SweepSetup make_setup(const SweepOptions& options, const Photographer& photograp
   SweepSetup setup{
       options,
       photographer,
-      {source, probe_specular(photographer, source, alphas)},
-      {target, probe_specular(photographer, target, probed)},
+      {source, probe_specular(photographer, source, alphas), 1.0, {}},
+      {target, probe_specular(photographer, target, probed), 1.0, {}},
       1.0,
       light_matched(source, target) ? match_diffuse(photographer, source, target) : DiffuseMatch{},
       nullptr,
@@ -193,6 +196,7 @@ SweepSetup make_setup(const SweepOptions& options, const Photographer& photograp
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;
   }
+  if (!setup.source.response.affine()) setup.source.curve = probe_curve(photographer, source, alphas);
   const bool affine = setup.target.response.affine();
   if (affine) setup.bank = std::make_unique<TargetBank>(photographer, setup.target, searched, kBankRatio);
   if (!affine) setup.grid = std::make_unique<TargetGrid>(photographer, setup.target, searched);

@@ -1,4 +1,5 @@
 // Sweeps of renderers that they have never seen: unknown names, scales, light and laws of specular.
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -255,5 +256,23 @@ TEST_CASE("sweep: a source that is not affine is rendered sample by sample") {
                                                     {{row.alpha1, squared(row.specular1)}}, 64));
     CHECK(row.alpha2 == Approx(same.rows.front().alpha2).epsilon(1e-5));
     CHECK(row.specular2 == Approx(same.rows.front().specular2).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("black box: a source that is quadratic in specular takes three pictures a width") {
+  const LawRenderer renderer("mitsuba/ward", {0.0, 1.0}, [](double s) { return 0.4 * s + 0.3 * s * s; });
+  SweepOptions options;
+  options.source = "disguised/law";
+  options.target = "mitsuba/ward";
+  options.objective = objective_preset("paper");
+  options.resolution = 64;
+  options.samples = grid_samples({0.2, 0.6}, 2, {0.0, 1.0}, 5);
+  const Table table = run_sweep(renderer, options, {});
+  CHECK(std::find(table.comments.begin(), table.comments.end(),
+                  std::pair<std::string, std::string>("source_specular_interpolated",
+                                                      "3 pictures a width")) != table.comments.end());
+  for (const TableRow& row : table.rows) {
+    CHECK(row.alpha2 == Approx(row.alpha1).margin(1e-6));
+    CHECK(row.specular2 == Approx(0.4 * row.specular1 + 0.3 * row.specular1 * row.specular1).epsilon(1e-5));
   }
 }
