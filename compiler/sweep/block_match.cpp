@@ -37,8 +37,8 @@ class SourcePictures {
  public:
   SourcePictures(const SweepSetup& setup, const SampleBlock& block) : setup_(setup), alpha_(block.alpha) {
     const remap::Range linear = setup.source.linear_range();
-    nodes_ =
-        setup.source.response.affine() ? std::vector<double>{linear.min, linear.max} : setup.source.curve;
+    nodes_ = setup.source.curve;
+    if (setup.source.response.affine() && setup.source.model.is_costly) nodes_ = {linear.min, linear.max};
     if (nodes_.size() >= block.samples.size()) nodes_.clear();
     for (const double specular : nodes_)
       pictures_.push_back(setup.photographer.take(setup.source, {alpha_, specular, 0.0}));

@@ -40,6 +40,7 @@ struct ModelDescription {
   remap::Range alpha;  // widths that the model can take, canonical
   std::vector<ParameterDescription> parameters;
   bool noise = false;      // another seed gives another picture
+  bool is_costly = false;  // a picture takes long enough to be worth sparing by interpolation
   double precision = 0.0;  // relative error of a pixel, where that is more than a float's
 
   bool has(ParameterRole role) const;
