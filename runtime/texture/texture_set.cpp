@@ -36,6 +36,9 @@ std::vector<std::string> split_at_commas(std::string_view text) {
   return parts;
 }
 
+// Of an image that cannot be streamed.
+constexpr std::size_t kWholeImageWorthSaying = std::size_t{64} << 20;
+
 // None where one of them is no number.
 std::optional<std::vector<float>> numbers(std::string_view text) {
   std::vector<float> values;
@@ -280,6 +283,14 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
 
 std::vector<std::string> remarks(const TextureSet& set) {
   std::vector<std::string> messages;
+  constexpr std::size_t kMegabyte = std::size_t{1} << 20;
+  for (const ImageReader& map : set.maps) {
+    // OpenImageIO reads Targa as a whole and all else by rows or tiles.
+    const std::size_t bytes = map.layout().row_bytes() * static_cast<std::size_t>(map.layout().height);
+    if (map.layout().format == "targa" && bytes >= kWholeImageWorthSaying)
+      messages.push_back(map.path().string() + ": Targa is held in memory as a whole, " +
+                         std::to_string(bytes / kMegabyte) + " MB; other formats are not");
+  }
   for (const ImageReader& map : set.maps)
     if (map.is_resampled())
       messages.push_back(map.path().string() + ": is resampled to " + window_text(map.layout()));

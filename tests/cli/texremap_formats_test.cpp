@@ -294,3 +294,19 @@ TEST_CASE("texremap: idiff finds the passed-through alpha unchanged") {
   CHECK(diff("A").exit_code == 0);
   CHECK(diff("R").exit_code != 0);
 }
+
+TEST_CASE("texremap formats: a large Targa is held in memory as a whole, and that is said") {
+  const Session session;
+  for (const int height : {16, 3000}) {
+    const std::string name = "s" + std::to_string(height) + ".tga";
+    OIIO::ImageSpec spec = test_spec(8000, height, {"R", "G", "B"}, OIIO::TypeUInt8);
+    spec.attribute("Compression", "rle");
+    write_image(session.path(name), spec, [](int, int, int) { return 0.5f; });
+    const ProcessResult result =
+        session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness", "0.3",
+                          "--specular", session.path(name), "--only", "specular", "-o", session.path("out")});
+    REQUIRE(result.exit_code == 0);
+    CHECK((result.errors.find("Targa is held in memory as a whole, 68 MB") != std::string::npos) ==
+          (height == 3000));
+  }
+}
