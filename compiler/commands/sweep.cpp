@@ -10,6 +10,7 @@
 
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
+#include "commands/casting_options.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
 #include "error.hpp"
@@ -39,6 +40,7 @@ struct SweepCommand {
   unsigned jobs = 0;
   bool resume = false, force = false, json = false, quiet = false;
   std::filesystem::path output;
+  CastingOptions castings;
   RendererOptions renderers;
 };
 
@@ -60,9 +62,11 @@ void choose_samples(const SweepCommand& command, const Renderer& renderer, Sweep
   if (command.roughness_samples == 0 || command.specular_samples == 0)
     throw Error(ErrorKind::kUsage, "samples: 0; expected at least 1 for roughness and for specular");
   const remap::Range alphas = parse_range("--roughness-range", command.roughness_range);
-  const remap::Range speculars = command.specular_range.empty()
-                                     ? canonical_speculars(renderer, find_model(renderer, command.source))
-                                     : parse_range("--specular-range", command.specular_range);
+  const remap::Range speculars =
+      command.specular_range.empty()
+          ? canonical_speculars(renderer,
+                                recast(find_model(renderer, command.source), options->source_casting))
+          : parse_range("--specular-range", command.specular_range);
   options->samples = grid_samples(alphas, command.roughness_samples, speculars, command.specular_samples);
   options->sampling = grid_text(alphas, command.roughness_samples, speculars, command.specular_samples);
 }
@@ -71,6 +75,8 @@ SweepOptions sweep_options(const SweepCommand& command, const Renderer& renderer
   SweepOptions options;
   options.source = command.source;
   options.target = command.target;
+  options.source_casting = command.castings.source();
+  options.target_casting = command.castings.target();
   options.objective = objective_preset(command.objective);
   options.objective_name = command.objective;
   const Objective preset = options.objective;
@@ -213,6 +219,7 @@ void add_options(CLI::App& app, SweepCommand& command) {
                "Leave a factor between the light of two renderers in specular and diffuse");
   app.add_option("--jobs", command.jobs, "Threads; 0: one a core. The table does not depend on it")
       ->capture_default_str();
+  command.castings.add_options(app);
   add_renderer_options(app, command.renderers);
   app.add_flag("--resume", command.resume, "Continue a sweep that was interrupted");
   app.add_flag("--force", command.force, "Replace the table");
@@ -230,7 +237,9 @@ void add_sweep_command(CLI::App& app) {
   command->footer(
       "Example:\n  remapc sweep --source mitsuba/ward --target mitsuba/as -o ward_to_as.csv\n"
       "  remapc sweep --source radiance/plastic --target mitsuba3/ggx --resolution 256 -o "
-      "radiance_to_ggx.csv");
+      "radiance_to_ggx.csv\n"
+      "  remapc sweep --source mitsuba/ggx-metallic --source-set metallic=0.5 --target mitsuba/ggx -o "
+      "half_metal.csv");
   command->callback([options] { run(*options); });
 }
 

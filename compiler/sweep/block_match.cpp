@@ -107,7 +107,7 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
   }
   auto weights = squared_weights(setup.photographer.objective(), picture, setup.photographer.view_cosines());
   const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights),
-                             {true, row->diffuse1 > 0.0});
+                             {true, row->diffuse1 > 0.0 || !setup.source.model.has(ParameterRole::kDiffuse)});
   const Sitting apart{row->alpha2, row->specular2, row->diffuse2};
   if (setup.options.stages == 2) {
     row->error = matcher.error_of(setup.photographer.take(setup.target, apart));

@@ -32,6 +32,7 @@ enum class Reflectance {
   kSchlickIor,    // `ior`: Schlick's Fresnel with F0 from equation (1) of the paper
   kDielectric,    // `ior`: exact Fresnel of a dielectric
   kConductor,     // `eta`, `k`: exact Fresnel of a conductor
+  kMetallic,  // `base_color`, `metallic`, `specular`: diffuse and Schlick's F0 by equation (2) of the paper
 };
 
 struct BuiltinModel {
@@ -63,6 +64,10 @@ constexpr std::array kModels = {
     BuiltinModel{"mitsuba/beckmann-conductor", Brdf::kBeckmann, Reflectance::kConductor},
     BuiltinModel{"mitsuba/ggx-conductor", Brdf::kGgx, Reflectance::kConductor},
     BuiltinModel{"mitsuba/as-conductor", Brdf::kAs, Reflectance::kConductor},
+    BuiltinModel{"mitsuba/beckmann-metallic", Brdf::kBeckmann, Reflectance::kMetallic,
+                 RoughnessConvention::kRoughness},
+    BuiltinModel{"mitsuba/ggx-metallic", Brdf::kGgx, Reflectance::kMetallic, RoughnessConvention::kRoughness},
+    BuiltinModel{"mitsuba/as-metallic", Brdf::kAs, Reflectance::kMetallic, RoughnessConvention::kRoughness},
 };
 
 // Widths below 1e-4 are mirrors that no picture of the sweep resolves.
@@ -72,6 +77,8 @@ constexpr Range kAlphaRange{1e-4, 1.0};
 constexpr Range kIorRange{1.0, 4.0};
 constexpr Range kEtaRange{0.0, 12.0};
 constexpr Range kExtinctionRange{0.0, 20.0};
+// F0 of a dielectric at `specular` 1 (Burley 2012): 0.5 is 4 %, the index 1.5; 0.375 is the paper's 3 %.
+constexpr double kDielectricF0 = 0.08;
 
 std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
   switch (reflectance) {
@@ -86,6 +93,10 @@ std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
       return {{"ior", ParameterRole::kSpecular, kIorRange}};
     case Reflectance::kConductor:
       return {{"eta", ParameterRole::kIndex, kEtaRange}, {"k", ParameterRole::kExtinction, kExtinctionRange}};
+    case Reflectance::kMetallic:
+      return {{"base_color", ParameterRole::kSpecular, {0.0, 1.0}},
+              {"metallic", ParameterRole::kOther, {0.0, 1.0}, 1.0, true},
+              {"specular", ParameterRole::kOther, {0.0, 1.0}, 0.5, true}};
   }
   return {};
 }
@@ -101,7 +112,8 @@ ModelDescription describe(const BuiltinModel& model) {
                                  {std::min(bound_a, bound_b), std::max(bound_a, bound_b)}}}};
   for (ParameterDescription& parameter : specular_parameters(model.reflectance))
     description.parameters.push_back(std::move(parameter));
-  description.parameters.push_back({"diffuse", ParameterRole::kDiffuse, {0.0, 1.0}});
+  if (model.reflectance != Reflectance::kMetallic)
+    description.parameters.push_back({"diffuse", ParameterRole::kDiffuse, {0.0, 1.0}});
   return description;
 }
 
@@ -200,9 +212,11 @@ std::vector<double> parameter_values(const Material& material, const ParameterDe
   if (found == material.parameters.end())
     throw Error(ErrorKind::kUsage, material.model + ": parameter " + description.name + " is missing");
   const std::vector<double>& values = found->second;
-  if (values.size() != 1 && values.size() != 3)
+  const bool one = description.grey || description.role == ParameterRole::kRoughness;
+  if (values.size() != 1 && (one || values.size() != 3))
     throw Error(ErrorKind::kUsage, material.model + ": parameter " + description.name + " has " +
-                                       std::to_string(values.size()) + " values; expected 1 or 3");
+                                       std::to_string(values.size()) + " values; expected " +
+                                       (one ? "1" : "1 or 3"));
   for (const double value : values) {
     if (description.range.contains(value)) continue;
     throw Error(ErrorKind::kUsage, material.model + ": " + description.name + " = " +
@@ -228,7 +242,16 @@ struct Channel {
   double specular = 0.0;  // scale, F0, or the index of a dielectric
   double eta = 0.0, k = 0.0;
   double diffuse = 0.0;
+  double metallic = 0.0, level = 0.0;  // of kMetallic, whose base colour stands in `specular`
 };
+
+// Base colour, metallic and specular level as diffuse and F0 (Sztrajman et al. 2019, equation 2).
+Channel layered(const Channel& metal) {
+  Channel channel = metal;
+  channel.diffuse = metal.specular * (1.0 - metal.metallic);
+  channel.specular = kDielectricF0 * metal.level * (1.0 - metal.metallic) + metal.specular * metal.metallic;
+  return channel;
+}
 
 double channel_value(const std::vector<double>& values, std::size_t channel) {
   return values[values.size() == 1 ? 0 : channel];
@@ -238,19 +261,24 @@ double channel_value(const std::vector<double>& values, std::size_t channel) {
 std::vector<Channel> channels_of(const Material& material, const ModelDescription& description,
                                  Reflectance reflectance) {
   std::vector<Channel> channels(1);
-  const auto fill = [&](ParameterRole role, double Channel::*value) {
-    if (!description.has(role)) return;
-    const std::vector<double> values = parameter_values(material, description.parameter(role));
+  const auto fill = [&](const ParameterDescription& parameter, double Channel::*value) {
+    const std::vector<double> values = parameter_values(material, parameter);
     if (values.size() > channels.size()) channels.resize(values.size(), channels.front());
     for (std::size_t c = 0; c < channels.size(); ++c) channels[c].*value = channel_value(values, c);
   };
-  fill(ParameterRole::kSpecular, &Channel::specular);
-  fill(ParameterRole::kIndex, &Channel::eta);
-  fill(ParameterRole::kExtinction, &Channel::k);
-  fill(ParameterRole::kDiffuse, &Channel::diffuse);
+  for (const ParameterDescription& parameter : description.parameters) {
+    if (parameter.role == ParameterRole::kSpecular) fill(parameter, &Channel::specular);
+    if (parameter.role == ParameterRole::kIndex) fill(parameter, &Channel::eta);
+    if (parameter.role == ParameterRole::kExtinction) fill(parameter, &Channel::k);
+    if (parameter.role == ParameterRole::kDiffuse) fill(parameter, &Channel::diffuse);
+    if (parameter.name == "metallic") fill(parameter, &Channel::metallic);
+    if (parameter.name == "specular" && parameter.role == ParameterRole::kOther)
+      fill(parameter, &Channel::level);
+  }
   for (Channel& channel : channels) {
     if (reflectance == Reflectance::kTrimmedScale) channel.specular = std::min(channel.specular, 1.0);
     if (reflectance == Reflectance::kSchlickIor) channel.specular = normal_reflectance(channel.specular);
+    if (reflectance == Reflectance::kMetallic) channel = layered(channel);
   }
   return channels;
 }
@@ -265,6 +293,7 @@ double specular_reflectance(Reflectance reflectance, double shape, double schlic
       return channel.specular * shape;
     case Reflectance::kSchlick:
     case Reflectance::kSchlickIor:
+    case Reflectance::kMetallic:
       return shape * schlick + channel.specular * (shape * (1.0 - schlick));
     case Reflectance::kDielectric:
       return shape * fresnel_dielectric(cos_light_half, channel.specular).mean();
@@ -280,8 +309,6 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
   require_known_parameters(material, description);
   const BuiltinModel* model = find_builtin(material.model);
   const auto roughness = parameter_values(material, description.parameter(ParameterRole::kRoughness));
-  if (roughness.size() != 1)
-    throw Error(ErrorKind::kUsage, material.model + ": roughness has 3 values; expected 1");
   const double alpha = remap::to_alpha(model->roughness, roughness[0]);
 
   const std::vector<Channel> channels = channels_of(material, description, model->reflectance);

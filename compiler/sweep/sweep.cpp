@@ -53,8 +53,10 @@ void require_options(const SweepOptions& options, const ModelDescription& source
   if (options.stages < 1 || options.stages > 3)
     throw Error(ErrorKind::kUsage, "stages: " + std::to_string(options.stages) + "; expected 1, 2 or 3");
   if (!has_diffuse(options)) return;
-  const Range diffuses = source.parameter(ParameterRole::kDiffuse).range;
   target.parameter(ParameterRole::kDiffuse);  // throws where there is none to match
+  // The diffuse light of a source may have no parameter of its own: one base colour for all.
+  if (options.stages == 1 && options.diffuse == 0.0 && !source.has(ParameterRole::kDiffuse)) return;
+  const Range diffuses = source.parameter(ParameterRole::kDiffuse).range;
   if (!diffuses.contains(options.diffuse))
     throw Error(ErrorKind::kUsage, source.name + ": diffuse " + number_text(options.diffuse) + "; expected " +
                                        range_text(diffuses));
@@ -104,7 +106,12 @@ void add_side(const std::string& role, const Subject& subject, Table* table) {
   auto& comments = table->comments;
   comments.emplace_back(role, side.model);
   comments.emplace_back(role + "_roughness", std::string(remap::convention_name(side.roughness)));
+  if (const std::string own = subject.model.parameter(ParameterRole::kRoughness).name;
+      own != remap::convention_name(side.roughness))
+    comments.emplace_back(role + "_roughness_parameter", own);
   comments.emplace_back(role + "_specular", side.specular);
+  if (const std::string fixed = fixed_text(subject.model); !fixed.empty())
+    comments.emplace_back(role + "_fixed", fixed);
   comments.emplace_back(role + "_specular_proportional", yes_no(response.proportional()));
   comments.emplace_back(role + "_specular_law", std::string(law_name(response.law)));
   if (response.law == SpecularLaw::kIor) comments.emplace_back(role + "_specular_column", "f0");
@@ -241,8 +248,8 @@ double subpixel_alpha(int resolution, int samples_per_axis) {
 
 Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution,
                 const std::filesystem::path& journal_path, bool resume) {
-  const ModelDescription source = find_model(renderer, options.source);
-  const ModelDescription target = find_model(renderer, options.target);
+  const ModelDescription source = recast(find_model(renderer, options.source), options.source_casting);
+  const ModelDescription target = recast(find_model(renderer, options.target), options.target_casting);
   require_options(options, source, target);
   require_alphas(options, source);
   const Photographer photographer(renderer, options.objective, options.resolution, options.samples_per_axis);

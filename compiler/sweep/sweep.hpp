@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sweep/casting.hpp"
 #include "sweep/objective.hpp"
 #include "sweep/renderer.hpp"
 #include "table/table.hpp"
@@ -23,6 +24,7 @@ struct SamplePoint {
 struct SweepOptions {
   std::string source;
   std::string target;
+  Casting source_casting, target_casting;
   Objective objective;
   std::string objective_name;  // preset, or `custom` where parts of it were changed
   int resolution = 512;

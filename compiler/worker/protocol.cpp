@@ -72,6 +72,10 @@ ParameterDescription read_parameter(const Field& field, RoughnessConvention* con
     parameter.standard = field["default"].number();
     field["default"].require(parameter.range.contains(parameter.standard), "a number of the range");
   }
+  if (field.json().contains("grey")) {
+    field["grey"].require(field["grey"].json().is_boolean(), "true or false");
+    parameter.grey = field["grey"].json().get<bool>();
+  }
   return parameter;
 }
 

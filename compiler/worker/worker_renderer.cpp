@@ -29,7 +29,7 @@ void require_material(const Material& material, const ModelDescription& model) {
     if (found == material.parameters.end())
       throw Error(ErrorKind::kUsage, model.name + ": parameter " + parameter.name + " is missing");
     const std::size_t count = found->second.size();
-    const bool one = parameter.role == ParameterRole::kRoughness;
+    const bool one = parameter.grey || parameter.role == ParameterRole::kRoughness;
     if (count != 1 && (one || count != 3))
       throw Error(ErrorKind::kUsage, model.name + ": parameter " + parameter.name + " has " +
                                          std::to_string(count) + " values; expected " +
