@@ -8,6 +8,7 @@ namespace remapc {
 
 void add_render_command(CLI::App& app);
 void add_sweep_command(CLI::App& app);
+void add_sample_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_fit_command(CLI::App& app);
 void add_emit_command(CLI::App& app);

@@ -26,8 +26,13 @@ TableRow searched_row(const SweepSetup& setup, const SamplePoint& sample, std::v
   const std::vector<Sitting> starts = setup.grid->minima(picture, weights);
   const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights), {false, false});
   const JointMatch match = matcher.best_match(starts);
-  return {
-      sample.alpha, sample.specular, match.point.alpha, match.point.specular, match.error, match.status, 0};
+  return {sample.alpha,
+          sample.specular,
+          match.point().alpha,
+          match.point().specular,
+          match.error,
+          match.status,
+          0};
 }
 
 // Pictures of the source where nothing is known of how they depend on specular: one for each sample.
@@ -115,9 +120,9 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
   }
   const JointMatch match =
       matcher.match_from(setup.options.stages == 1 ? matcher.point_of(kFixedGuess) : apart);
-  row->alpha2 = match.point.alpha;
-  row->specular2 = match.point.specular;
-  row->diffuse2 = match.point.diffuse;
+  row->alpha2 = match.point().alpha;
+  row->specular2 = match.point().specular;
+  row->diffuse2 = match.point().diffuse;
   row->error = match.error;
   row->status = match.status;
 }

@@ -86,8 +86,8 @@ ModelDescription recast(const ModelDescription& model, const Casting& casting) {
     throw Error(ErrorKind::kUsage, model.name + ": " + *displaced.begin() +
                                        " has lost its role and has no value; expected it fixed, " +
                                        *displaced.begin() + "=VALUE");
-  result.parameter(ParameterRole::kRoughness);  // throws where another role has taken the parameter
-  result.parameter(ParameterRole::kSpecular);
+  for (const ParameterRole role : {ParameterRole::kRoughness, ParameterRole::kSpecular})
+    if (model.has(role)) result.parameter(role);  // throws where another role has taken the parameter
   if (!casting.roughness.empty() || casting.convention) measure_widths(&result);
   return result;
 }
