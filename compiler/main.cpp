@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   remapc::add_renderers_command(app);
   remapc::add_worker_check_command(app);
   remapc::add_show_command(app);
+  remapc::add_preview_command(app);
   remapc::add_study_command(app);
   return remap::run_app(app, argc, argv);
 }

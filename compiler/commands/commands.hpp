@@ -20,6 +20,7 @@ void add_list_command(CLI::App& app);
 void add_renderers_command(CLI::App& app);
 void add_worker_check_command(CLI::App& app);
 void add_show_command(CLI::App& app);
+void add_preview_command(CLI::App& app);
 void add_build_command(CLI::App& app);
 void add_chain_command(CLI::App& app);
 void add_invert_command(CLI::App& app);

@@ -14,6 +14,7 @@
 #include "sweep/brdf.hpp"
 #include "sweep/fresnel.hpp"
 #include "sweep/renderer.hpp"
+#include "sweep/shape.hpp"
 #include "version.hpp"
 
 namespace remapc {
@@ -140,17 +141,20 @@ std::vector<LitSample> lit_samples(const Scene& scene) {
   std::vector<LitSample> samples;
   for (int row = 0; row < scene.resolution * scene.samples_per_axis; ++row) {
     for (int column = 0; column < scene.resolution * scene.samples_per_axis; ++column) {
-      SurfacePoint n;
-      if (!sphere_point(scene.resolution, (column + 0.5) * step, (row + 0.5) * step, &n)) continue;
-      double lx = light_x - n.x, ly = -n.y, lz = light_z - n.z;
+      SurfaceHit hit;
+      if (!shape_point(scene.shape, scene.resolution, (column + 0.5) * step, (row + 0.5) * step, &hit))
+        continue;
+      const SurfacePoint &p = hit.position, &n = hit.normal;
+      double lx = light_x - p.x, ly = -p.y, lz = light_z - p.z;
       const double light_distance = std::sqrt(lx * lx + ly * ly + lz * lz);
       lx /= light_distance, ly /= light_distance, lz /= light_distance;
-      double vx = -n.x, vy = -n.y, vz = kCameraDistance - n.z;
+      double vx = -p.x, vy = -p.y, vz = kCameraDistance - p.z;
       const double view_distance = std::sqrt(vx * vx + vy * vy + vz * vz);
       vx /= view_distance, vy /= view_distance, vz /= view_distance;
       const double cos_light = lx * n.x + ly * n.y + lz * n.z;
       const double cos_view = vx * n.x + vy * n.y + vz * n.z;
       if (cos_light <= 0.0 || cos_view <= 0.0) continue;
+      if (is_shadowed(scene.shape, hit, {light_x, 0.0, light_z})) continue;
       const double cos_between = lx * vx + ly * vy + lz * vz;
       const double half_length_2 = 2.0 + 2.0 * cos_between;
       const double half_length = std::sqrt(half_length_2);
@@ -199,7 +203,7 @@ void require_scene(const Scene& scene) {
 
 std::shared_ptr<const std::vector<LitSample>> BuiltinRenderer::samples_of(const Scene& scene) const {
   const std::string key = std::to_string(scene.resolution) + "/" + std::to_string(scene.samples_per_axis) +
-                          "/" + light_name(scene.light);
+                          "/" + light_name(scene.light) + "/" + shape_name(scene.shape);
   const std::lock_guard lock(mutex_);
   auto& samples = samples_[key];
   if (!samples) samples = std::make_shared<const std::vector<LitSample>>(lit_samples(scene));

@@ -74,6 +74,25 @@ void cast_roughness(const std::string& text, Casting* casting) {
                                        remap::suggestion(word, remap::convention_names()));
 }
 
+Casting recorded_casting(const std::string& roughness, const std::string& specular,
+                         const std::string& fixed) {
+  Casting casting;
+  casting.roughness = roughness;
+  casting.specular = specular;
+  std::string_view left = fixed;
+  while (!left.empty()) {
+    const std::string_view setting = left.substr(0, left.find(','));
+    left.remove_prefix(std::min(left.size(), setting.size() + 1));
+    const std::size_t equals = setting.find('=');
+    const auto value =
+        equals == std::string_view::npos ? std::nullopt : remap::parse_number(setting.substr(equals + 1));
+    if (!value)
+      throw Error(ErrorKind::kInput, "fixed parameters: \"" + fixed + "\"; expected NAME=VALUE,NAME=VALUE");
+    casting.fixed[std::string(setting.substr(0, equals))] = *value;
+  }
+  return casting;
+}
+
 ModelDescription recast(const ModelDescription& model, const Casting& casting) {
   ModelDescription result = model;
   std::set<std::string> displaced;

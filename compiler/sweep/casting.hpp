@@ -23,6 +23,10 @@ struct Casting {
 // `NAME` or `NAME:CONVENTION`, as a command line gives the roughness of a casting. Throws kUsage.
 void cast_roughness(const std::string& text, Casting* casting);
 
+// The casting that a table of remapc sweep records: the values of its comments `<side>_roughness_parameter`,
+// `<side>_specular` and `<side>_fixed`; empty where it has none.
+Casting recorded_casting(const std::string& roughness, const std::string& specular, const std::string& fixed);
+
 // The model with its roles given as the casting says: parameters that are fixed, and those that have lost
 // their role, are of no role and stay at a value. Throws kUsage, in words that begin with the model's name,
 // for parameters that it has not, values out of range, and a parameter that lost its role without a value.

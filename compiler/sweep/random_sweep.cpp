@@ -77,10 +77,11 @@ std::vector<Varied> varied_of(const RandomSweepOptions& options, const ModelDesc
     const bool one = options.grey || parameter.grey || parameter.role == ParameterRole::kRoughness;
     all.push_back({parameter, range_of(options, source, parameter), !one});
   }
-  for (const auto& [name, range] : options.ranges)
-    if (std::none_of(all.begin(), all.end(), [&](const Varied& v) { return v.parameter.name == name; }))
-      throw Error(ErrorKind::kUsage,
-                  source.name + ": " + name + " has a range but does not vary; expected one that does");
+  for (const auto& given : options.ranges)
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const Varied& varied) { return varied.parameter.name == given.first; }))
+      throw Error(ErrorKind::kUsage, source.name + ": " + given.first +
+                                         " has a range but does not vary; expected one that does");
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include "error.hpp"
 #include "nearest_name.hpp"
 #include "number_text.hpp"
+#include "sweep/shape.hpp"
 
 namespace remapc {
 namespace {
@@ -141,6 +142,9 @@ Image WorkerRenderer::render_anew(const PictureRequest& request) const {
 
 Image WorkerRenderer::render(const Material& material, const Scene& scene) const {
   require_material(material, model(material.model));
+  if (scene.shape != Shape::kSphere && !description_.meshes)
+    throw Error(ErrorKind::kUsage,
+                "worker " + entry_.name + ": renders spheres only; expected no " + shape_name(scene.shape));
   const PictureRequest request = picture_request(material, scene);
   const Turn turn(*this, request);
   if (cache_) {
