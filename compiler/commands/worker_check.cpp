@@ -23,13 +23,13 @@ struct WorkerCheck {
   bool json = false;
 };
 
-const char* verdict_word(Finding::Verdict verdict) {
+const char* verdict_word(WorkerFinding::Verdict verdict) {
   switch (verdict) {
-    case Finding::Verdict::kGood:
+    case WorkerFinding::Verdict::kGood:
       return "good";
-    case Finding::Verdict::kRemark:
+    case WorkerFinding::Verdict::kRemark:
       return "remark";
-    case Finding::Verdict::kWrong:
+    case WorkerFinding::Verdict::kWrong:
       return "wrong";
   }
   return "";
@@ -42,9 +42,9 @@ WorkerEntry entry_of(const std::string& command) {
   return {"", command, std::filesystem::current_path().string(), ""};
 }
 
-void print(const std::vector<Finding>& findings) {
+void print(const std::vector<WorkerFinding>& findings) {
   std::string model;
-  for (const Finding& finding : findings) {
+  for (const WorkerFinding& finding : findings) {
     if (finding.model != model) std::cout << finding.model << "\n";
     model = finding.model;
     std::cout << "  " << std::left << std::setw(8) << verdict_word(finding.verdict) << std::setw(16)
@@ -59,13 +59,13 @@ void run(const WorkerCheck& check) {
   settings.limits.cancelled = &remap::interruption();
   const PrivateFolder folder;
   Worker worker(entry_of(check.command), settings.limits, folder.path() / "picture.f32");
-  const std::vector<Finding> findings = check_worker(worker, check.resolution);
-  const auto wrong = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
-    return finding.verdict == Finding::Verdict::kWrong;
+  const std::vector<WorkerFinding> findings = check_worker(worker, check.resolution);
+  const auto wrong = std::count_if(findings.begin(), findings.end(), [](const WorkerFinding& finding) {
+    return finding.verdict == WorkerFinding::Verdict::kWrong;
   });
   if (check.json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Finding& finding : findings)
+    for (const WorkerFinding& finding : findings)
       list.push_back({{"model", finding.model},
                       {"check", finding.check},
                       {"verdict", verdict_word(finding.verdict)},

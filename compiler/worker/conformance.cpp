@@ -15,7 +15,7 @@ namespace remapc {
 namespace {
 
 using remap::number_text;
-using Verdict = Finding::Verdict;
+using Verdict = WorkerFinding::Verdict;
 
 constexpr Light kHeadlight{}, kAside{60.0, 3.0}, kFar{0.0, 6.0};
 
@@ -40,7 +40,8 @@ std::string known_factor(double found) {
 
 class ModelCheck {
  public:
-  ModelCheck(Worker& worker, const ModelDescription& model, int resolution, std::vector<Finding>* findings)
+  ModelCheck(Worker& worker, const ModelDescription& model, int resolution,
+             std::vector<WorkerFinding>* findings)
       : worker_(worker), model_(model), resolution_(resolution), findings_(findings) {}
 
   void run() {
@@ -317,13 +318,13 @@ class ModelCheck {
   Worker& worker_;
   const ModelDescription& model_;
   int resolution_;
-  std::vector<Finding>* findings_;
+  std::vector<WorkerFinding>* findings_;
 };
 
 }  // namespace
 
-std::vector<Finding> check_worker(Worker& worker, int resolution) {
-  std::vector<Finding> findings;
+std::vector<WorkerFinding> check_worker(Worker& worker, int resolution) {
+  std::vector<WorkerFinding> findings;
   for (const ModelDescription& model : worker.description().models) {
     ModelCheck(worker, model, resolution, &findings).run();
     if (!worker.is_usable()) break;

@@ -9,7 +9,8 @@
 
 namespace remapc {
 
-struct Finding {
+// Not Finding, which is that of tables (table/check.hpp).
+struct WorkerFinding {
   enum class Verdict {
     kGood,
     kRemark,  // within the protocol, worth knowing
@@ -23,6 +24,6 @@ struct Finding {
 
 // Asks `worker` for pictures of all its models, `resolution` pixels a side (and three times that). A picture
 // that cannot be had is a finding too, and ends the checks of that model.
-std::vector<Finding> check_worker(Worker& worker, int resolution);
+std::vector<WorkerFinding> check_worker(Worker& worker, int resolution);
 
 }  // namespace remapc

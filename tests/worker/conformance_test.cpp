@@ -9,11 +9,11 @@
 
 using namespace remapc;
 using Catch::Matchers::Contains;
-using Verdict = Finding::Verdict;
+using Verdict = WorkerFinding::Verdict;
 
 namespace {
 
-std::vector<Finding> findings_of(const std::string& fault) {
+std::vector<WorkerFinding> findings_of(const std::string& fault) {
   const FakeSession session;
   Worker worker(session.entry(fault), session.settings().limits, session.path("picture.f32"));
   return check_worker(worker, 32);
@@ -22,7 +22,7 @@ std::vector<Finding> findings_of(const std::string& fault) {
 // The words of all checks that found something wrong, `check: words`, a line each.
 std::string wrong_words(const std::string& fault) {
   std::string text;
-  for (const Finding& finding : findings_of(fault))
+  for (const WorkerFinding& finding : findings_of(fault))
     if (finding.verdict == Verdict::kWrong) text += finding.check + ": " + finding.words + "\n";
   return text;
 }
@@ -32,7 +32,7 @@ std::string wrong_words(const std::string& fault) {
 TEST_CASE("worker check: a good worker passes every check") {
   const auto findings = findings_of("");
   CHECK(findings.size() >= 14);
-  for (const Finding& finding : findings) {
+  for (const WorkerFinding& finding : findings) {
     INFO(finding.check << ": " << finding.words);
     CHECK(finding.verdict == Verdict::kGood);
   }
