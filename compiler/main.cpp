@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   remapc::add_render_command(app);
   remapc::add_sweep_command(app);
+  remapc::add_sample_command(app);
   remapc::add_check_command(app);
   remapc::add_fit_command(app);
   remapc::add_emit_command(app);
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
   remapc::add_renderers_command(app);
   remapc::add_worker_check_command(app);
   remapc::add_show_command(app);
+  remapc::add_preview_command(app);
   remapc::add_study_command(app);
   return remap::run_app(app, argc, argv);
 }

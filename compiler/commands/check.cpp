@@ -10,6 +10,8 @@
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
 #include "error.hpp"
+#include "files.hpp"
+#include "table/named_table.hpp"
 
 namespace remapc {
 namespace {
@@ -19,10 +21,27 @@ struct CheckOptions {
   bool json = false;
 };
 
-void print_json(const Table& table, const std::vector<Finding>& findings) {
+// What is said of a table, of either form.
+struct Checked {
+  std::string name;
+  std::size_t rows = 0;
+  std::vector<Finding> findings;
+};
+
+Checked check(const CheckOptions& options) {
+  const std::string content = remap::read_file(options.table.path);
+  if (is_named_table(content, options.table.path)) {
+    const NamedTable table = parse_named_table(content, options.table.path);
+    return {table.name, table.rows.size(), check_named_table(table)};
+  }
+  const Table table = options.table.read();
+  return {table.name, table.rows.size(), check_table(table)};
+}
+
+void print_json(const Checked& checked) {
   nlohmann::ordered_json json = {
-      {"table", table.name}, {"rows", table.rows.size()}, {"findings", nlohmann::json::array()}};
-  for (const Finding& finding : findings)
+      {"table", checked.name}, {"rows", checked.rows}, {"findings", nlohmann::json::array()}};
+  for (const Finding& finding : checked.findings)
     json["findings"].push_back({{"severity", severity_name(finding.severity)},
                                 {"kind", finding.kind},
                                 {"line", finding.line},
@@ -31,24 +50,23 @@ void print_json(const Table& table, const std::vector<Finding>& findings) {
 }
 
 void run(const CheckOptions& options) {
-  const Table table = options.table.read();
-  const std::vector<Finding> findings = check_table(table);
+  const Checked checked = check(options);
   if (options.json)
-    print_json(table, findings);
+    print_json(checked);
   else
-    for (const Finding& finding : findings) std::cout << finding_text(table, finding) << "\n";
-  const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
-    return finding.severity == Severity::kError;
-  });
+    for (const Finding& finding : checked.findings) std::cout << finding_text(checked.name, finding) << "\n";
+  const auto errors =
+      std::count_if(checked.findings.begin(), checked.findings.end(),
+                    [](const Finding& finding) { return finding.severity == Severity::kError; });
   if (errors != 0)
-    throw remap::Error(
-        remap::ErrorKind::kInput,
-        table.name + ": cannot be fitted: " + std::to_string(errors) + (errors == 1 ? " error" : " errors"));
+    throw remap::Error(remap::ErrorKind::kInput, checked.name +
+                                                     ": cannot be fitted: " + std::to_string(errors) +
+                                                     (errors == 1 ? " error" : " errors"));
   if (!options.json)
-    std::cout << table.name << ": " << table.rows.size() << " rows, can be fitted"
-              << (findings.empty() ? ""
-                                   : " (" + std::to_string(findings.size()) +
-                                         (findings.size() == 1 ? " remark)" : " remarks)"))
+    std::cout << checked.name << ": " << checked.rows << " rows, can be fitted"
+              << (checked.findings.empty() ? ""
+                                           : " (" + std::to_string(checked.findings.size()) +
+                                                 (checked.findings.size() == 1 ? " remark)" : " remarks)"))
               << "\n";
 }
 

@@ -8,6 +8,7 @@ namespace remapc {
 
 void add_render_command(CLI::App& app);
 void add_sweep_command(CLI::App& app);
+void add_sample_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_fit_command(CLI::App& app);
 void add_emit_command(CLI::App& app);
@@ -19,6 +20,7 @@ void add_list_command(CLI::App& app);
 void add_renderers_command(CLI::App& app);
 void add_worker_check_command(CLI::App& app);
 void add_show_command(CLI::App& app);
+void add_preview_command(CLI::App& app);
 void add_build_command(CLI::App& app);
 void add_chain_command(CLI::App& app);
 void add_invert_command(CLI::App& app);

@@ -2,9 +2,9 @@
 #include <memory>
 
 #include "commands/commands.hpp"
+#include "commands/parameter_setting.hpp"
 #include "commands/renderer_options.hpp"
 #include "error.hpp"
-#include "nearest_name.hpp"
 #include "number_text.hpp"
 #include "sweep/image_file.hpp"
 #include "sweep/objective.hpp"
@@ -28,23 +28,11 @@ struct RenderOptions {
   RendererOptions renderers;
 };
 
-std::vector<double> parse_values(const std::string& setting, const std::string& text) {
-  std::vector<double> values;
-  for (const std::string& item : CLI::detail::split(text, ',')) {
-    const auto value = remap::parse_number(item);
-    if (!value) throw Error(ErrorKind::kUsage, "--set " + setting + ": \"" + item + "\" is no number");
-    values.push_back(*value);
-  }
-  return values;
-}
-
 Material parse_material(const ModelDescription& model, const std::vector<std::string>& settings) {
   Material material{model.name, {}};
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos)
-      throw Error(ErrorKind::kUsage, "--set " + setting + ": has no =; expected NAME=VALUE or NAME=R,G,B");
-    material.parameters[setting.substr(0, equals)] = parse_values(setting, setting.substr(equals + 1));
+  for (const std::string& text : settings) {
+    const ParameterSetting setting = parse_setting("--set", text);
+    material.parameters[setting.name] = setting.values;
   }
   for (const ParameterDescription& parameter : model.parameters) {
     if (material.parameters.contains(parameter.name)) continue;

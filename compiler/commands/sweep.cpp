@@ -11,6 +11,7 @@
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
+#include "commands/pair_selection.hpp"
 #include "commands/renderer_options.hpp"
 #include "error.hpp"
 #include "files.hpp"
@@ -24,18 +25,12 @@ using remap::ErrorKind;
 using remap::number_text;
 
 struct SweepCommand {
-  std::string source, target;
-  std::string objective = "natural";
-  std::string lights, weighting;  // empty: as the objective has them
-  double distance = 3.0;
-  int resolution = 512;
-  int pixel_samples = 1;
+  PairSelection pair;
   std::size_t roughness_samples = 30, specular_samples = 30;
   std::vector<double> roughness_range = {0.01, 1.0}, specular_range;
   std::string samples_of, columns;
   int stages = 2;
   double diffuse = 0.0;
-  bool keep_irradiance = false;
   unsigned jobs = 0;
   bool resume = false, force = false, json = false, quiet = false;
   std::filesystem::path output;
@@ -60,30 +55,20 @@ void choose_samples(const SweepCommand& command, const Renderer& renderer, Sweep
   if (command.roughness_samples == 0 || command.specular_samples == 0)
     throw Error(ErrorKind::kUsage, "samples: 0; expected at least 1 for roughness and for specular");
   const remap::Range alphas = parse_range("--roughness-range", command.roughness_range);
-  const remap::Range speculars = command.specular_range.empty()
-                                     ? canonical_speculars(renderer, find_model(renderer, command.source))
-                                     : parse_range("--specular-range", command.specular_range);
+  const remap::Range speculars =
+      command.specular_range.empty()
+          ? canonical_speculars(renderer,
+                                recast(find_model(renderer, options->source), options->source_casting))
+          : parse_range("--specular-range", command.specular_range);
   options->samples = grid_samples(alphas, command.roughness_samples, speculars, command.specular_samples);
   options->sampling = grid_text(alphas, command.roughness_samples, speculars, command.specular_samples);
 }
 
 SweepOptions sweep_options(const SweepCommand& command, const Renderer& renderer) {
   SweepOptions options;
-  options.source = command.source;
-  options.target = command.target;
-  options.objective = objective_preset(command.objective);
-  options.objective_name = command.objective;
-  const Objective preset = options.objective;
-  if (!command.lights.empty()) options.objective.lights = parse_lights(command.lights, command.distance);
-  for (Light& light : options.objective.lights) light.distance = command.distance;
-  if (!command.weighting.empty()) options.objective.weighting = weighting_from_name(command.weighting);
-  if (options.objective.lights != preset.lights || options.objective.weighting != preset.weighting)
-    options.objective_name = "custom";
-  options.resolution = command.resolution;
-  options.samples_per_axis = command.pixel_samples;
+  command.pair.fill(&options);
   options.stages = command.stages;
   options.diffuse = command.diffuse;
-  options.match_irradiance = !command.keep_irradiance;
   choose_samples(command, renderer, &options);
   return options;
 }
@@ -155,7 +140,7 @@ void run(const SweepCommand& command) {
 
   Table table;
   {
-    remap::Progress progress("sweep " + command.source + " -> " + command.target, options.samples.size(),
+    remap::Progress progress("sweep " + options.source + " -> " + options.target, options.samples.size(),
                              !command.quiet);
     SweepExecution execution;
     execution.jobs = command.jobs;
@@ -174,20 +159,8 @@ void run(const SweepCommand& command) {
 constexpr int kMostSamples = 4096;  // of each axis
 
 void add_options(CLI::App& app, SweepCommand& command) {
-  app.add_option("--source", command.source, "Model to convert from")->required();
-  app.add_option("--target", command.target, "Model to convert to")->required();
+  command.pair.add_options(app);
   app.add_option("-o,--output", command.output, "Table to write (CSV)")->required();
-  app.add_option("--objective", command.objective,
-                 "natural: light at 60 degrees, relative weights; paper: headlight, uniform weights")
-      ->capture_default_str();
-  app.add_option("--light", command.lights,
-                 "Instead of the objective's: headlight or degrees, comma-separated");
-  app.add_option("--distance", command.distance, "Of the lights, in sphere radii")->capture_default_str();
-  app.add_option("--weighting", command.weighting, "Instead of the objective's: uniform or relative");
-  app.add_option("--resolution", command.resolution, "Width and height of the pictures")
-      ->capture_default_str();
-  app.add_option("--pixel-samples", command.pixel_samples, "N x N samples in each pixel; 1: its centre")
-      ->capture_default_str();
   app.add_option("--roughness-samples", command.roughness_samples, "Source widths")
       ->check(CLI::Range(1, kMostSamples))
       ->capture_default_str();
@@ -209,8 +182,6 @@ void add_options(CLI::App& app, SweepCommand& command) {
       ->check(CLI::Range(1, 3))
       ->capture_default_str();
   app.add_option("--diffuse", command.diffuse, "Of the source, in every sample")->capture_default_str();
-  app.add_flag("--no-irradiance-matching", command.keep_irradiance,
-               "Leave a factor between the light of two renderers in specular and diffuse");
   app.add_option("--jobs", command.jobs, "Threads; 0: one a core. The table does not depend on it")
       ->capture_default_str();
   add_renderer_options(app, command.renderers);
@@ -230,7 +201,9 @@ void add_sweep_command(CLI::App& app) {
   command->footer(
       "Example:\n  remapc sweep --source mitsuba/ward --target mitsuba/as -o ward_to_as.csv\n"
       "  remapc sweep --source radiance/plastic --target mitsuba3/ggx --resolution 256 -o "
-      "radiance_to_ggx.csv");
+      "radiance_to_ggx.csv\n"
+      "  remapc sweep --source mitsuba/ggx-metallic --source-set metallic=0.5 --target mitsuba/ggx -o "
+      "half_metal.csv");
   command->callback([options] { run(*options); });
 }
 

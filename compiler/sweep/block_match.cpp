@@ -27,8 +27,13 @@ TableRow searched_row(const SweepSetup& setup, const SamplePoint& sample, std::v
   const std::vector<Sitting> starts = setup.grid->minima(picture, weights);
   const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights), {false, false});
   const JointMatch match = matcher.best_match(starts);
-  return {
-      sample.alpha, sample.specular, match.point.alpha, match.point.specular, match.error, match.status, 0};
+  return {sample.alpha,
+          sample.specular,
+          match.point().alpha,
+          match.point().specular,
+          match.error,
+          match.status,
+          0};
 }
 
 // Pictures of the source at one width: rendered, or interpolated where that is as good and takes fewer
@@ -135,7 +140,7 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
   }
   auto weights = squared_weights(setup.photographer.objective(), picture, setup.photographer.view_cosines());
   const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights),
-                             {true, row->diffuse1 > 0.0});
+                             {true, row->diffuse1 > 0.0 || !setup.source.model.has(ParameterRole::kDiffuse)});
   const Sitting apart{row->alpha2, row->specular2, row->diffuse2};
   if (setup.options.stages == 2) {
     row->error = matcher.error_of(setup.photographer.take(setup.target, apart));
@@ -143,9 +148,9 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
   }
   const JointMatch match =
       matcher.match_from(setup.options.stages == 1 ? matcher.point_of(kFixedGuess) : apart);
-  row->alpha2 = match.point.alpha;
-  row->specular2 = match.point.specular;
-  row->diffuse2 = match.point.diffuse;
+  row->alpha2 = match.point().alpha;
+  row->specular2 = match.point().specular;
+  row->diffuse2 = match.point().diffuse;
   row->error = match.error;
   row->status = match.status;
 }

@@ -14,6 +14,7 @@
 #include "sweep/brdf.hpp"
 #include "sweep/fresnel.hpp"
 #include "sweep/renderer.hpp"
+#include "sweep/shape.hpp"
 #include "version.hpp"
 
 namespace remapc {
@@ -32,6 +33,7 @@ enum class Reflectance {
   kSchlickIor,    // `ior`: Schlick's Fresnel with F0 from equation (1) of the paper
   kDielectric,    // `ior`: exact Fresnel of a dielectric
   kConductor,     // `eta`, `k`: exact Fresnel of a conductor
+  kMetallic,  // `base_color`, `metallic`, `specular`: diffuse and Schlick's F0 by equation (2) of the paper
 };
 
 struct BuiltinModel {
@@ -63,6 +65,10 @@ constexpr std::array kModels = {
     BuiltinModel{"mitsuba/beckmann-conductor", Brdf::kBeckmann, Reflectance::kConductor},
     BuiltinModel{"mitsuba/ggx-conductor", Brdf::kGgx, Reflectance::kConductor},
     BuiltinModel{"mitsuba/as-conductor", Brdf::kAs, Reflectance::kConductor},
+    BuiltinModel{"mitsuba/beckmann-metallic", Brdf::kBeckmann, Reflectance::kMetallic,
+                 RoughnessConvention::kRoughness},
+    BuiltinModel{"mitsuba/ggx-metallic", Brdf::kGgx, Reflectance::kMetallic, RoughnessConvention::kRoughness},
+    BuiltinModel{"mitsuba/as-metallic", Brdf::kAs, Reflectance::kMetallic, RoughnessConvention::kRoughness},
 };
 
 // Widths below 1e-4 are mirrors that no picture of the sweep resolves.
@@ -72,6 +78,8 @@ constexpr Range kAlphaRange{1e-4, 1.0};
 constexpr Range kIorRange{1.0, 4.0};
 constexpr Range kEtaRange{0.0, 12.0};
 constexpr Range kExtinctionRange{0.0, 20.0};
+// F0 of a dielectric at `specular` 1 (Burley 2012): 0.5 is 4 %, the index 1.5; 0.375 is the paper's 3 %.
+constexpr double kDielectricF0 = 0.08;
 
 std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
   switch (reflectance) {
@@ -86,6 +94,10 @@ std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
       return {{"ior", ParameterRole::kSpecular, kIorRange}};
     case Reflectance::kConductor:
       return {{"eta", ParameterRole::kIndex, kEtaRange}, {"k", ParameterRole::kExtinction, kExtinctionRange}};
+    case Reflectance::kMetallic:
+      return {{"base_color", ParameterRole::kSpecular, {0.0, 1.0}},
+              {"metallic", ParameterRole::kOther, {0.0, 1.0}, 1.0, true},
+              {"specular", ParameterRole::kOther, {0.0, 1.0}, 0.5, true}};
   }
   return {};
 }
@@ -101,7 +113,8 @@ ModelDescription describe(const BuiltinModel& model) {
                                  {std::min(bound_a, bound_b), std::max(bound_a, bound_b)}}}};
   for (ParameterDescription& parameter : specular_parameters(model.reflectance))
     description.parameters.push_back(std::move(parameter));
-  description.parameters.push_back({"diffuse", ParameterRole::kDiffuse, {0.0, 1.0}});
+  if (model.reflectance != Reflectance::kMetallic)
+    description.parameters.push_back({"diffuse", ParameterRole::kDiffuse, {0.0, 1.0}});
   return description;
 }
 
@@ -128,17 +141,20 @@ std::vector<LitSample> lit_samples(const Scene& scene) {
   std::vector<LitSample> samples;
   for (int row = 0; row < scene.resolution * scene.samples_per_axis; ++row) {
     for (int column = 0; column < scene.resolution * scene.samples_per_axis; ++column) {
-      SurfacePoint n;
-      if (!sphere_point(scene.resolution, (column + 0.5) * step, (row + 0.5) * step, &n)) continue;
-      double lx = light_x - n.x, ly = -n.y, lz = light_z - n.z;
+      SurfaceHit hit;
+      if (!shape_point(scene.shape, scene.resolution, (column + 0.5) * step, (row + 0.5) * step, &hit))
+        continue;
+      const SurfacePoint &p = hit.position, &n = hit.normal;
+      double lx = light_x - p.x, ly = -p.y, lz = light_z - p.z;
       const double light_distance = std::sqrt(lx * lx + ly * ly + lz * lz);
       lx /= light_distance, ly /= light_distance, lz /= light_distance;
-      double vx = -n.x, vy = -n.y, vz = kCameraDistance - n.z;
+      double vx = -p.x, vy = -p.y, vz = kCameraDistance - p.z;
       const double view_distance = std::sqrt(vx * vx + vy * vy + vz * vz);
       vx /= view_distance, vy /= view_distance, vz /= view_distance;
       const double cos_light = lx * n.x + ly * n.y + lz * n.z;
       const double cos_view = vx * n.x + vy * n.y + vz * n.z;
       if (cos_light <= 0.0 || cos_view <= 0.0) continue;
+      if (is_shadowed(scene.shape, hit, {light_x, 0.0, light_z})) continue;
       const double cos_between = lx * vx + ly * vy + lz * vz;
       const double half_length_2 = 2.0 + 2.0 * cos_between;
       const double half_length = std::sqrt(half_length_2);
@@ -187,7 +203,7 @@ void require_scene(const Scene& scene) {
 
 std::shared_ptr<const std::vector<LitSample>> BuiltinRenderer::samples_of(const Scene& scene) const {
   const std::string key = std::to_string(scene.resolution) + "/" + std::to_string(scene.samples_per_axis) +
-                          "/" + light_name(scene.light);
+                          "/" + light_name(scene.light) + "/" + shape_name(scene.shape);
   const std::lock_guard lock(mutex_);
   auto& samples = samples_[key];
   if (!samples) samples = std::make_shared<const std::vector<LitSample>>(lit_samples(scene));
@@ -200,9 +216,11 @@ std::vector<double> parameter_values(const Material& material, const ParameterDe
   if (found == material.parameters.end())
     throw Error(ErrorKind::kUsage, material.model + ": parameter " + description.name + " is missing");
   const std::vector<double>& values = found->second;
-  if (values.size() != 1 && values.size() != 3)
+  const bool one = description.grey || description.role == ParameterRole::kRoughness;
+  if (values.size() != 1 && (one || values.size() != 3))
     throw Error(ErrorKind::kUsage, material.model + ": parameter " + description.name + " has " +
-                                       std::to_string(values.size()) + " values; expected 1 or 3");
+                                       std::to_string(values.size()) + " values; expected " +
+                                       (one ? "1" : "1 or 3"));
   for (const double value : values) {
     if (description.range.contains(value)) continue;
     throw Error(ErrorKind::kUsage, material.model + ": " + description.name + " = " +
@@ -228,7 +246,16 @@ struct Channel {
   double specular = 0.0;  // scale, F0, or the index of a dielectric
   double eta = 0.0, k = 0.0;
   double diffuse = 0.0;
+  double metallic = 0.0, level = 0.0;  // of kMetallic, whose base colour stands in `specular`
 };
+
+// Base colour, metallic and specular level as diffuse and F0 (Sztrajman et al. 2019, equation 2).
+Channel layered(const Channel& metal) {
+  Channel channel = metal;
+  channel.diffuse = metal.specular * (1.0 - metal.metallic);
+  channel.specular = kDielectricF0 * metal.level * (1.0 - metal.metallic) + metal.specular * metal.metallic;
+  return channel;
+}
 
 double channel_value(const std::vector<double>& values, std::size_t channel) {
   return values[values.size() == 1 ? 0 : channel];
@@ -238,19 +265,24 @@ double channel_value(const std::vector<double>& values, std::size_t channel) {
 std::vector<Channel> channels_of(const Material& material, const ModelDescription& description,
                                  Reflectance reflectance) {
   std::vector<Channel> channels(1);
-  const auto fill = [&](ParameterRole role, double Channel::*value) {
-    if (!description.has(role)) return;
-    const std::vector<double> values = parameter_values(material, description.parameter(role));
+  const auto fill = [&](const ParameterDescription& parameter, double Channel::*value) {
+    const std::vector<double> values = parameter_values(material, parameter);
     if (values.size() > channels.size()) channels.resize(values.size(), channels.front());
     for (std::size_t c = 0; c < channels.size(); ++c) channels[c].*value = channel_value(values, c);
   };
-  fill(ParameterRole::kSpecular, &Channel::specular);
-  fill(ParameterRole::kIndex, &Channel::eta);
-  fill(ParameterRole::kExtinction, &Channel::k);
-  fill(ParameterRole::kDiffuse, &Channel::diffuse);
+  for (const ParameterDescription& parameter : description.parameters) {
+    if (parameter.role == ParameterRole::kSpecular) fill(parameter, &Channel::specular);
+    if (parameter.role == ParameterRole::kIndex) fill(parameter, &Channel::eta);
+    if (parameter.role == ParameterRole::kExtinction) fill(parameter, &Channel::k);
+    if (parameter.role == ParameterRole::kDiffuse) fill(parameter, &Channel::diffuse);
+    if (parameter.name == "metallic") fill(parameter, &Channel::metallic);
+    if (parameter.name == "specular" && parameter.role == ParameterRole::kOther)
+      fill(parameter, &Channel::level);
+  }
   for (Channel& channel : channels) {
     if (reflectance == Reflectance::kTrimmedScale) channel.specular = std::min(channel.specular, 1.0);
     if (reflectance == Reflectance::kSchlickIor) channel.specular = normal_reflectance(channel.specular);
+    if (reflectance == Reflectance::kMetallic) channel = layered(channel);
   }
   return channels;
 }
@@ -265,6 +297,7 @@ double specular_reflectance(Reflectance reflectance, double shape, double schlic
       return channel.specular * shape;
     case Reflectance::kSchlick:
     case Reflectance::kSchlickIor:
+    case Reflectance::kMetallic:
       return shape * schlick + channel.specular * (shape * (1.0 - schlick));
     case Reflectance::kDielectric:
       return shape * fresnel_dielectric(cos_light_half, channel.specular).mean();
@@ -280,8 +313,6 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
   require_known_parameters(material, description);
   const BuiltinModel* model = find_builtin(material.model);
   const auto roughness = parameter_values(material, description.parameter(ParameterRole::kRoughness));
-  if (roughness.size() != 1)
-    throw Error(ErrorKind::kUsage, material.model + ": roughness has 3 values; expected 1");
   const double alpha = remap::to_alpha(model->roughness, roughness[0]);
 
   const std::vector<Channel> channels = channels_of(material, description, model->reflectance);

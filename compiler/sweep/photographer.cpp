@@ -11,15 +11,17 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-// One value a pixel of a grey picture.
-float grey_value(const Image& image, std::size_t pixel, const std::string& model) {
-  if (image.channels == 1) return image.values[pixel];
-  const float* rgb = &image.values[3 * pixel];
-  const float tolerance = 1e-4f * std::max({rgb[0], rgb[1], rgb[2], 1e-6f});
-  if (std::fabs(rgb[0] - rgb[1]) > tolerance || std::fabs(rgb[0] - rgb[2]) > tolerance)
-    throw Error(ErrorKind::kInput,
-                model + ": the picture of a grey material has colour; expected equal channels");
-  return rgb[1];
+// Throws for a picture of another form than the scene asks for.
+void require_form(const Image& image, int resolution, const std::string& model) {
+  const auto side = static_cast<std::size_t>(resolution);
+  const bool complete = image.width == resolution && image.height == resolution &&
+                        (image.channels == 1 || image.channels == 3) &&
+                        image.values.size() == side * side * static_cast<std::size_t>(image.channels);
+  if (!complete)
+    throw Error(ErrorKind::kInput, model + ": the picture is " + std::to_string(image.width) + " x " +
+                                       std::to_string(image.height) + " with " +
+                                       std::to_string(image.channels) + " channels; expected " +
+                                       std::to_string(resolution) + " squared, 1 or 3");
 }
 
 }  // namespace
@@ -40,28 +42,35 @@ Photographer::Photographer(const Renderer& renderer, const Objective& objective,
     throw Error(ErrorKind::kUsage, "resolution: no pixel shows the sphere; expected more pixels");
 }
 
-std::vector<float> Photographer::take(const Material& material) const {
-  std::vector<float> row;
-  row.reserve(pixels_.size() * objective_.lights.size());
+std::vector<std::vector<float>> Photographer::take_channels(const Material& material) const {
+  std::vector<std::vector<float>> rows;
   for (const Light& light : objective_.lights) {
     const Image image = renderer_.render(material, Scene{resolution_, samples_per_axis_, light});
-    const auto side = static_cast<std::size_t>(resolution_);
-    const bool complete = image.width == resolution_ && image.height == resolution_ &&
-                          (image.channels == 1 || image.channels == 3) &&
-                          image.values.size() == side * side * static_cast<std::size_t>(image.channels);
-    if (!complete)
-      throw Error(ErrorKind::kInput, material.model + ": the picture is " + std::to_string(image.width) +
-                                         " x " + std::to_string(image.height) + " with " +
-                                         std::to_string(image.channels) + " channels; expected " +
-                                         std::to_string(resolution_) + " squared, 1 or 3");
-    for (const std::size_t pixel : pixels_) {
-      const float value = grey_value(image, pixel, material.model);
-      if (!std::isfinite(value))
-        throw Error(ErrorKind::kInput, material.model + ": the picture has a pixel that is not finite");
-      row.push_back(value);
-    }
+    require_form(image, resolution_, material.model);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    rows.resize(channels);
+    for (const std::size_t pixel : pixels_)
+      for (std::size_t c = 0; c < channels; ++c) {
+        const float value = image.values[channels * pixel + c];
+        if (!std::isfinite(value))
+          throw Error(ErrorKind::kInput, material.model + ": the picture has a pixel that is not finite");
+        rows[c].push_back(value);
+      }
   }
-  return row;
+  return rows;
+}
+
+std::vector<float> Photographer::take(const Material& material) const {
+  std::vector<std::vector<float>> rows = take_channels(material);
+  if (rows.size() == 1) return std::move(rows[0]);
+  for (std::size_t i = 0; i < rows[1].size(); ++i) {
+    const float red = rows[0][i], green = rows[1][i], blue = rows[2][i];
+    const float tolerance = 1e-4f * std::max({red, green, blue, 1e-6f});
+    if (std::fabs(red - green) > tolerance || std::fabs(red - blue) > tolerance)
+      throw Error(ErrorKind::kInput,
+                  material.model + ": the picture of a grey material has colour; expected equal channels");
+  }
+  return std::move(rows[1]);
 }
 
 std::vector<float> Photographer::square_picture(const std::vector<float>& row) const {
@@ -72,13 +81,16 @@ std::vector<float> Photographer::square_picture(const std::vector<float>& row) c
 }
 
 std::vector<float> Photographer::take(const ModelDescription& model, const Sitting& sitting) const {
-  return take(grey_material(model, sitting.alpha, sitting.specular, sitting.diffuse));
+  Material material = grey_material(model, sitting.alpha, sitting.specular, sitting.diffuse);
+  for (const auto& [name, value] : sitting.others) material.parameters[name] = {value};
+  return take(material);
 }
 
 std::vector<float> Photographer::take(const Subject& subject, const Sitting& sitting) const {
   const remap::Range own = subject.model.parameter(ParameterRole::kSpecular).range;
   const double specular = std::clamp(subject.response.own(sitting.specular), own.min, own.max);
-  std::vector<float> picture = take(subject.model, Sitting{sitting.alpha, specular, sitting.diffuse});
+  std::vector<float> picture =
+      take(subject.model, Sitting{sitting.alpha, specular, sitting.diffuse, sitting.others});
   if (subject.exposure != 1.0)
     for (float& value : picture) value = static_cast<float>(value * subject.exposure);
   return picture;

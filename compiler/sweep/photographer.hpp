@@ -2,6 +2,9 @@
 // one after the other as one row of floats.
 #pragma once
 
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "sweep/objective.hpp"
@@ -15,6 +18,16 @@ struct Sitting {
   double alpha = 0.0;
   double specular = 0.0;
   double diffuse = 0.0;
+  std::map<std::string, double>
+      others;  // of parameters of no role; missing ones are at their standard values
+
+  Sitting() = default;
+  Sitting(double alpha_value, double specular_value, double diffuse_value,
+          std::map<std::string, double> other_values = {})
+      : alpha(alpha_value),
+        specular(specular_value),
+        diffuse(diffuse_value),
+        others(std::move(other_values)) {}
 };
 
 // A model as a sweep photographs it: with the law that its specular parameter was found to follow, and the
@@ -46,6 +59,9 @@ class Photographer {
 
   // The same for any grey material.
   std::vector<float> take(const Material& material) const;
+
+  // The same for each channel of a material: one row where all its parameters are grey, else three.
+  std::vector<std::vector<float>> take_channels(const Material& material) const;
 
   // The picture under the first light as a square, row 0 at the top, 0 beside the sphere.
   std::vector<float> square_picture(const std::vector<float>& row) const;

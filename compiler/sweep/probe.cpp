@@ -254,6 +254,10 @@ bool probe_diffuse(const Photographer& photographer, const ModelDescription& mod
   return true;
 }
 
+bool light_matched(const ModelDescription& source, const ModelDescription& target) {
+  return source.has(ParameterRole::kDiffuse) && target.has(ParameterRole::kDiffuse);
+}
+
 DiffuseMatch match_diffuse(const Photographer& photographer, const ModelDescription& source,
                            const ModelDescription& target) {
   const auto diffuse_picture = [&](const ModelDescription& model) {

@@ -64,6 +64,10 @@ struct DiffuseMatch {
   double scale = 1.0;
   double error = 0.0;
 };
+// Whether the light of two models can be compared so; where one has no diffuse parameter it counts as the
+// same.
+bool light_matched(const ModelDescription& source, const ModelDescription& target);
+
 DiffuseMatch match_diffuse(const Photographer& photographer, const ModelDescription& source,
                            const ModelDescription& target);
 

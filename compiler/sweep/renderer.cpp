@@ -48,6 +48,16 @@ const ParameterDescription& ModelDescription::parameter(ParameterRole role) cons
                                                    "; expected a model with one (remapc list --models)");
 }
 
+const ParameterDescription& ModelDescription::parameter(const std::string& parameter_name) const {
+  std::vector<std::string> names;
+  for (const ParameterDescription& description : parameters) {
+    if (description.name == parameter_name) return description;
+    names.push_back(description.name);
+  }
+  throw remap::Error(remap::ErrorKind::kUsage, name + ": has no parameter " + parameter_name +
+                                                   remap::suggestion(parameter_name, names));
+}
+
 std::string Renderer::version_of(const std::string&) const { return version(); }
 
 ModelDescription Renderer::model(const std::string& name) const {

@@ -32,6 +32,7 @@ struct ParameterDescription {
   ParameterRole role = ParameterRole::kSpecular;
   remap::Range range;     // values the renderer accepts, in the parameter's own unit
   double standard = 0.0;  // of kOther
+  bool grey = false;      // takes one value, never three
 };
 
 struct ModelDescription {
@@ -46,6 +47,8 @@ struct ModelDescription {
   bool has(ParameterRole role) const;
   // Throws kUsage where it has none.
   const ParameterDescription& parameter(ParameterRole role) const;
+  // Throws kUsage with the nearest known name.
+  const ParameterDescription& parameter(const std::string& parameter_name) const;
 };
 
 // A model with values for its parameters: one value for a grey parameter, three for red, green, blue.

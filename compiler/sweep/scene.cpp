@@ -13,11 +13,16 @@ std::string light_name(const Light& light) {
   return name;
 }
 
-bool sphere_point(int resolution, double column, double row, SurfacePoint* point) {
+SurfacePoint camera_ray(int resolution, double column, double row) {
   // tan of the half field of view whose edge touches the sphere: asin(1 / distance).
   const double half_extent = 1.0 / std::sqrt(kCameraDistance * kCameraDistance - 1.0);
-  const double dx = (2.0 * column / resolution - 1.0) * half_extent;
-  const double dy = (1.0 - 2.0 * row / resolution) * half_extent;
+  return {(2.0 * column / resolution - 1.0) * half_extent, (1.0 - 2.0 * row / resolution) * half_extent,
+          -1.0};
+}
+
+bool sphere_point(int resolution, double column, double row, SurfacePoint* point) {
+  const SurfacePoint ray = camera_ray(resolution, column, row);
+  const double dx = ray.x, dy = ray.y;
   // Ray (0, 0, d) + t (dx, dy, -1) against x^2 + y^2 + z^2 = 1; the smaller root.
   const double a = dx * dx + dy * dy + 1.0;
   const double b = kCameraDistance;

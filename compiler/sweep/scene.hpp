@@ -17,12 +17,16 @@ struct Light {
   bool operator==(const Light&) const = default;
 };
 
+// What the camera sees (shape.hpp). Sweeps are of the sphere.
+enum class Shape { kSphere, kTorus };
+
 // One picture to take. `samples_per_axis` = 1 samples pixel centres; N averages an N x N grid in each pixel.
 struct Scene {
   int resolution = 512;  // width and height in pixels
   int samples_per_axis = 1;
   Light light;
   int seed = 0;  // of renderers with noise
+  Shape shape = Shape::kSphere;
   bool operator==(const Scene&) const = default;
 };
 
@@ -33,6 +37,10 @@ std::string light_name(const Light& light);
 struct SurfacePoint {
   double x, y, z;  // position on the unit sphere, which is also the normal
 };
+
+// Direction, not normalised, of the ray from the camera through the image at (column, row), in pixels from
+// the top left corner.
+SurfacePoint camera_ray(int resolution, double column, double row);
 
 // Where the ray through the image at (column + u, row + v), in pixels from the top left corner, meets the
 // sphere. False where it misses.

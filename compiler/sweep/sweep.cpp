@@ -11,6 +11,7 @@
 #include "sweep/block_match.hpp"
 #include "sweep/joint_match.hpp"
 #include "sweep/photographer.hpp"
+#include "sweep/provenance.hpp"
 #include "sweep/spheres.hpp"
 #include "sweep/target_bank.hpp"
 #include "table/domain.hpp"
@@ -53,8 +54,10 @@ void require_options(const SweepOptions& options, const ModelDescription& source
   if (options.stages < 1 || options.stages > 3)
     throw Error(ErrorKind::kUsage, "stages: " + std::to_string(options.stages) + "; expected 1, 2 or 3");
   if (!has_diffuse(options)) return;
-  const Range diffuses = source.parameter(ParameterRole::kDiffuse).range;
   target.parameter(ParameterRole::kDiffuse);  // throws where there is none to match
+  // The diffuse light of a source may have no parameter of its own: one base colour for all.
+  if (options.stages == 1 && options.diffuse == 0.0 && !source.has(ParameterRole::kDiffuse)) return;
+  const Range diffuses = source.parameter(ParameterRole::kDiffuse).range;
   if (!diffuses.contains(options.diffuse))
     throw Error(ErrorKind::kUsage, source.name + ": diffuse " + number_text(options.diffuse) + "; expected " +
                                        range_text(diffuses));
@@ -89,32 +92,6 @@ std::vector<TableRow> rounded(std::vector<TableRow> rows) {
   return rows;
 }
 
-std::string yes_no(bool value) { return value ? "yes" : "no"; }
-
-std::string lights_text(const std::vector<Light>& lights) {
-  std::string text;
-  for (const Light& light : lights) text += (text.empty() ? "" : ",") + light_name(light);
-  return text;
-}
-
-// What the table says of one side: the model, its parameters, and the law that its specular follows.
-void add_side(const std::string& role, const Subject& subject, Table* table) {
-  const remap::ModelSide side = model_side(subject.model);
-  const SpecularResponse& response = subject.response;
-  auto& comments = table->comments;
-  comments.emplace_back(role, side.model);
-  comments.emplace_back(role + "_roughness", std::string(remap::convention_name(side.roughness)));
-  comments.emplace_back(role + "_specular", side.specular);
-  comments.emplace_back(role + "_specular_proportional", yes_no(response.proportional()));
-  comments.emplace_back(role + "_specular_law", std::string(law_name(response.law)));
-  if (response.law == SpecularLaw::kIor) comments.emplace_back(role + "_specular_column", "f0");
-  if (!subject.curve.empty())
-    comments.emplace_back(role + "_specular_interpolated",
-                          std::to_string(subject.curve.size()) + " pictures a width");
-  if (response.law == SpecularLaw::kClamped)
-    comments.emplace_back(role + "_specular_knee", number_text(response.knee));
-}
-
 // What the columns of a side hold.
 remap::ModelSide column_side(const Subject& subject) {
   remap::ModelSide side = model_side(subject.model);
@@ -140,12 +117,6 @@ void add_stages(const SweepSetup& setup, Table* table) {
   comments.emplace_back("diffuse_error", number_text(remap::rounded_up(setup.diffuse.error, 2)));
 }
 
-std::string versions_text(const Renderer& renderer, const SweepOptions& options) {
-  const std::string source = renderer.version_of(options.source),
-                    target = renderer.version_of(options.target);
-  return source == target ? source : source + "; " + target;
-}
-
 Table empty_table(const Renderer& renderer, const SweepSetup& setup) {
   const SweepOptions& options = setup.options;
   Table table;
@@ -153,27 +124,13 @@ Table empty_table(const Renderer& renderer, const SweepSetup& setup) {
   table.target = column_side(setup.target);
   table.has_diffuse = has_diffuse(options);
   table.comments = {{"tool", std::string("remapc ") + remap::kVersion}};
-  add_side("source", setup.source, &table);
-  add_side("target", setup.target, &table);
-  table.comments.emplace_back("renderer", versions_text(renderer, options));
-  table.comments.emplace_back("objective", options.objective_name);
-  table.comments.emplace_back("lights", lights_text(options.objective.lights));
-  table.comments.emplace_back("weighting", weighting_name(options.objective.weighting));
-  if (options.objective.weighting == Weighting::kRelative)
-    table.comments.emplace_back("weighting_floor", number_text(options.objective.floor));
+  add_side("source", setup.source, &table.comments);
+  add_side("target", setup.target, &table.comments);
+  add_comparison(renderer, options, &table.comments);
   add_stages(setup, &table);
-  table.comments.emplace_back("resolution", std::to_string(options.resolution));
-  table.comments.emplace_back("pixel_samples", std::to_string(options.samples_per_axis) + "x" +
-                                                   std::to_string(options.samples_per_axis));
-  table.comments.emplace_back("subpixel_alpha",
-                              number_text(subpixel_alpha(options.resolution, options.samples_per_axis)));
+  add_resolution(options, &table.comments);
   table.comments.emplace_back("samples", options.sampling);
   return table;
-}
-
-// Light is compared by diffuse-only pictures; where a model has no diffuse parameter it counts as the same.
-bool light_matched(const ModelDescription& source, const ModelDescription& target) {
-  return source.has(ParameterRole::kDiffuse) && target.has(ParameterRole::kDiffuse);
 }
 
 // Probes both models, matches their light, and makes what the blocks need.
@@ -245,8 +202,8 @@ double subpixel_alpha(int resolution, int samples_per_axis) {
 
 Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution,
                 const std::filesystem::path& journal_path, bool resume) {
-  const ModelDescription source = find_model(renderer, options.source);
-  const ModelDescription target = find_model(renderer, options.target);
+  const ModelDescription source = recast(find_model(renderer, options.source), options.source_casting);
+  const ModelDescription target = recast(find_model(renderer, options.target), options.target_casting);
   require_options(options, source, target);
   require_alphas(options, source);
   const Photographer photographer(renderer, options.objective, options.resolution, options.samples_per_axis);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sweep/casting.hpp"
 #include "sweep/objective.hpp"
 #include "sweep/renderer.hpp"
 #include "table/table.hpp"
@@ -19,19 +20,24 @@ struct SamplePoint {
   double specular = 0.0;  // canonical (probe.hpp)
 };
 
-// What a sweep computes. Every field is recorded in the table's comments.
-struct SweepOptions {
+// Two models, and how their pictures are compared.
+struct PairOptions {
   std::string source;
   std::string target;
+  Casting source_casting, target_casting;
   Objective objective;
   std::string objective_name;  // preset, or `custom` where parts of it were changed
   int resolution = 512;
   int samples_per_axis = 1;
+  bool match_irradiance = true;
+};
+
+// What a sweep computes. Every field is recorded in the table's comments.
+struct SweepOptions : PairOptions {
   std::string sampling;              // how the samples were chosen, in words
   std::vector<SamplePoint> samples;  // in the order of the table; specular canonical
   int stages = 2;                    // 1, 2 or 3 (section 3.1)
   double diffuse = 0.0;              // of the source, for every sample
-  bool match_irradiance = true;
 };
 
 // How a sweep is carried out. Nothing of it changes the table.

@@ -41,24 +41,58 @@ void add_scaled(double factor, const float* values, std::size_t count, Block* su
 
 }  // namespace
 
+TargetPictures::TargetPictures(const Subject& target, const Range& alphas,
+                               const std::vector<std::string>& others) {
+  const ModelDescription& model = target.model;
+  const bool grey_diffuse =
+      model.has(ParameterRole::kDiffuse) && model.parameter(ParameterRole::kDiffuse).grey;
+  coordinates_ = {{"", alphas, true},
+                  {"", target.linear_range(), model.parameter(ParameterRole::kSpecular).grey},
+                  {"", target.diffuse_range(), grey_diffuse}};
+  for (const std::string& name : others)
+    coordinates_.push_back({name, model.parameter(name).range, model.parameter(name).grey});
+}
+
+double TargetPictures::value(const Sitting& point, std::size_t coordinate) const {
+  if (coordinate == kAlphaCoordinate) return point.alpha;
+  if (coordinate == kSpecularCoordinate) return point.specular;
+  if (coordinate == kDiffuseCoordinate) return point.diffuse;
+  return point.others.at(coordinates_[coordinate].name);
+}
+
+void TargetPictures::set_value(Sitting* point, std::size_t coordinate, double value) const {
+  if (coordinate == kAlphaCoordinate) point->alpha = value;
+  if (coordinate == kSpecularCoordinate) point->specular = value;
+  if (coordinate == kDiffuseCoordinate) point->diffuse = value;
+  if (coordinate > kDiffuseCoordinate) point->others[coordinates_[coordinate].name] = value;
+}
+
 BankPictures::BankPictures(const Photographer& photographer, const Subject& target, const TargetBank& bank)
-    : bank_(bank),
-      black_base_(target.response.proportional()),
-      alphas_{bank.alpha(0), bank.alpha(bank.size() - 1)},
-      speculars_(target.linear_range()),
-      diffuses_(target.diffuse_range()) {
-  const std::vector<float> dark = photographer.take(target, {alphas_.max, speculars_.min, diffuses_.min});
-  diffuse_ = photographer.take(target, {alphas_.max, speculars_.min, diffuses_.max});
-  const double scale = 1.0 / (diffuses_.max - diffuses_.min);
+    : TargetPictures(target, {bank.alpha(0), bank.alpha(bank.size() - 1)}, {}),
+      bank_(bank),
+      black_base_(target.response.proportional()) {
+  const Range diffuses = target.diffuse_range();
+  if (!(diffuses.max > diffuses.min)) {
+    diffuse_.resize(bank.entry(bank.size() - 1).slope.size());
+    return;
+  }
+  const Sitting lit{bank.alpha(bank.size() - 1), target.linear_range().min, diffuses.max};
+  Sitting unlit = lit;
+  unlit.diffuse = diffuses.min;
+  diffuse_ = photographer.take(target, lit);
+  const std::vector<float> dark = photographer.take(target, unlit);
+  const double scale = 1.0 / (diffuses.max - diffuses.min);
   for (std::size_t i = 0; i < dark.size(); ++i)
     diffuse_[i] = static_cast<float>((static_cast<double>(diffuse_[i]) - dark[i]) * scale);
 }
 
-PictureTangents BankPictures::at(const Sitting& point, bool with_diffuse) const {
+PictureTangents BankPictures::at(const Sitting& point, const std::vector<bool>& wanted) const {
   const Window window = Window::around(bank_, point.alpha);
   const std::size_t pixels = diffuse_.size();
-  PictureTangents result{std::vector<float>(pixels), std::vector<float>(pixels), std::vector<float>(pixels),
-                         with_diffuse ? diffuse_ : std::vector<float>()};
+  PictureTangents result{std::vector<float>(pixels),
+                         {std::vector<float>(pixels), std::vector<float>(pixels),
+                          wanted[kDiffuseCoordinate] ? diffuse_ : std::vector<float>()}};
+  std::vector<float>&by_alpha = result.by[kAlphaCoordinate], &by_specular = result.by[kSpecularCoordinate];
   std::array<const BankEntry*, kInterpolationNodes> entries{};
   for (std::size_t i = 0; i < kInterpolationNodes; ++i) entries[i] = &bank_.entry(window.first + i);
   for (std::size_t start = 0; start < pixels; start += kBlockPixels) {
@@ -74,39 +108,36 @@ PictureTangents BankPictures::at(const Sitting& point, bool with_diffuse) const 
     for (std::size_t i = 0; i < count; ++i) {
       result.picture[start + i] =
           static_cast<float>(base[i] + point.specular * slope[i] + point.diffuse * diffuse_[start + i]);
-      result.by_specular[start + i] = static_cast<float>(slope[i]);
-      result.by_alpha[start + i] =
-          static_cast<float>((base_rise[i] + point.specular * slope_rise[i]) / point.alpha);
+      by_specular[start + i] = static_cast<float>(slope[i]);
+      by_alpha[start + i] = static_cast<float>((base_rise[i] + point.specular * slope_rise[i]) / point.alpha);
     }
   }
   return result;
 }
 
 RenderedPictures::RenderedPictures(const Photographer& photographer, const Subject& target,
-                                   const Range& alphas)
-    : photographer_(photographer),
-      target_(target),
-      alphas_(alphas),
-      speculars_(target.linear_range()),
-      diffuses_(target.diffuse_range()) {}
+                                   const Range& alphas, const std::vector<std::string>& others)
+    : TargetPictures(target, alphas, others), photographer_(photographer), target_(target) {}
 
-PictureTangents RenderedPictures::at(const Sitting& point, bool with_diffuse) const {
-  const auto derivative = [&](double Sitting::*parameter, const Range& range, double step) {
-    Sitting low = point, high = point;
-    low.*parameter = std::max(range.min, point.*parameter - step);
-    high.*parameter = std::min(range.max, point.*parameter + step);
-    std::vector<float> rise = photographer_.take(target_, high);
-    const std::vector<float> from = photographer_.take(target_, low);
-    const double scale = 1.0 / (high.*parameter - low.*parameter);
+PictureTangents RenderedPictures::at(const Sitting& point, const std::vector<bool>& wanted) const {
+  PictureTangents result{photographer_.take(target_, point), {}};
+  for (std::size_t c = 0; c < coordinates().size(); ++c) {
+    result.by.emplace_back();
+    if (!wanted[c]) continue;
+    const Range& range = coordinates()[c].range;
+    const double at = value(point, c);
+    const double step = kDifferenceStep * (c == kAlphaCoordinate ? at : range.max - range.min);
+    const double low = std::max(range.min, at - step), high = std::min(range.max, at + step);
+    Sitting moved = point;
+    set_value(&moved, c, low);
+    const std::vector<float> from = photographer_.take(target_, moved);
+    set_value(&moved, c, high);
+    std::vector<float>& rise = result.by.back();
+    rise = photographer_.take(target_, moved);
     for (std::size_t i = 0; i < rise.size(); ++i)
-      rise[i] = static_cast<float>((static_cast<double>(rise[i]) - from[i]) * scale);
-    return rise;
-  };
-  const auto share = [](const Range& range) { return kDifferenceStep * (range.max - range.min); };
-  return {photographer_.take(target_, point),
-          derivative(&Sitting::alpha, alphas_, kDifferenceStep * point.alpha),
-          derivative(&Sitting::specular, speculars_, share(speculars_)),
-          with_diffuse ? derivative(&Sitting::diffuse, diffuses_, share(diffuses_)) : std::vector<float>()};
+      rise[i] = static_cast<float>((static_cast<double>(rise[i]) - from[i]) / (high - low));
+  }
+  return result;
 }
 
 }  // namespace remapc

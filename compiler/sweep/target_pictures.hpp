@@ -2,32 +2,45 @@
 // asks for. From the bank where the target is affine, from renders where it is not.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sweep/target_bank.hpp"
 
 namespace remapc {
 
-// A picture and its derivatives by alpha, by canonical specular and by diffuse; floats as
-// Photographer::take gives them.
+// One parameter that a match turns: alpha, canonical specular, diffuse, then others by name.
+struct Coordinate {
+  std::string name;     // of others
+  remap::Range range;   // that `at` answers for; a single value where the target has no such parameter
+  bool shared = false;  // one value for all colour channels
+};
+
+inline constexpr std::size_t kAlphaCoordinate = 0, kSpecularCoordinate = 1, kDiffuseCoordinate = 2;
+
+// A picture and its derivatives, one for each coordinate; floats as Photographer::take gives them.
 struct PictureTangents {
   std::vector<float> picture;
-  std::vector<float> by_alpha;
-  std::vector<float> by_specular;
-  std::vector<float> by_diffuse;
+  std::vector<std::vector<float>> by;  // empty where not asked for
 };
 
 class TargetPictures {
  public:
   virtual ~TargetPictures() = default;
 
-  // Ranges that `at` answers for, canonical.
-  virtual const remap::Range& alphas() const = 0;
-  virtual const remap::Range& speculars() const = 0;
-  virtual const remap::Range& diffuses() const = 0;
+  const std::vector<Coordinate>& coordinates() const { return coordinates_; }
+  double value(const Sitting& point, std::size_t coordinate) const;
+  void set_value(Sitting* point, std::size_t coordinate, double value) const;
 
-  // `with_diffuse` false leaves by_diffuse empty. Safe from many threads.
-  virtual PictureTangents at(const Sitting& point, bool with_diffuse) const = 0;
+  // `wanted`: by which coordinates it is differentiated. Safe from many threads.
+  virtual PictureTangents at(const Sitting& point, const std::vector<bool>& wanted) const = 0;
+
+ protected:
+  // Width, specular and diffuse of `target`, and those of its parameters that `others` names.
+  TargetPictures(const Subject& target, const remap::Range& alphas, const std::vector<std::string>& others);
+
+ private:
+  std::vector<Coordinate> coordinates_;
 };
 
 // Pictures of a target that is affine in specular and to which diffuse adds (probe.hpp), interpolated between
@@ -36,33 +49,27 @@ class BankPictures final : public TargetPictures {
  public:
   BankPictures(const Photographer& photographer, const Subject& target, const TargetBank& bank);
 
-  const remap::Range& alphas() const override { return alphas_; }
-  const remap::Range& speculars() const override { return speculars_; }
-  const remap::Range& diffuses() const override { return diffuses_; }
-  PictureTangents at(const Sitting& point, bool with_diffuse) const override;
+  PictureTangents at(const Sitting& point, const std::vector<bool>& wanted) const override;
 
  private:
   const TargetBank& bank_;
   bool black_base_;
-  remap::Range alphas_, speculars_, diffuses_;
   std::vector<float> diffuse_;  // what diffuse 1 adds
 };
 
 // Pictures of any target, rendered, with derivatives by central differences (one-sided at the ends of a
-// range): seven renders a point.
+// range): two renders a coordinate and one for the point. `others`: parameters of no role that the match
+// turns.
 class RenderedPictures final : public TargetPictures {
  public:
-  RenderedPictures(const Photographer& photographer, const Subject& target, const remap::Range& alphas);
+  RenderedPictures(const Photographer& photographer, const Subject& target, const remap::Range& alphas,
+                   const std::vector<std::string>& others = {});
 
-  const remap::Range& alphas() const override { return alphas_; }
-  const remap::Range& speculars() const override { return speculars_; }
-  const remap::Range& diffuses() const override { return diffuses_; }
-  PictureTangents at(const Sitting& point, bool with_diffuse) const override;
+  PictureTangents at(const Sitting& point, const std::vector<bool>& wanted) const override;
 
  private:
   const Photographer& photographer_;
   Subject target_;
-  remap::Range alphas_, speculars_, diffuses_;
 };
 
 }  // namespace remapc

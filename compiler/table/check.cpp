@@ -218,8 +218,8 @@ std::string_view severity_name(Severity severity) {
   return "note";
 }
 
-std::string finding_text(const Table& table, const Finding& finding) {
-  const std::string place = finding.line == 0 ? table.name : table.name + ":" + std::to_string(finding.line);
+std::string finding_text(const std::string& name, const Finding& finding) {
+  const std::string place = finding.line == 0 ? name : name + ":" + std::to_string(finding.line);
   return place + ": " + std::string(severity_name(finding.severity)) + ": " + finding.kind + ": " +
          finding.message;
 }

@@ -27,8 +27,8 @@ std::vector<Finding> check_table(const Table& table);
 
 std::string_view severity_name(Severity severity);
 
-// `name:line: kind: message`, or without line.
-std::string finding_text(const Table& table, const Finding& finding);
+// `name:line: kind: message`, or without line; `name` is the table's.
+std::string finding_text(const std::string& name, const Finding& finding);
 
 // Throws kInput with the first error, and how many more there are, where the table cannot be fitted.
 void require_fittable(const Table& table);

@@ -8,6 +8,8 @@
 #include "files.hpp"
 #include "nearest_name.hpp"
 #include "number_text.hpp"
+#include "table/csv.hpp"
+#include "table/named_table.hpp"
 
 namespace remapc {
 namespace {
@@ -22,163 +24,79 @@ const std::array<std::string, 8> kColumns = {"alpha1",   "specular1", "alpha2", 
 constexpr std::size_t kRequiredColumns = 4;
 constexpr std::size_t kDiffuse1 = 4, kDiffuse2 = 5, kError = 6, kStatus = 7;
 
-// A field of a line with its place, 1-based, for messages.
-struct Cell {
-  std::string_view text;
-  std::size_t column = 1;
-};
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '"')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '"' || text.back() == '\r'))
-    text.remove_suffix(1);
-  return text;
-}
-
-std::vector<Cell> split_line(std::string_view line, char delimiter) {
-  std::vector<Cell> cells;
-  std::size_t start = 0;
-  for (;;) {
-    const std::size_t end = std::min(line.find(delimiter, start), line.size());
-    cells.push_back({trimmed(line.substr(start, end - start)), start + 1});
-    if (end == line.size()) return cells;
-    start = end + 1;
-  }
-}
-
-// The delimiter that splits the header row into most cells; comma where there is none.
-char detect_delimiter(std::string_view header) {
-  char best = ',';
-  std::size_t most = 0;
-  for (const char candidate : {',', '\t', ';'}) {
-    const auto count = static_cast<std::size_t>(std::count(header.begin(), header.end(), candidate));
-    if (count > most) {
-      best = candidate;
-      most = count;
-    }
-  }
-  return best;
-}
-
 // Reads one table; a class so that every complaint can name the place.
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& name, const ColumnMap& map) : text_(text), map_(map) {
-    table_.name = name;
-  }
+  Reader(std::string_view text, const std::string& name, const ColumnMap& map)
+      : csv_(parse_csv(text, name)), map_(map) {}
 
   Table read() {
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // byte order mark
-    std::string_view line;
-    while (next_line(&line) && !read_preamble(line)) {
-    }
-    if (places_.empty())
-      throw Error(ErrorKind::kInput, table_.name + ": has no header row; expected a CSV table");
-    while (next_line(&line))
-      if (!trimmed(line).empty()) read_row(line);
-    if (table_.rows.empty()) fail(1, "the table has no rows");
+    table_.name = csv_.name;
+    table_.comments = csv_.comments;
+    find_columns();
+    for (const CsvLine& line : csv_.lines) read_row(line);
     table_.source = side("source", map_.source);
     table_.target = side("target", map_.target);
     return std::move(table_);
   }
 
  private:
-  [[noreturn]] void fail(std::size_t column, const std::string& what) const {
-    throw Error(ErrorKind::kInput, table_.name + ":" + std::to_string(line_number_) + ":" +
-                                       std::to_string(column) + ": " + what);
-  }
-
-  bool next_line(std::string_view* line) {
-    if (text_.empty()) return false;
-    const std::size_t end = text_.find('\n');
-    *line = text_.substr(0, end);
-    text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
-    ++line_number_;
-    return true;
-  }
-
-  // Takes a comment or, as the last line before the rows, the header. True after the header.
-  bool read_preamble(std::string_view line) {
-    if (trimmed(line).empty()) return false;
-    if (line.front() == '#') {
-      const std::size_t colon = line.find(": ");
-      if (colon != std::string_view::npos)
-        table_.comments.emplace_back(trimmed(line.substr(1, colon - 1)), trimmed(line.substr(colon + 2)));
-      return false;
-    }
-    read_header(line);
-    return true;
-  }
-
-  void read_header(std::string_view line) {
-    delimiter_ = detect_delimiter(line);
-    const std::vector<Cell> cells = split_line(line, delimiter_);
-    cell_count_ = cells.size();
-    places_.assign(kColumns.size(), kMissing);
+  void find_columns() {
+    const std::vector<CsvCell>& cells = csv_.header.cells;
     std::vector<std::string> found;
-    for (const Cell& cell : cells) found.emplace_back(cell.text);
+    for (const CsvCell& cell : cells) found.emplace_back(cell.text);
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
       const auto renamed = map_.columns.find(kColumns[i]);
       const std::string& wanted = renamed == map_.columns.end() ? kColumns[i] : renamed->second;
       for (std::size_t j = 0; j < cells.size(); ++j)
         if (cells[j].text == wanted) places_[i] = j;
-      if (places_[i] != kMissing || i >= kRequiredColumns) continue;
-      if (cells.size() == 1)
-        fail(1, "the header row is one column, \"" + found[0] +
-                    "\"; expected columns parted by comma, tab or semicolon");
-      fail(1, "has no column " + wanted + remap::suggestion(wanted, found));
+      if (places_[i] == kMissing && i < kRequiredColumns) fail_without(wanted, found);
     }
     const bool source = places_[kDiffuse1] != kMissing, target = places_[kDiffuse2] != kMissing;
     if (source != target)
-      fail(1, "has a column " + kColumns[source ? kDiffuse1 : kDiffuse2] + " but no " +
-                  kColumns[source ? kDiffuse2 : kDiffuse1] + "; expected both or neither");
+      csv_.fail(csv_.header.number, 1,
+                "has a column " + kColumns[source ? kDiffuse1 : kDiffuse2] + " but no " +
+                    kColumns[source ? kDiffuse2 : kDiffuse1] + "; expected both or neither");
     table_.has_diffuse = source;
   }
 
-  double number(const Cell& cell, const std::string& name) const {
-    const auto value = remap::parse_number(cell.text);
-    if (!value) fail(cell.column, name + " is \"" + std::string(cell.text) + "\"; expected a number");
-    return *value;
+  [[noreturn]] void fail_without(const std::string& wanted, const std::vector<std::string>& found) const {
+    if (const std::string columns = csv_.comment(kSourceColumnsComment); !columns.empty())
+      csv_.fail(csv_.header.number, 1,
+                "is a table of named parameters (" + columns +
+                    "), which this command cannot use; expected the columns alpha1, specular1, alpha2, "
+                    "specular2 of remapc sweep");
+    if (found.size() == 1)
+      csv_.fail(csv_.header.number, 1,
+                "the header row is one column, \"" + found[0] +
+                    "\"; expected columns parted by comma, tab or semicolon");
+    csv_.fail(csv_.header.number, 1, "has no column " + wanted + remap::suggestion(wanted, found));
   }
 
-  RowStatus status(const Cell& cell) const {
-    for (const RowStatus status : kStatuses)
-      if (status_name(status) == cell.text) return status;
-    fail(cell.column, "status is \"" + std::string(cell.text) + "\"; expected ok, clamped, flat or unstable");
-  }
-
-  void read_row(std::string_view line) {
-    const std::vector<Cell> cells = split_line(line, delimiter_);
-    if (cells.size() != cell_count_)
-      fail(1, "the row has " + std::to_string(cells.size()) + " columns; expected " +
-                  std::to_string(cell_count_) + " as in the header");
+  void read_row(const CsvLine& line) {
+    const auto number = [&](std::size_t column) {
+      return csv_.number(line, line.cells[places_[column]], kColumns[column]);
+    };
     TableRow row;
-    row.line = line_number_;
-    row.alpha1 = number(cells[places_[0]], kColumns[0]);
-    row.specular1 = number(cells[places_[1]], kColumns[1]);
-    row.alpha2 = number(cells[places_[2]], kColumns[2]);
-    row.specular2 = number(cells[places_[3]], kColumns[3]);
+    row.line = line.number;
+    row.alpha1 = number(0);
+    row.specular1 = number(1);
+    row.alpha2 = number(2);
+    row.specular2 = number(3);
     if (table_.has_diffuse) {
-      row.diffuse1 = number(cells[places_[kDiffuse1]], kColumns[kDiffuse1]);
-      row.diffuse2 = number(cells[places_[kDiffuse2]], kColumns[kDiffuse2]);
+      row.diffuse1 = number(kDiffuse1);
+      row.diffuse2 = number(kDiffuse2);
     }
-    row.error = places_[kError] == kMissing ? std::numeric_limits<double>::quiet_NaN()
-                                            : number(cells[places_[kError]], kColumns[kError]);
-    if (places_[kStatus] != kMissing) row.status = status(cells[places_[kStatus]]);
+    row.error = places_[kError] == kMissing ? std::numeric_limits<double>::quiet_NaN() : number(kError);
+    if (places_[kStatus] != kMissing) row.status = read_status(csv_, line, line.cells[places_[kStatus]]);
     table_.rows.push_back(row);
-  }
-
-  std::string comment(const std::string& key) const {
-    for (const auto& [name, value] : table_.comments)
-      if (name == key) return value;
-    return "";
   }
 
   remap::ModelSide side(const std::string& role, const remap::ModelSide& given) const {
     if (!given.model.empty()) return given;
     remap::ModelSide side;
-    side.model = comment(role);
-    if (const std::string text = comment(role + "_roughness"); !text.empty()) {
+    side.model = csv_.comment(role);
+    if (const std::string text = csv_.comment(role + "_roughness"); !text.empty()) {
       const auto convention = remap::convention_from_name(text);
       if (!convention)
         throw Error(ErrorKind::kInput, table_.name + ": " + role + "_roughness is \"" + text + "\"" +
@@ -186,19 +104,16 @@ class Reader {
       side.roughness = *convention;
     }
     for (const char* suffix : {"_specular", "_specular_column"})
-      if (const std::string text = comment(role + suffix); !text.empty()) side.specular = text;
+      if (const std::string text = csv_.comment(role + suffix); !text.empty()) side.specular = text;
     return side;
   }
 
   static constexpr std::size_t kMissing = std::numeric_limits<std::size_t>::max();
 
-  std::string_view text_;
+  const Csv csv_;
   const ColumnMap& map_;
   Table table_;
-  std::size_t line_number_ = 0;
-  char delimiter_ = ',';
-  std::size_t cell_count_ = 0;
-  std::vector<std::size_t> places_;  // for each of kColumns, its cell in a row
+  std::vector<std::size_t> places_ = std::vector<std::size_t>(kColumns.size(), kMissing);
 };
 
 }  // namespace
@@ -217,6 +132,13 @@ std::string_view status_name(RowStatus status) {
   return "ok";
 }
 
+RowStatus read_status(const Csv& csv, const CsvLine& line, const CsvCell& cell) {
+  for (const RowStatus status : kStatuses)
+    if (status_name(status) == cell.text) return status;
+  csv.fail(line.number, cell.column,
+           "status is \"" + std::string(cell.text) + "\"; expected ok, clamped, flat or unstable");
+}
+
 ColumnMap column_map(const std::string& text) {
   ColumnMap map;
   if (text == "sztrajman-2019") {
@@ -230,7 +152,7 @@ ColumnMap column_map(const std::string& text) {
     throw Error(ErrorKind::kUsage, "columns: " + text + " is neither a preset nor own=file pairs" +
                                        remap::suggestion(text, presets));
   }
-  for (const Cell& cell : split_line(text, ',')) {
+  for (const CsvCell& cell : split_csv_line(text, ',')) {
     const std::size_t equals = cell.text.find('=');
     const std::string own(cell.text.substr(0, equals));
     if (equals == std::string_view::npos ||

@@ -14,6 +14,10 @@
 
 namespace remapc {
 
+struct Csv;
+struct CsvLine;
+struct CsvCell;
+
 // How far a row can be trusted. Fits use kOk rows only.
 enum class RowStatus {
   kOk,
@@ -23,6 +27,9 @@ enum class RowStatus {
 };
 
 std::string_view status_name(RowStatus status);
+
+// The status in a cell of `line`. Throws kInput with its place for another word.
+RowStatus read_status(const Csv& csv, const CsvLine& line, const CsvCell& cell);
 
 struct TableRow {
   double alpha1 = 0.0;     // source width, canonical

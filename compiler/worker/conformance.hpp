@@ -9,6 +9,7 @@
 
 namespace remapc {
 
+// Not Finding, which is that of tables (table/check.hpp).
 struct WorkerFinding {
   enum class Verdict {
     kGood,

@@ -9,6 +9,7 @@
 #include "error.hpp"
 #include "json_field.hpp"
 #include "number_text.hpp"
+#include "sweep/shape.hpp"
 
 namespace remapc {
 namespace {
@@ -24,7 +25,7 @@ double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
 ordered_json scene_json(const Scene& scene) {
   const double angle = scene.light.angle * std::numbers::pi / 180.0, distance = scene.light.distance;
-  return {
+  ordered_json json = {
       {"resolution", scene.resolution},
       {"samples_per_axis", scene.samples_per_axis},
       {"camera", {{"distance", kCameraDistance}, {"half_angle", degrees(std::asin(1.0 / kCameraDistance))}}},
@@ -33,6 +34,8 @@ ordered_json scene_json(const Scene& scene) {
         {"distance", distance},
         {"position", {distance * std::sin(angle), 0.0, distance * std::cos(angle)}},
         {"intensity", 1.0}}}};
+  if (scene.shape != Shape::kSphere) json["shape"] = shape_name(scene.shape);
+  return json;
 }
 
 std::string shown_request(const Material& material, const Scene& scene) {
@@ -45,6 +48,7 @@ std::string shown_request(const Material& material, const Scene& scene) {
   }
   const std::string side = std::to_string(scene.resolution);
   text += scene.light.angle == 0.0 ? light_name(scene.light) : "light " + light_name(scene.light);
+  if (scene.shape != Shape::kSphere) text += ", " + shape_name(scene.shape);
   return text + ", " + side + " x " + side + (scene.seed == 0 ? "" : ", seed " + std::to_string(scene.seed));
 }
 
@@ -71,6 +75,10 @@ ParameterDescription read_parameter(const Field& field, RoughnessConvention* con
   if (parameter.role == ParameterRole::kOther) {
     parameter.standard = field["default"].number();
     field["default"].require(parameter.range.contains(parameter.standard), "a number of the range");
+  }
+  if (field.json().contains("grey")) {
+    field["grey"].require(field["grey"].json().is_boolean(), "true or false");
+    parameter.grey = field["grey"].json().get<bool>();
   }
   return parameter;
 }
@@ -135,7 +143,7 @@ ordered_json parse_answer(const std::string& line, std::int64_t id, const std::s
 }  // namespace
 
 PictureRequest picture_request(const Material& material, const Scene& scene) {
-  PictureRequest request{"", shown_request(material, scene), scene.resolution, 1};
+  PictureRequest request{"", shown_request(material, scene), scene.resolution, scene.shape, 1};
   ordered_json parameters = ordered_json::object();
   for (const auto& [name, values] : material.parameters) {
     parameters[name] = values;
@@ -156,9 +164,11 @@ std::string describe_line(std::int64_t id, unsigned threads) {
   return json.dump();
 }
 
-std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image) {
+std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image,
+                        const std::filesystem::path& mesh) {
   ordered_json json = {{"id", id}, {"request", "render"}};
   json.update(ordered_json::parse(request.text));
+  if (request.shape != Shape::kSphere) json["scene"]["mesh"] = mesh.string();
   json["image"] = image.string();
   return json.dump();
 }
@@ -186,6 +196,10 @@ WorkerDescription read_description(const std::string& line, std::int64_t id, con
   WorkerDescription description;
   description.renderer = field["renderer"].text();
   field["renderer"].require(!description.renderer.empty(), "a name and a version");
+  if (answer.contains("meshes")) {
+    field["meshes"].require(answer["meshes"].is_boolean(), "true or false");
+    description.meshes = answer["meshes"].get<bool>();
+  }
   description.models = field["models"].list(1, [&](const Field& model) { return read_model(model, prefix); });
   return description;
 }

@@ -17,6 +17,7 @@ inline constexpr int kWorkerProtocol = 1;
 struct WorkerDescription {
   std::string renderer;  // name and version of what makes the pictures
   std::vector<ModelDescription> models;
+  bool meshes = false;  // takes other shapes than the sphere, as files
 };
 
 // One picture as its request names it, without what differs from one run to the next: the key of a cache.
@@ -24,13 +25,16 @@ struct PictureRequest {
   std::string text;   // JSON: model, parameters, scene, seed, channels
   std::string shown;  // `mitsuba3/ggx alpha 0.2, specular 0.5, light 60, 256 x 256`
   int resolution = 0;
+  Shape shape = Shape::kSphere;
   int channels = 1;  // 1 where every parameter is grey, else 3
 };
 PictureRequest picture_request(const Material& material, const Scene& scene);
 
 // Lines for a worker's standard input, without the line break.
 std::string describe_line(std::int64_t id, unsigned threads);
-std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image);
+// `mesh`: the file of the shape where that is not the sphere.
+std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image,
+                        const std::filesystem::path& mesh);
 std::string quit_line(std::int64_t id);
 
 // Whether a line is meant as an answer; those before the first that is are banners.

@@ -6,6 +6,7 @@
 #include "error.hpp"
 #include "number_text.hpp"
 #include "worker/folders.hpp"
+#include "worker/shape_mesh.hpp"
 
 namespace remapc {
 namespace {
@@ -100,7 +101,9 @@ std::string Worker::ask(const std::string& line, const std::string& shown) {
 Image Worker::render(const PictureRequest& request) {
   std::error_code ignored;
   std::filesystem::remove(picture_file_, ignored);  // what is there later is this picture
-  const std::string answer = ask(render_line(++last_id_, request, picture_file_), request.shown);
+  const std::filesystem::path mesh = std::filesystem::path(picture_file_).replace_extension(".ply");
+  if (request.shape != Shape::kSphere && !std::filesystem::exists(mesh)) write_mesh(request.shape, mesh);
+  const std::string answer = ask(render_line(++last_id_, request, picture_file_, mesh), request.shown);
   try {
     read_answer(answer, last_id_, place(request.shown));
   } catch (const Error& error) {

@@ -6,6 +6,7 @@
 #include "error.hpp"
 #include "nearest_name.hpp"
 #include "number_text.hpp"
+#include "sweep/shape.hpp"
 
 namespace remapc {
 namespace {
@@ -29,7 +30,7 @@ void require_material(const Material& material, const ModelDescription& model) {
     if (found == material.parameters.end())
       throw Error(ErrorKind::kUsage, model.name + ": parameter " + parameter.name + " is missing");
     const std::size_t count = found->second.size();
-    const bool one = parameter.role == ParameterRole::kRoughness;
+    const bool one = parameter.grey || parameter.role == ParameterRole::kRoughness;
     if (count != 1 && (one || count != 3))
       throw Error(ErrorKind::kUsage, model.name + ": parameter " + parameter.name + " has " +
                                          std::to_string(count) + " values; expected " +
@@ -141,6 +142,9 @@ Image WorkerRenderer::render_anew(const PictureRequest& request) const {
 
 Image WorkerRenderer::render(const Material& material, const Scene& scene) const {
   require_material(material, model(material.model));
+  if (scene.shape != Shape::kSphere && !description_.meshes)
+    throw Error(ErrorKind::kUsage,
+                "worker " + entry_.name + ": renders spheres only; expected no " + shape_name(scene.shape));
   const PictureRequest request = picture_request(material, scene);
   const Turn turn(*this, request);
   if (cache_) {

@@ -39,7 +39,7 @@ MOST_SCENES = 8  # one a model, resolution and light; a sweep needs a few
 
 def describe(threads):
     drjit.set_thread_count(threads)
-    return {"renderer": f"Mitsuba {mi.__version__} (scalar_rgb)", "models": MODELS}
+    return {"renderer": f"Mitsuba {mi.__version__} (scalar_rgb)", "models": MODELS, "meshes": True}
 
 
 def rgb(values):
@@ -62,6 +62,10 @@ def bsdf_of(model, values):
             "specular": values["specular"][0], "base_color": rgb(values["base_color"])}
 
 
+def shape_of(scene):
+    return {"type": "ply", "filename": scene["mesh"]} if "shape" in scene else {"type": "sphere"}
+
+
 def make_scene(model, values, scene):
     side, light = scene["resolution"], 2.0 if model in ("mitsuba3/ggx", "mitsuba3/beckmann") else 1.0
     distance = scene["camera"]["distance"]
@@ -76,14 +80,15 @@ def make_scene(model, values, scene):
                                "jitter": False}},
         "light": {"type": "point", "position": scene["light"]["position"],
                   "intensity": rgb([light * scene["light"]["intensity"]])},
-        "ball": {"type": "sphere", "bsdf": bsdf_of(model, values)}})
+        "ball": {**shape_of(scene), "bsdf": bsdf_of(model, values)}})
 
 
 def scene_of(model, values, scene):
     """A conductor's scene is kept and its numbers changed; the others are made anew, which takes a millisecond."""
     if model not in ("mitsuba3/ggx", "mitsuba3/beckmann"):
         return make_scene(model, values, scene)
-    key = (model, scene["resolution"], scene["samples_per_axis"], tuple(scene["light"]["position"]))
+    key = (model, scene["resolution"], scene["samples_per_axis"], tuple(scene["light"]["position"]),
+           scene.get("shape"))
     if key not in scenes:
         scenes[key] = make_scene(model, values, scene)
         if len(scenes) > MOST_SCENES:

@@ -109,3 +109,71 @@ TEST_CASE("remapc study: wrong usage is exit code 2, help has an example") {
     CHECK(session.remapc({"study", name, "--help"}).output.find("Example:\n  remapc study " + name) !=
           std::string::npos);
 }
+
+TEST_CASE("remapc sample: a table of named columns, which check reads and fit refuses") {
+  const Session session;
+  const std::vector<std::string> sample = {"sample",       "--source",    "mitsuba/ggx-metallic",
+                                           "--target",     "mitsuba/ggx", "--vary",
+                                           "metallic",     "--range",     "roughness=0.4,0.9",
+                                           "--resolution", "32",          "--count",
+                                           "50",           "--seed",      "7",
+                                           "--json",       "-o",          session.path("t.csv")};
+  const ProcessResult result = session.remapc(sample);
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.output.find("\"rows\": 50") != std::string::npos);
+  CHECK(result.output.find("\"base_color_g1\"") != std::string::npos);
+  CHECK(session.remapc({"check", session.path("t.csv")}).exit_code == 0);
+  check_failure(session.remapc({"fit", session.path("t.csv")}), 1, "is a table of named parameters");
+  check_failure(session.remapc(sample), 1, "exists; --force replaces it");
+  check_failure(session.remapc({"sample", "--source", "mitsuba/ggx", "--target", "mitsuba/ggx", "--range",
+                                "alpha=0.5", "-o", session.path("u.csv")}),
+                2, "expected NAME=MIN,MAX");
+}
+
+TEST_CASE("remapc sweep: parameters are cast and fixed from the command line") {
+  const Session session;
+  const auto sweep = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"sweep",
+                                          "--source",
+                                          "mitsuba/ggx-metallic",
+                                          "--target",
+                                          "mitsuba/ggx",
+                                          "--resolution",
+                                          "32",
+                                          "--roughness-samples",
+                                          "2",
+                                          "--specular-samples",
+                                          "2",
+                                          "--force",
+                                          "-o",
+                                          session.path("t.csv")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return session.remapc(arguments);
+  };
+  const ProcessResult result = sweep({"--source-specular", "metallic", "--source-set", "base_color=0.8"});
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  const std::string table = read_file(session.path("t.csv"));
+  CHECK(table.find("# source_specular: metallic\n# source_fixed: base_color=0.8,specular=0.5\n") !=
+        std::string::npos);
+  check_failure(sweep({"--source-set", "metalic=1"}), 2, "did you mean metallic?");
+  check_failure(sweep({"--source-set", "metallic=1,0,0"}), 2, "has 3 values; expected one");
+  check_failure(sweep({"--target-set", "diffuse"}), 2, "has no =");
+}
+
+TEST_CASE("remapc preview: pictures and figures of a committed fit") {
+  const Session session;
+  const ProcessResult result =
+      session.remapc({"preview", "mitsuba_ward_to_mitsuba_ggx", "--fits", REMAP_SOURCE_DIR "/fits", "--alpha",
+                      "0.2,0.5", "--resolution", "32", "--json", "-o", session.path("p.png")});
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.output.find("\"shape\": \"torus\"") != std::string::npos);
+  CHECK(std::filesystem::exists(session.path("p.png")));
+  check_failure(session.remapc({"preview", "mitsuba_ward_to_mitsuba_gg", "--fits", REMAP_SOURCE_DIR "/fits"}),
+                2, "did you mean mitsuba_ward_to_mitsuba_ggx?");
+  check_failure(session.remapc({"preview", "mitsuba_ward_to_mitsuba_ggx", "--fits", REMAP_SOURCE_DIR "/fits",
+                                "--shape", "tours"}),
+                2, "did you mean torus?");
+}

@@ -125,6 +125,19 @@ TEST_CASE("real renderers: Mitsuba 3's diffuse adds to its highlight") {
   CHECK(disagreement(renderers, material("mitsuba3/ggx"), material("mitsuba/ggx-plain"), scene).rms < 1e-5);
 }
 
+TEST_CASE("real renderers: Mitsuba 3 shows the torus, from its mesh, as the hub does") {
+  const RendererSet renderers(known_workers({}), settings());
+  if (!is_here(renderers, "mitsuba3", "ggx")) return;
+  const auto material = [&](const std::string& name) {
+    return Material{name, {{"alpha", {0.3}}, {"specular", {0.6}}, {"diffuse", {0.3}}}};
+  };
+  for (const double angle : {0.0, 60.0}) {
+    const Scene scene{128, 1, {angle, 3.0}, 0, Shape::kTorus};
+    // Facets of 1e-4, and pixels at edges of the shape and of its shadow that fall to the other side.
+    CHECK(disagreement(renderers, material("mitsuba3/ggx"), material("mitsuba/ggx-plain"), scene).rms < 5e-3);
+  }
+}
+
 TEST_CASE("real renderers: hub to Mitsuba 3 is the identity") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "mitsuba3", "ggx")) return;

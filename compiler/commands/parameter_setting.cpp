@@ -1,0 +1,30 @@
+#include "commands/parameter_setting.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "error.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+
+using remap::Error;
+using remap::ErrorKind;
+
+std::vector<double> parse_values(const std::string& option, const std::string& text) {
+  std::vector<double> values;
+  for (const std::string& item : CLI::detail::split(text, ',')) {
+    const auto value = remap::parse_number(item);
+    if (!value) throw Error(ErrorKind::kUsage, option + ": \"" + item + "\" is no number");
+    values.push_back(*value);
+  }
+  return values;
+}
+
+ParameterSetting parse_setting(const std::string& option, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos)
+    throw Error(ErrorKind::kUsage, option + " " + text + ": has no =; expected NAME=VALUE or NAME=R,G,B");
+  return {text.substr(0, equals), parse_values(option + " " + text, text.substr(equals + 1))};
+}
+
+}  // namespace remapc

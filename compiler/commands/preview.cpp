@@ -1,0 +1,128 @@
+// `remapc preview`: source and conversion side by side, as pictures and figures.
+#include "study/preview.hpp"
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "build/fit_folder.hpp"
+#include "command_line/interruption.hpp"
+#include "commands/commands.hpp"
+#include "commands/renderer_options.hpp"
+#include "error.hpp"
+#include "sweep/image_file.hpp"
+#include "sweep/objective.hpp"
+
+namespace remapc {
+namespace {
+
+struct PreviewCommand {
+  std::string fit;
+  std::filesystem::path fit_folder = "fits", output;
+  std::vector<double> alphas = {0.1, 0.2, 0.4, 0.7}, specular = {0.5};
+  std::vector<std::string> shapes = {"sphere", "torus"};
+  std::string light = "45";
+  double distance = 3.0;
+  int resolution = 256, pixel_samples = 2;
+  bool json = false;
+  RendererOptions renderers;
+};
+
+PreviewOptions preview_options(const PreviewCommand& command) {
+  PreviewOptions options;
+  options.alphas = command.alphas;
+  options.specular = command.specular;
+  options.shapes.clear();
+  for (const std::string& name : command.shapes) options.shapes.push_back(shape_from_name(name));
+  const std::vector<Light> lights = parse_lights(command.light, command.distance);
+  if (lights.size() != 1)
+    throw remap::Error(remap::ErrorKind::kUsage,
+                       "--light: " + std::to_string(lights.size()) + " lights; expected one");
+  options.light = lights.front();
+  options.resolution = command.resolution;
+  options.samples_per_axis = command.pixel_samples;
+  return options;
+}
+
+void print_json(const PreviewCommand& command, const remap::Fit& fit, const Preview& preview) {
+  nlohmann::ordered_json figures = nlohmann::ordered_json::array();
+  for (const PreviewFigure& figure : preview.figures)
+    figures.push_back({{"shape", shape_name(figure.shape)},
+                       {"alpha", figure.alpha},
+                       {"target_alpha", figure.target_alpha},
+                       {"target_specular", figure.target_specular},
+                       {"in_domain", figure.in_domain},
+                       {"ssim", figure.ssim},
+                       {"rms", figure.rms}});
+  nlohmann::ordered_json json = {{"fit", fit.id},
+                                 {"source", fit.source.model},
+                                 {"target", fit.target.model},
+                                 {"specular", command.specular},
+                                 {"figures", figures}};
+  if (!command.output.empty()) json["picture"] = command.output.string();
+  std::cout << json.dump(2) << "\n";
+}
+
+void print_text(const remap::Fit& fit, const Preview& preview) {
+  std::cout << fit.source.model << " -> " << fit.target.model << "\n"
+            << "shape    alpha   -> alpha   SSIM    RMS, % of the display's range\n";
+  for (const PreviewFigure& figure : preview.figures)
+    std::cout << std::left << std::setw(9) << shape_name(figure.shape) << std::setw(8) << std::defaultfloat
+              << figure.alpha << std::fixed << std::setprecision(4) << std::setw(11) << figure.target_alpha
+              << std::setw(8) << figure.ssim << std::setprecision(2) << 100.0 * figure.rms
+              << (figure.in_domain ? "" : "   out of domain") << "\n";
+}
+
+void run(const PreviewCommand& command) {
+  remap::watch_interruptions();
+  const PreviewOptions options = preview_options(command);
+  const remap::Fit fit = find_fit(command.fit, command.fit_folder);
+  const auto renderer = make_renderers(command.renderers);
+  const Preview preview = make_preview(*renderer, fit, options);
+  if (!command.output.empty()) write_png(command.output, preview.sheet);
+  if (command.json)
+    print_json(command, fit, preview);
+  else
+    print_text(fit, preview);
+}
+
+}  // namespace
+
+void add_preview_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "preview", "Render a source and its conversion side by side, and say how alike they are");
+  auto options = std::make_shared<PreviewCommand>();
+  command->add_option("fit", options->fit, "Fit: an id, or a file")->required();
+  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
+  command->add_option("-o,--output", options->output,
+                      "PNG to write: a column a width; source, conversion, their difference four times");
+  command->add_option("--alpha", options->alphas, "Widths of the source, comma-separated")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--specular", options->specular, "Of the source: one value, or R,G,B")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--shape", options->shapes, "sphere, torus, comma-separated")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--light", options->light, "headlight, or degrees from the camera")
+      ->capture_default_str();
+  command->add_option("--distance", options->distance, "Of the light, in sphere radii")
+      ->capture_default_str();
+  command->add_option("--resolution", options->resolution, "Width and height of each picture")
+      ->check(CLI::Range(16, 2048))
+      ->capture_default_str();
+  command->add_option("--pixel-samples", options->pixel_samples, "N x N samples in each pixel; 1: its centre")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  add_renderer_options(*command, options->renderers);
+  command->add_flag("--json", options->json, "Figures as JSON on standard output");
+  command->footer(
+      "Example:\n  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 -o preview.png");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace remapc

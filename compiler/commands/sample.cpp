@@ -1,0 +1,155 @@
+// `remapc sample`: random materials of all parameters of a model, matched, to a table of named columns.
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "command_line/interruption.hpp"
+#include "command_line/progress.hpp"
+#include "commands/commands.hpp"
+#include "commands/pair_selection.hpp"
+#include "commands/parameter_setting.hpp"
+#include "commands/renderer_options.hpp"
+#include "error.hpp"
+#include "files.hpp"
+#include "number_text.hpp"
+#include "sweep/random_sweep.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+using remap::number_text;
+
+struct SampleCommand {
+  PairSelection pair;
+  std::size_t count = 1000;
+  std::uint64_t seed = 0;
+  std::vector<std::string> varied, ranges, searched;
+  bool grey = false;
+  unsigned jobs = 0;
+  bool force = false, json = false, quiet = false;
+  std::filesystem::path output;
+  RendererOptions renderers;
+};
+
+RandomSweepOptions random_sweep_options(const SampleCommand& command) {
+  RandomSweepOptions options;
+  command.pair.fill(&options);
+  options.count = command.count;
+  options.seed = command.seed;
+  options.grey = command.grey;
+  options.varied = command.varied;
+  options.searched = command.searched;
+  for (const std::string& text : command.ranges) {
+    const ParameterSetting setting = parse_setting("--range", text);
+    if (setting.values.size() != 2 || !(setting.values[0] < setting.values[1]))
+      throw Error(ErrorKind::kUsage, "--range " + text + ": expected NAME=MIN,MAX with MIN below MAX");
+    options.ranges[setting.name] = {setting.values[0], setting.values[1]};
+  }
+  return options;
+}
+
+void report(const SampleCommand& command, const NamedTable& table, const PictureCount& pictures,
+            double seconds) {
+  std::map<std::string, std::size_t> statuses;
+  double square = 0.0;
+  for (const NamedRow& row : table.rows) {
+    ++statuses[std::string(status_name(row.status))];
+    square += row.error * row.error / static_cast<double>(table.rows.size());
+  }
+  if (command.json) {
+    const nlohmann::ordered_json json = {{"table", command.output.string()},
+                                         {"rows", table.rows.size()},
+                                         {"source_columns", table.source_columns},
+                                         {"target_columns", table.target_columns},
+                                         {"status", statuses},
+                                         {"rms_image_error", std::sqrt(square)},
+                                         {"pictures_rendered", pictures.rendered},
+                                         {"pictures_cached", pictures.cached},
+                                         {"seconds", seconds}};
+    std::cout << json.dump(2) << "\n";
+    return;
+  }
+  if (command.quiet) return;
+  std::cerr << command.output.string() << ": " << table.rows.size() << " rows (";
+  bool first = true;
+  for (const auto& [status, count] : statuses) {
+    std::cerr << (first ? "" : ", ") << count << " " << status;
+    first = false;
+  }
+  std::cerr << "), image error " << number_text(std::round(1000.0 * std::sqrt(square)) / 10.0) << " % rms, "
+            << number_text(std::round(10.0 * seconds) / 10.0) << " s\n";
+}
+
+void run(const SampleCommand& command) {
+  const auto start = std::chrono::steady_clock::now();
+  remap::watch_interruptions();
+  const RandomSweepOptions options = random_sweep_options(command);
+  if (!command.force && std::filesystem::exists(command.output))
+    throw Error(ErrorKind::kOutput, command.output.string() + ": exists; --force replaces it");
+  const auto renderer = make_renderers(command.renderers);
+  NamedTable table;
+  {
+    remap::Progress progress("sample " + options.source + " -> " + options.target, options.count,
+                             !command.quiet);
+    SweepExecution execution;
+    execution.jobs = command.jobs;
+    execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };
+    execution.cancelled = &remap::interruption();
+    table = run_random_sweep(*renderer, options, execution);
+  }
+  remap::write_file(command.output, named_table_text(table));
+  for (const std::string& remark : renderer->remarks()) std::cerr << "remapc: " << remark << "\n";
+  report(command, table, renderer->pictures(),
+         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+constexpr std::size_t kMostSamples = 1'000'000;
+
+void add_options(CLI::App& app, SampleCommand& command) {
+  command.pair.add_options(app);
+  app.add_option("-o,--output", command.output,
+                 "Table to write (CSV, a column for each parameter and channel)")
+      ->required();
+  app.add_option("--count", command.count, "Random materials")
+      ->check(CLI::Range(std::size_t{1}, kMostSamples))
+      ->capture_default_str();
+  app.add_option("--seed", command.seed, "Of the random materials")->capture_default_str();
+  app.add_option("--vary", command.varied,
+                 "A parameter of the source that varies too; roughness, specular and diffuse always do")
+      ->allow_extra_args(false);
+  app.add_option("--range", command.ranges, "NAME=MIN,MAX: of a parameter of the source, in its own unit")
+      ->allow_extra_args(false);
+  app.add_option("--search", command.searched,
+                 "A parameter of the target that is matched too; roughness, specular and diffuse always are")
+      ->allow_extra_args(false);
+  app.add_flag("--grey", command.grey, "Grey materials: one value of each colour");
+  app.add_option("--jobs", command.jobs, "Threads; 0: one a core. The table does not depend on it")
+      ->capture_default_str();
+  add_renderer_options(app, command.renderers);
+  app.add_flag("--force", command.force, "Replace the table");
+  app.add_flag("--json", command.json, "Summary as JSON on standard output");
+  app.add_flag("--quiet", command.quiet, "No progress, no summary");
+}
+
+}  // namespace
+
+void add_sample_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "sample", "Match random materials of many parameters with the target model, into a table");
+  auto options = std::make_shared<SampleCommand>();
+  options->pair.resolution = 128;
+  add_options(*command, *options);
+  command->footer(
+      "Example:\n  remapc sample --source mitsuba/ggx-metallic --vary metallic --vary specular "
+      "--target mitsuba/ggx --count 1000 --seed 7 -o metallic_to_ggx.csv\n"
+      "  remapc sample --source mitsuba/ggx --target mitsuba/ggx-metallic --search metallic --grey -o "
+      "ggx_to_metallic.csv");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace remapc

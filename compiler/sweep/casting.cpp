@@ -1,0 +1,122 @@
+#include "sweep/casting.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "error.hpp"
+#include "nearest_name.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+ParameterDescription& named(ModelDescription* model, const std::string& name) {
+  const ParameterDescription& found = std::as_const(*model).parameter(name);
+  return model->parameters[static_cast<std::size_t>(&found - model->parameters.data())];
+}
+
+// Gives `role` to the parameter `name`. The one that had it is of no role then, and stands in `displaced`.
+void give_role(ModelDescription* model, ParameterRole role, const std::string& name,
+               std::set<std::string>* displaced) {
+  if (name.empty()) return;
+  ParameterDescription& chosen = named(model, name);
+  for (ParameterDescription& parameter : model->parameters) {
+    if (parameter.role != role || parameter.name == name) continue;
+    parameter.role = ParameterRole::kOther;
+    displaced->insert(parameter.name);
+  }
+  chosen.role = role;
+  displaced->erase(name);
+}
+
+void fix(ModelDescription* model, const std::string& name, double value, std::set<std::string>* displaced) {
+  ParameterDescription& parameter = named(model, name);
+  if (parameter.role == ParameterRole::kRoughness || parameter.role == ParameterRole::kSpecular)
+    throw Error(ErrorKind::kUsage, model->name + ": " + name + " is fixed, but is the " +
+                                       std::string(role_word(parameter.role)) +
+                                       " of this remap; expected another parameter");
+  if (!parameter.range.contains(value))
+    throw Error(ErrorKind::kUsage, model->name + ": " + name + " = " + remap::number_text(value) +
+                                       "; expected " + remap::number_text(parameter.range.min) + " to " +
+                                       remap::number_text(parameter.range.max));
+  parameter.role = ParameterRole::kOther;
+  parameter.standard = value;
+  displaced->erase(name);
+}
+
+// Canonical widths of the roughness, whose parameter or convention may be another now.
+void measure_widths(ModelDescription* model) {
+  const ParameterDescription& roughness = model->parameter(ParameterRole::kRoughness);
+  const double a = remap::to_alpha(model->roughness, roughness.range.min);
+  const double b = remap::to_alpha(model->roughness, roughness.range.max);
+  if (!(std::min(a, b) >= 0.0) || !(std::max(a, b) > 0.0))
+    throw Error(ErrorKind::kUsage, model->name + ": the range of " + roughness.name +
+                                       " is none of widths as " +
+                                       std::string(remap::convention_name(model->roughness)) +
+                                       "; expected another convention, " + roughness.name + ":CONVENTION");
+  model->alpha = {std::min(a, b), std::max(a, b)};
+}
+
+}  // namespace
+
+void cast_roughness(const std::string& text, Casting* casting) {
+  const std::size_t colon = text.find(':');
+  casting->roughness = text.substr(0, colon);
+  if (colon == std::string::npos) return;
+  const std::string word = text.substr(colon + 1);
+  casting->convention = remap::convention_from_name(word);
+  if (!casting->convention)
+    throw Error(ErrorKind::kUsage, text + ": " + word + " is no convention" +
+                                       remap::suggestion(word, remap::convention_names()));
+}
+
+Casting recorded_casting(const std::string& roughness, const std::string& specular,
+                         const std::string& fixed) {
+  Casting casting;
+  casting.roughness = roughness;
+  casting.specular = specular;
+  std::string_view left = fixed;
+  while (!left.empty()) {
+    const std::string_view setting = left.substr(0, left.find(','));
+    left.remove_prefix(std::min(left.size(), setting.size() + 1));
+    const std::size_t equals = setting.find('=');
+    const auto value =
+        equals == std::string_view::npos ? std::nullopt : remap::parse_number(setting.substr(equals + 1));
+    if (!value)
+      throw Error(ErrorKind::kInput, "fixed parameters: \"" + fixed + "\"; expected NAME=VALUE,NAME=VALUE");
+    casting.fixed[std::string(setting.substr(0, equals))] = *value;
+  }
+  return casting;
+}
+
+ModelDescription recast(const ModelDescription& model, const Casting& casting) {
+  ModelDescription result = model;
+  std::set<std::string> displaced;
+  give_role(&result, ParameterRole::kRoughness, casting.roughness, &displaced);
+  give_role(&result, ParameterRole::kSpecular, casting.specular, &displaced);
+  give_role(&result, ParameterRole::kDiffuse, casting.diffuse, &displaced);
+  if (casting.convention) result.roughness = *casting.convention;
+  for (const auto& [name, value] : casting.fixed) fix(&result, name, value, &displaced);
+  if (!displaced.empty())
+    throw Error(ErrorKind::kUsage, model.name + ": " + *displaced.begin() +
+                                       " has lost its role and has no value; expected it fixed, " +
+                                       *displaced.begin() + "=VALUE");
+  for (const ParameterRole role : {ParameterRole::kRoughness, ParameterRole::kSpecular})
+    if (model.has(role)) result.parameter(role);  // throws where another role has taken the parameter
+  if (!casting.roughness.empty() || casting.convention) measure_widths(&result);
+  return result;
+}
+
+std::string fixed_text(const ModelDescription& model) {
+  std::string text;
+  for (const ParameterDescription& parameter : model.parameters)
+    if (parameter.role == ParameterRole::kOther)
+      text += (text.empty() ? "" : ",") + parameter.name + "=" + remap::number_text(parameter.standard);
+  return text;
+}
+
+}  // namespace remapc

@@ -1,0 +1,64 @@
+#include "sweep/provenance.hpp"
+
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+std::string yes_no(bool value) { return value ? "yes" : "no"; }
+
+std::string lights_text(const std::vector<Light>& lights) {
+  std::string text;
+  for (const Light& light : lights) text += (text.empty() ? "" : ",") + light_name(light);
+  return text;
+}
+
+std::string versions_text(const Renderer& renderer, const PairOptions& options) {
+  const std::string source = renderer.version_of(options.source),
+                    target = renderer.version_of(options.target);
+  return source == target ? source : source + "; " + target;
+}
+
+}  // namespace
+
+void add_side(const std::string& role, const Subject& subject, Comments* comments) {
+  const remap::ModelSide side = model_side(subject.model);
+  const SpecularResponse& response = subject.response;
+  comments->emplace_back(role, side.model);
+  comments->emplace_back(role + "_roughness", std::string(remap::convention_name(side.roughness)));
+  if (const std::string own = subject.model.parameter(ParameterRole::kRoughness).name;
+      own != remap::convention_name(side.roughness))
+    comments->emplace_back(role + "_roughness_parameter", own);
+  comments->emplace_back(role + "_specular", side.specular);
+  if (const std::string fixed = fixed_text(subject.model); !fixed.empty())
+    comments->emplace_back(role + "_fixed", fixed);
+  comments->emplace_back(role + "_specular_proportional", yes_no(response.proportional()));
+  comments->emplace_back(role + "_specular_law", std::string(law_name(response.law)));
+  if (response.law == SpecularLaw::kIor) comments->emplace_back(role + "_specular_column", "f0");
+  if (!subject.curve.empty())
+    comments->emplace_back(role + "_specular_interpolated",
+                           std::to_string(subject.curve.size()) + " pictures a width");
+  if (response.law == SpecularLaw::kClamped)
+    comments->emplace_back(role + "_specular_knee", number_text(response.knee));
+}
+
+void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments) {
+  comments->emplace_back("renderer", versions_text(renderer, options));
+  comments->emplace_back("objective", options.objective_name);
+  comments->emplace_back("lights", lights_text(options.objective.lights));
+  comments->emplace_back("weighting", weighting_name(options.objective.weighting));
+  if (options.objective.weighting == Weighting::kRelative)
+    comments->emplace_back("weighting_floor", number_text(options.objective.floor));
+}
+
+void add_resolution(const PairOptions& options, Comments* comments) {
+  comments->emplace_back("resolution", std::to_string(options.resolution));
+  comments->emplace_back("pixel_samples", std::to_string(options.samples_per_axis) + "x" +
+                                              std::to_string(options.samples_per_axis));
+  comments->emplace_back("subpixel_alpha",
+                         number_text(subpixel_alpha(options.resolution, options.samples_per_axis)));
+}
+
+}  // namespace remapc

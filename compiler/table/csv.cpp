@@ -1,0 +1,106 @@
+#include "table/csv.hpp"
+
+#include <algorithm>
+
+#include "error.hpp"
+#include "number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '"')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '"' || text.back() == '\r'))
+    text.remove_suffix(1);
+  return text;
+}
+
+// The delimiter that splits the header row into most cells; comma where there is none.
+char detect_delimiter(std::string_view header) {
+  char best = ',';
+  std::ptrdiff_t most = 0;
+  for (const char candidate : {',', '\t', ';'}) {
+    const std::ptrdiff_t count = std::count(header.begin(), header.end(), candidate);
+    if (count > most) {
+      best = candidate;
+      most = count;
+    }
+  }
+  return best;
+}
+
+void read_comment(std::string_view line, Csv* csv) {
+  const std::size_t colon = line.find(": ");
+  if (colon != std::string_view::npos)
+    csv->comments.emplace_back(trimmed(line.substr(1, colon - 1)), trimmed(line.substr(colon + 2)));
+}
+
+void read_line(std::string_view line, std::size_t number, char* delimiter, Csv* csv) {
+  if (csv->header.cells.empty()) {
+    if (line.front() == '#') return read_comment(line, csv);
+    *delimiter = detect_delimiter(line);
+    csv->header = {number, split_csv_line(line, *delimiter)};
+    return;
+  }
+  std::vector<CsvCell> cells = split_csv_line(line, *delimiter);
+  if (cells.size() != csv->header.cells.size())
+    csv->fail(number, 1,
+              "the row has " + std::to_string(cells.size()) + " columns; expected " +
+                  std::to_string(csv->header.cells.size()) + " as in the header");
+  csv->lines.push_back({number, std::move(cells)});
+}
+
+}  // namespace
+
+std::string Csv::comment(const std::string& key) const {
+  for (const auto& [found, value] : comments)
+    if (found == key) return value;
+  return "";
+}
+
+void Csv::fail(std::size_t line, std::size_t column, const std::string& what) const {
+  throw Error(ErrorKind::kInput,
+              name + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + what);
+}
+
+double Csv::number(const CsvLine& line, const CsvCell& cell, const std::string& column_name) const {
+  const auto value = remap::parse_number(cell.text);
+  if (!value)
+    fail(line.number, cell.column, column_name + " is \"" + std::string(cell.text) + "\"; expected a number");
+  return *value;
+}
+
+std::vector<CsvCell> split_csv_line(std::string_view line, char delimiter) {
+  std::vector<CsvCell> cells;
+  std::size_t start = 0;
+  for (;;) {
+    const std::size_t end = std::min(line.find(delimiter, start), line.size());
+    cells.push_back({trimmed(line.substr(start, end - start)), start + 1});
+    if (end == line.size()) return cells;
+    start = end + 1;
+  }
+}
+
+Csv parse_csv(std::string_view text, const std::string& name) {
+  Csv csv;
+  csv.name = name;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
+  char delimiter = ',';
+  std::size_t number = 0;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++number;
+    if (!trimmed(line).empty()) read_line(line, number, &delimiter, &csv);
+  }
+  if (csv.header.cells.empty())
+    throw Error(ErrorKind::kInput, name + ": has no header row; expected a CSV table");
+  if (csv.lines.empty()) csv.fail(number, 1, "the table has no rows");
+  return csv;
+}
+
+}  // namespace remapc

@@ -1,0 +1,105 @@
+// Previews: an identity looks the same, another conversion does not, and figures are those of the pictures.
+#include "study/preview.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "error.hpp"
+
+using namespace remapc;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// alpha2 = scale alpha1, specular2 = specular1.
+remap::Fit scaled_fit(const std::string& source, const std::string& target, double scale) {
+  remap::Fit fit;
+  fit.id = "test";
+  fit.source = {source, remap::RoughnessConvention::kAlpha, "f0"};
+  fit.target = {target, remap::RoughnessConvention::kAlpha, "f0"};
+  fit.domain = {{0.05, 1.0}, {0.0, 1.0}};
+  fit.mapping = remap::Parametric{{{scale, 0.0, 0.0, 0.0}}, {{1, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
+  return fit;
+}
+
+PreviewOptions small_preview() {
+  PreviewOptions options;
+  options.alphas = {0.2, 0.5};
+  options.specular = {0.9, 0.6, 0.2};
+  options.resolution = 48;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("preview: the identity looks the same on every shape") {
+  const Preview preview =
+      make_preview(*make_builtin_renderer(), scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0), small_preview());
+  REQUIRE(preview.figures.size() == 4);
+  for (const PreviewFigure& figure : preview.figures) {
+    CHECK(figure.ssim == Approx(1.0).margin(1e-6));
+    CHECK(figure.rms < 1e-6);
+    CHECK(figure.in_domain);
+    CHECK(figure.target_alpha == Approx(figure.alpha));
+    CHECK(figure.target_specular[2] == Approx(0.2));
+  }
+  CHECK(preview.figures[0].shape == Shape::kSphere);
+  CHECK(preview.figures[3].shape == Shape::kTorus);
+  CHECK(preview.sheet.width == 2 * 48);
+  CHECK(preview.sheet.height == 6 * 48);
+}
+
+TEST_CASE("preview: the further a conversion is off, the less alike it looks") {
+  const auto renderer = make_builtin_renderer();
+  double ssim = 1.0, rms = 0.0;
+  for (const double scale : {1.1, 1.4, 2.0}) {
+    const Preview preview =
+        make_preview(*renderer, scaled_fit("mitsuba/ggx", "mitsuba/ggx", scale), small_preview());
+    const PreviewFigure& figure = preview.figures.front();
+    CHECK(figure.ssim < ssim);
+    CHECK(figure.rms > rms);
+    ssim = figure.ssim;
+    rms = figure.rms;
+  }
+  CHECK(ssim < 0.95);
+}
+
+TEST_CASE(
+    "preview: an index is shown as the F0 that the fit speaks of, and light of another strength is scaled") {
+  const auto renderer = make_builtin_renderer();
+  PreviewOptions options = small_preview();
+  options.specular = {0.04};
+  for (const PreviewFigure& figure :
+       make_preview(*renderer, scaled_fit("mitsuba/ggx", "mitsuba/ggx-ior", 1.0), options).figures)
+    CHECK(figure.ssim == Approx(1.0).margin(1e-5));
+  remap::Fit dimmed = scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0);
+  dimmed.table.comments["irradiance_scale"] = "0.25";
+  CHECK(make_preview(*renderer, dimmed, options).figures.front().rms > 0.01);
+}
+
+TEST_CASE("preview: a fit of a model with fixed parameters is shown with them") {
+  remap::Fit fit = scaled_fit("mitsuba/ggx-metallic", "mitsuba/ggx", 1.0);
+  fit.source.roughness = remap::RoughnessConvention::kRoughness;
+  fit.source.specular = "base_color";
+  fit.table.comments = {{"source_specular", "base_color"}, {"source_fixed", "metallic=1,specular=0.5"}};
+  const auto renderer = make_builtin_renderer();
+  for (const PreviewFigure& figure : make_preview(*renderer, fit, small_preview()).figures)
+    CHECK(figure.ssim == Approx(1.0).margin(1e-6));
+  fit.table.comments["source_fixed"] = "metallic=0,specular=0.5";
+  for (const PreviewFigure& figure : make_preview(*renderer, fit, small_preview()).figures)
+    CHECK(figure.ssim < 0.95);
+}
+
+TEST_CASE("preview: what cannot be shown is refused") {
+  const auto refused = [](const std::string& source, const PreviewOptions& options,
+                          const std::string& message) {
+    CHECK_THROWS_WITH(make_preview(*make_builtin_renderer(), scaled_fit(source, "mitsuba/ggx", 1.0), options),
+                      Contains(message));
+  };
+  refused("mitsuba/ggxx", small_preview(), "did you mean mitsuba/ggx?");
+  PreviewOptions options = small_preview();
+  options.specular = {0.1, 0.2};
+  refused("mitsuba/ggx", options, "specular has 2 values; expected 1 or 3");
+  options = small_preview();
+  options.alphas.clear();
+  refused("mitsuba/ggx", options, "nothing to show");
+}
