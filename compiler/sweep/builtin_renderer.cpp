@@ -210,37 +210,6 @@ std::shared_ptr<const std::vector<LitSample>> BuiltinRenderer::samples_of(const 
   return samples;
 }
 
-// Value of a parameter for `channel`; checks name, count and range.
-std::vector<double> parameter_values(const Material& material, const ParameterDescription& description) {
-  const auto found = material.parameters.find(description.name);
-  if (found == material.parameters.end())
-    throw Error(ErrorKind::kUsage, material.model + ": parameter " + description.name + " is missing");
-  const std::vector<double>& values = found->second;
-  const bool one = description.grey || description.role == ParameterRole::kRoughness;
-  if (values.size() != 1 && (one || values.size() != 3))
-    throw Error(ErrorKind::kUsage, material.model + ": parameter " + description.name + " has " +
-                                       std::to_string(values.size()) + " values; expected " +
-                                       (one ? "1" : "1 or 3"));
-  for (const double value : values) {
-    if (description.range.contains(value)) continue;
-    throw Error(ErrorKind::kUsage, material.model + ": " + description.name + " = " +
-                                       remap::number_text(value) + "; expected " +
-                                       remap::number_text(description.range.min) + " to " +
-                                       remap::number_text(description.range.max));
-  }
-  return values;
-}
-
-void require_known_parameters(const Material& material, const ModelDescription& description) {
-  std::vector<std::string> names;
-  for (const ParameterDescription& parameter : description.parameters) names.push_back(parameter.name);
-  for (const auto& [name, values] : material.parameters) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    throw Error(ErrorKind::kUsage,
-                material.model + ": has no parameter " + name + remap::suggestion(name, names));
-  }
-}
-
 // The parameters of one colour channel.
 struct Channel {
   double specular = 0.0;  // scale, F0, or the index of a dielectric
@@ -266,7 +235,7 @@ std::vector<Channel> channels_of(const Material& material, const ModelDescriptio
                                  Reflectance reflectance) {
   std::vector<Channel> channels(1);
   const auto fill = [&](const ParameterDescription& parameter, double Channel::*value) {
-    const std::vector<double> values = parameter_values(material, parameter);
+    const std::vector<double>& values = material.parameters.at(parameter.name);
     if (values.size() > channels.size()) channels.resize(values.size(), channels.front());
     for (std::size_t c = 0; c < channels.size(); ++c) channels[c].*value = channel_value(values, c);
   };
@@ -310,10 +279,10 @@ double specular_reflectance(Reflectance reflectance, double shape, double schlic
 Image BuiltinRenderer::render(const Material& material, const Scene& scene) const {
   require_scene(scene);
   const ModelDescription description = find_model(*this, material.model);
-  require_known_parameters(material, description);
+  require_material(material, description);
   const BuiltinModel* model = find_builtin(material.model);
-  const auto roughness = parameter_values(material, description.parameter(ParameterRole::kRoughness));
-  const double alpha = remap::to_alpha(model->roughness, roughness[0]);
+  const std::string& roughness = description.parameter(ParameterRole::kRoughness).name;
+  const double alpha = remap::to_alpha(model->roughness, material.parameters.at(roughness).front());
 
   const std::vector<Channel> channels = channels_of(material, description, model->reflectance);
   const auto side = static_cast<std::size_t>(scene.resolution);

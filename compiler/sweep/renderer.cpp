@@ -5,6 +5,7 @@
 
 #include "error.hpp"
 #include "nearest_name.hpp"
+#include "number_text.hpp"
 
 namespace remapc {
 
@@ -68,6 +69,30 @@ ModelDescription Renderer::model(const std::string& name) const {
   }
   throw remap::Error(remap::ErrorKind::kUsage,
                      name + ": is no model of " + version() + remap::suggestion(name, names));
+}
+
+void require_material(const Material& material, const ModelDescription& model) {
+  const auto fail = [&](const std::string& what) {
+    throw remap::Error(remap::ErrorKind::kUsage, model.name + ": " + what);
+  };
+  std::vector<std::string> names;
+  for (const ParameterDescription& parameter : model.parameters) names.push_back(parameter.name);
+  for (const auto& entry : material.parameters)
+    if (std::find(names.begin(), names.end(), entry.first) == names.end())
+      fail("has no parameter " + entry.first + remap::suggestion(entry.first, names));
+  for (const ParameterDescription& parameter : model.parameters) {
+    const auto found = material.parameters.find(parameter.name);
+    if (found == material.parameters.end()) fail("parameter " + parameter.name + " is missing");
+    const std::vector<double>& values = found->second;
+    const bool is_one = parameter.grey || parameter.role == ParameterRole::kRoughness;
+    if (values.size() != 1 && (is_one || values.size() != 3))
+      fail("parameter " + parameter.name + " has " + std::to_string(values.size()) + " values; expected " +
+           (is_one ? "1" : "1 or 3"));
+    for (const double value : values)
+      if (!parameter.range.contains(value))
+        fail(parameter.name + " = " + remap::number_text(value) + "; expected " +
+             remap::number_text(parameter.range.min) + " to " + remap::number_text(parameter.range.max));
+  }
 }
 
 ModelDescription find_model(const Renderer& renderer, const std::string& name) {

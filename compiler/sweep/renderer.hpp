@@ -79,6 +79,10 @@ class Renderer {
 // The description of `name`. Throws kUsage with the nearest known name.
 ModelDescription find_model(const Renderer& renderer, const std::string& name);
 
+// Throws kUsage where `material` lacks a parameter of `model`, has one that the model has not, or a value
+// that it does not take.
+void require_material(const Material& material, const ModelDescription& model);
+
 // A grey material from canonical coordinates: the width as alpha, linear specular and diffuse (of a model
 // that has it); other parameters at their standard values.
 Material grey_material(const ModelDescription& model, double alpha, double specular, double diffuse);

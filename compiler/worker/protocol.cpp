@@ -8,6 +8,7 @@
 
 #include "error.hpp"
 #include "json_field.hpp"
+#include "model/fit_fields.hpp"
 #include "number_text.hpp"
 #include "sweep/shape.hpp"
 
@@ -59,14 +60,9 @@ ParameterRole read_role(const Field& field) {
              "\"; expected roughness, specular, diffuse, index, extinction or other");
 }
 
-Range read_range(const Field& field) {
-  const Range range{field.at(0, 2).number(), field.at(1, 2).number()};
-  field.require(range.min < range.max, "a smaller number and a larger one");
-  return range;
-}
-
 ParameterDescription read_parameter(const Field& field, RoughnessConvention* convention) {
-  ParameterDescription parameter{field["name"].text(), read_role(field["role"]), read_range(field["range"])};
+  ParameterDescription parameter{field["name"].text(), read_role(field["role"]),
+                                 remap::read_range(field["range"])};
   if (parameter.role == ParameterRole::kRoughness) {
     const auto known = remap::convention_from_name(field["convention"].text());
     field["convention"].require(known.has_value(), "alpha, roughness, exponent, glossiness or squared");

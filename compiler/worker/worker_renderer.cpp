@@ -4,8 +4,6 @@
 #include <thread>
 
 #include "error.hpp"
-#include "nearest_name.hpp"
-#include "number_text.hpp"
 #include "sweep/shape.hpp"
 
 namespace remapc {
@@ -16,36 +14,11 @@ using remap::ErrorKind;
 
 unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-WorkerSettings with_threads(WorkerSettings settings, unsigned processes) {
-  settings.limits.threads = std::max(1u, core_count() / processes);
+// With the numbers of processes and of threads each that are left to be chosen.
+WorkerSettings settled(WorkerSettings settings) {
+  if (settings.processes == 0) settings.processes = core_count();
+  settings.limits.threads = std::max(1u, core_count() / settings.processes);
   return settings;
-}
-
-// The same complaints as from the built-in renderer, before a worker is asked.
-void require_material(const Material& material, const ModelDescription& model) {
-  std::vector<std::string> names;
-  for (const ParameterDescription& parameter : model.parameters) {
-    names.push_back(parameter.name);
-    const auto found = material.parameters.find(parameter.name);
-    if (found == material.parameters.end())
-      throw Error(ErrorKind::kUsage, model.name + ": parameter " + parameter.name + " is missing");
-    const std::size_t count = found->second.size();
-    const bool one = parameter.grey || parameter.role == ParameterRole::kRoughness;
-    if (count != 1 && (one || count != 3))
-      throw Error(ErrorKind::kUsage, model.name + ": parameter " + parameter.name + " has " +
-                                         std::to_string(count) + " values; expected " +
-                                         (one ? "1" : "1 or 3"));
-    for (const double value : found->second)
-      if (!parameter.range.contains(value))
-        throw Error(ErrorKind::kUsage, model.name + ": " + parameter.name + " = " +
-                                           remap::number_text(value) + "; expected " +
-                                           remap::number_text(parameter.range.min) + " to " +
-                                           remap::number_text(parameter.range.max));
-  }
-  for (const auto& [name, values] : material.parameters)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw Error(ErrorKind::kUsage,
-                  model.name + ": has no parameter " + name + remap::suggestion(name, names));
 }
 
 }  // namespace
@@ -75,11 +48,8 @@ class WorkerRenderer::Turn {
 };
 
 WorkerRenderer::WorkerRenderer(WorkerEntry entry, WorkerSettings settings)
-    : entry_(std::move(entry)),
-      settings_(with_threads(settings, settings.processes == 0 ? core_count() : settings.processes)),
-      most_processes_(settings.processes == 0 ? core_count() : settings.processes) {
-  auto first = std::make_unique<Worker>(entry_, settings_.limits,
-                                        folder_.path() / (std::to_string(next_file_++) + ".f32"));
+    : entry_(std::move(entry)), settings_(settled(std::move(settings))) {
+  std::unique_ptr<Worker> first = start();
   description_ = first->description();
   if (settings_.cache) cache_.emplace(*settings_.cache, entry_.name, description_.renderer);
   running_ = 1;
@@ -89,8 +59,12 @@ WorkerRenderer::WorkerRenderer(WorkerEntry entry, WorkerSettings settings)
 WorkerRenderer::~WorkerRenderer() = default;
 
 std::unique_ptr<Worker> WorkerRenderer::start() const {
-  auto worker = std::make_unique<Worker>(entry_, settings_.limits,
-                                         folder_.path() / (std::to_string(next_file_++) + ".f32"));
+  const std::string picture = std::to_string(next_file_++) + ".f32";
+  return std::make_unique<Worker>(entry_, settings_.limits, folder_.path() / picture);
+}
+
+std::unique_ptr<Worker> WorkerRenderer::start_another() const {
+  std::unique_ptr<Worker> worker = start();
   if (worker->description().renderer != description_.renderer)
     throw Error(ErrorKind::kInput, "worker " + entry_.name + ": is " + worker->description().renderer +
                                        " now; expected " + description_.renderer + ", as before in this run");
@@ -100,7 +74,7 @@ std::unique_ptr<Worker> WorkerRenderer::start() const {
 std::unique_ptr<Worker> WorkerRenderer::take_worker() const {
   {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !idle_.empty() || running_ < most_processes_; });
+    changed_.wait(lock, [&] { return !idle_.empty() || running_ < settings_.processes; });
     if (!idle_.empty()) {
       auto worker = std::move(idle_.back());
       idle_.pop_back();
@@ -109,7 +83,7 @@ std::unique_ptr<Worker> WorkerRenderer::take_worker() const {
     ++running_;
   }
   try {
-    return start();
+    return start_another();
   } catch (...) {
     give_back(nullptr);
     throw;

@@ -51,13 +51,13 @@ class WorkerRenderer final : public Renderer {
   class Turn;
 
   std::unique_ptr<Worker> start() const;
+  std::unique_ptr<Worker> start_another() const;  // of the same version as the first
   std::unique_ptr<Worker> take_worker() const;
   void give_back(std::unique_ptr<Worker> worker) const;
   Image render_anew(const PictureRequest& request) const;
 
   const WorkerEntry entry_;
   const WorkerSettings settings_;
-  const unsigned most_processes_;
   PrivateFolder folder_;
   WorkerDescription description_;
   std::optional<PictureCache> cache_;

@@ -33,11 +33,6 @@ ProcessResult convert(const Session& session, std::vector<std::string> words) {
   return session.texremap(words);
 }
 
-void require_success(const ProcessResult& result) {
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
-}
-
 bool same_bytes(const Session& session, const std::string& a, const std::string& b) {
   return read_file(session.path(a)) == read_file(session.path(b));
 }

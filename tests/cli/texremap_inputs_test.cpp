@@ -41,11 +41,6 @@ float stored(float linear) {
              : static_cast<float>(1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055);
 }
 
-void require_success(const ProcessResult& result) {
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
-}
-
 bool same_channel(const TestImage& a, const TestImage& b, int channel) {
   for (int y = 0; y < a.spec.height; ++y)
     for (int x = 0; x < a.spec.width; ++x)

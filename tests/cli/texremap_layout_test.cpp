@@ -17,11 +17,6 @@ ProcessResult convert(const Session& session, const std::string& from, const std
   return session.texremap(words);
 }
 
-void require_success(const ProcessResult& result) {
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
-}
-
 std::vector<float> channel(const Session& session, const std::string& name, int index) {
   const TestImage image = read_image(session.path(name));
   std::vector<float> values;

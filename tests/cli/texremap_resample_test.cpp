@@ -16,11 +16,6 @@ ProcessResult convert(const Session& session, std::vector<std::string> words, co
   return session.texremap(words);
 }
 
-void require_success(const ProcessResult& result) {
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
-}
-
 // `name` of the session at another size, linearly between texels, as floats.
 void write_resampled(const Session& session, const std::string& name, int width, int height,
                      const std::string& result) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <catch2/catch.hpp>
+
 #include "convert/converter.hpp"
 #include "files.hpp"
 #include "support/process.hpp"
@@ -54,6 +56,11 @@ class Session {
   }
   TemporaryFolder folder_;
 };
+
+inline void require_success(const ProcessResult& result) {
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+}
 
 // Ward to Ashikhmin-Shirley for one texel: the roughness, then the specular channels.
 inline std::array<float, 4> converted_texel(float roughness, const std::array<float, 3>& specular) {
