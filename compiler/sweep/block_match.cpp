@@ -43,7 +43,7 @@ class SourcePictures {
   SourcePictures(const SweepSetup& setup, const SampleBlock& block) : setup_(setup), alpha_(block.alpha) {
     const remap::Range linear = setup.source.linear_range();
     nodes_ = setup.source.curve;
-    if (setup.source.response.affine() && setup.source.model.is_costly) nodes_ = {linear.min, linear.max};
+    if (setup.source.response.affine() && setup.source.model.is_external) nodes_ = {linear.min, linear.max};
     if (nodes_.size() >= block.samples.size()) nodes_.clear();
     for (const double specular : nodes_)
       pictures_.push_back(setup.photographer.take(setup.source, {alpha_, specular, 0.0}));
@@ -99,14 +99,16 @@ std::vector<TableRow> match_together(const SweepSetup& setup, const SampleBlock&
   Matcher matcher(*setup.bank, std::move(basis), std::move(weights));
 
   const double most = setup.source.linear_range().max;
+  const bool is_dark = *std::max_element(pictures.full.begin(), pictures.full.end()) <= 0.0f;
   std::vector<TableRow> rows;
   for (const std::size_t index : block.samples) {
     const SamplePoint& sample = setup.options.samples[index];
     std::vector<std::size_t> minima;  // products are shared, so every material can search the whole bank
     std::vector<double> coefficients = {std::min(sample.specular, most)};
     if (!proportional) coefficients.push_back(1.0);
-    rows.push_back(sample.specular == 0.0 ? flat_row(sample, setup.target)
-                                          : matched_row(sample, matcher.match(coefficients, &minima)));
+    rows.push_back(is_dark || sample.specular == 0.0
+                       ? flat_row(sample, setup.target)
+                       : matched_row(sample, matcher.match(coefficients, &minima)));
   }
   return rows;
 }
@@ -173,10 +175,13 @@ bool has_diffuse(const SweepOptions& options) { return options.stages != 2 || op
 std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& block) {
   std::vector<TableRow> rows =
       setup.options.stages == 1 ? unmatched_rows(setup, block) : match_specular(setup, block);
-  if (!has_diffuse(setup.options)) return rows;
   for (TableRow& row : rows) {
-    match_diffuse_apart(setup, &row);
-    match_whole(setup, &row);
+    if (has_diffuse(setup.options)) {
+      match_diffuse_apart(setup, &row);
+      match_whole(setup, &row);
+    }
+    const bool held = !setup.source_widths.effective.contains(row.alpha1);
+    if (held && row.status == RowStatus::kOk) row.status = RowStatus::kClamped;
   }
   return rows;
 }

@@ -28,6 +28,7 @@ struct SweepSetup {
   std::unique_ptr<TargetBank> bank;          // of a target that is affine in specular
   std::unique_ptr<TargetPictures> pictures;  // for non-linear matches
   std::unique_ptr<TargetGrid> grid;          // of a target that is not affine in specular
+  EffectiveWidths source_widths, target_widths;
 };
 
 // Whether rows carry diffuse: where the source has some, or the target's is matched with the rest.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "error.hpp"
+#include "number_text.hpp"
 #include "sweep/fresnel.hpp"
 #include "sweep/photographer.hpp"
 #include "sweep/picture_sums.hpp"
@@ -24,6 +25,8 @@ using Picture = std::vector<float>;
 constexpr double kPictureTolerance = 2e-6;
 // A quotient of sums over pixels is better than that.
 constexpr double kRatioTolerance = 1e-6;
+// Widths that hold a highlight are told from others to this.
+constexpr double kWidthPrecision = 2e-3;
 // A knee below this share of the range is no knee that a person would meet.
 constexpr int kMostHalvings = 20;
 
@@ -234,6 +237,37 @@ std::vector<double> probe_curve(const Photographer& photographer, const ModelDes
     if (good) return nodes;
   }
   return {};
+}
+
+EffectiveWidths probe_widths(const Photographer& photographer, const ModelDescription& model,
+                             const Range& alphas) {
+  // The peak goes with 1 / alpha^2: a step of the width shows in it twice over, unless the width is held.
+  const double step = 1.0 + std::max(kWidthPrecision, 4.0 * picture_tolerance(model));
+  if (!(alphas.max > step * step * alphas.min)) return {alphas, alphas};
+  const double full = model.parameter(ParameterRole::kSpecular).range.max;
+  const auto responds = [&](double alpha, double neighbour) {
+    const Picture here = photographer.take(model, Sitting{alpha, full, 0.0});
+    const Picture beside = photographer.take(model, Sitting{neighbour, full, 0.0});
+    if (is_black(here) || is_black(beside)) return false;
+    return line_deviation(beside, here, 0.0, here) > picture_tolerance(model);
+  };
+  // From an end towards widths that are free: the middle, or else the other end.
+  const double middle = std::sqrt(alphas.min * alphas.max);
+  const auto end = [&](double held, double other) {
+    const double inwards = held < other ? step : 1.0 / step;
+    if (responds(held, held * inwards)) return held;
+    double free = responds(middle, middle / inwards) ? middle : other;
+    if (free == other && !responds(other, other / inwards))
+      throw Error(ErrorKind::kInput, model.name + ": no width from alpha " + remap::number_text(alphas.min) +
+                                         " to " + remap::number_text(alphas.max) +
+                                         " changes its picture; expected a highlight with one");
+    while (std::max(free / held, held / free) > step) {
+      const double between = std::sqrt(held * free);
+      (responds(between, between / inwards) ? free : held) = between;
+    }
+    return free;
+  };
+  return {alphas, {end(alphas.min, alphas.max), end(alphas.max, alphas.min)}};
 }
 
 bool probe_diffuse(const Photographer& photographer, const ModelDescription& model, const Range& alphas) {

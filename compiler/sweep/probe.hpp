@@ -51,6 +51,19 @@ SpecularResponse probe_specular(const Photographer& photographer, const ModelDes
 std::vector<double> probe_curve(const Photographer& photographer, const ModelDescription& model,
                                 const remap::Range& alphas);
 
+// Widths that a sweep is about, and the part of them in which the width changes the picture.
+struct EffectiveWidths {
+  remap::Range asked;
+  remap::Range effective;
+  bool whole() const { return effective.min == asked.min && effective.max == asked.max; }
+};
+
+// The part of `alphas` in which the width changes the picture: a renderer may hold smaller widths at a least
+// one, or take them for a mirror, which shows nothing of a point light. Good to 0.2 %; 4 pictures, and some
+// 25 more for an end that is held. Throws kInput where no width in `alphas` changes it.
+EffectiveWidths probe_widths(const Photographer& photographer, const ModelDescription& model,
+                             const remap::Range& alphas);
+
 // Whether diffuse adds the same picture, in proportion, whatever the width and specular.
 bool probe_diffuse(const Photographer& photographer, const ModelDescription& model,
                    const remap::Range& alphas);

@@ -7,6 +7,8 @@ namespace {
 
 using remap::number_text;
 
+constexpr int kWidthDigits = 4;
+
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 
 std::string lights_text(const std::vector<Light>& lights) {
@@ -42,6 +44,22 @@ void add_side(const std::string& role, const Subject& subject, Comments* comment
                            std::to_string(subject.curve.size()) + " pictures a width");
   if (response.law == SpecularLaw::kClamped)
     comments->emplace_back(role + "_specular_knee", number_text(response.knee));
+}
+
+void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments) {
+  if (widths.whole()) return;
+  comments->emplace_back(role + "_effective_alpha",
+                         number_text(remap::rounded(widths.effective.min, kWidthDigits)) + " to " +
+                             number_text(remap::rounded(widths.effective.max, kWidthDigits)));
+}
+
+void add_noise(const std::string& role, const SteadyRenderer& renderer, const std::string& model,
+               Comments* comments) {
+  if (!renderer.measured(model)) return;
+  const Noise& noise = renderer.noise(model);
+  comments->emplace_back(role + "_noise", number_text(remap::rounded_up(noise.level, 2)));
+  if (noise.pictures > 1)
+    comments->emplace_back(role + "_averaged", std::to_string(noise.pictures) + " pictures each");
 }
 
 void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments) {

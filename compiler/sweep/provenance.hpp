@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sweep/photographer.hpp"
+#include "sweep/steady_renderer.hpp"
 #include "sweep/sweep.hpp"
 
 namespace remapc {
@@ -14,6 +15,13 @@ using Comments = std::vector<std::pair<std::string, std::string>>;
 
 // One side: the model, its parameters, the law that its specular follows.
 void add_side(const std::string& role, const Subject& subject, Comments* comments);
+
+// Widths of one side that change its pictures, where not all do.
+void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments);
+
+// What another seed does to the pictures of one side, and how many are averaged; where that was measured.
+void add_noise(const std::string& role, const SteadyRenderer& renderer, const std::string& model,
+               Comments* comments);
 
 // Who made the pictures, and how they were compared.
 void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments);

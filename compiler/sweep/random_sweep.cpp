@@ -216,7 +216,7 @@ std::string ranges_text(const std::vector<Varied>& varied) {
   return text;
 }
 
-NamedTable empty_table(const Renderer& renderer, const Matching& matching) {
+NamedTable empty_table(const SteadyRenderer& renderer, const Matching& matching) {
   const RandomSweepOptions& options = matching.options;
   NamedTable table;
   auto& comments = table.comments;
@@ -228,7 +228,9 @@ NamedTable empty_table(const Renderer& renderer, const Matching& matching) {
     return std::find(options.searched.begin(), options.searched.end(), parameter.name) !=
            options.searched.end();
   });
+  add_noise("source", renderer, options.source, &comments);
   add_side("target", target, &comments);
+  add_noise("target", renderer, options.target, &comments);
   add_comparison(renderer, options, &comments);
   comments.emplace_back("irradiance_scale", number_text(matching.irradiance_scale));
   add_resolution(options, &comments);
@@ -256,8 +258,10 @@ NamedTable empty_table(const Renderer& renderer, const Matching& matching) {
 
 }  // namespace
 
-NamedTable run_random_sweep(const Renderer& renderer, const RandomSweepOptions& options,
+NamedTable run_random_sweep(const Renderer& any_renderer, const RandomSweepOptions& options,
                             const SweepExecution& execution) {
+  const SteadyRenderer renderer(any_renderer, {options.source, options.target},
+                                options.objective.lights.front());
   const ModelDescription source = recast(find_model(renderer, options.source), options.source_casting);
   const ModelDescription target = recast(find_model(renderer, options.target), options.target_casting);
   if (options.count == 0) throw Error(ErrorKind::kUsage, "samples: 0; expected at least 1");

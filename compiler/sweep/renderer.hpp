@@ -40,9 +40,9 @@ struct ModelDescription {
   remap::RoughnessConvention roughness = remap::RoughnessConvention::kAlpha;
   remap::Range alpha;  // widths that the model can take, canonical
   std::vector<ParameterDescription> parameters;
-  bool noise = false;      // another seed gives another picture
-  bool is_costly = false;  // a picture takes long enough to be worth sparing by interpolation
-  double precision = 0.0;  // relative error of a pixel, where that is more than a float's
+  bool noise = false;        // another seed gives another picture
+  bool is_external = false;  // of another program: pictures are worth sparing, and claims are checked
+  double precision = 0.0;    // relative error of a pixel, where that is more than a float's
 
   bool has(ParameterRole role) const;
   // Throws kUsage where it has none.

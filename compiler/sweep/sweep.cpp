@@ -117,7 +117,7 @@ void add_stages(const SweepSetup& setup, Table* table) {
   comments.emplace_back("diffuse_error", number_text(remap::rounded_up(setup.diffuse.error, 2)));
 }
 
-Table empty_table(const Renderer& renderer, const SweepSetup& setup) {
+Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
   const SweepOptions& options = setup.options;
   Table table;
   table.source = column_side(setup.source);
@@ -125,7 +125,11 @@ Table empty_table(const Renderer& renderer, const SweepSetup& setup) {
   table.has_diffuse = has_diffuse(options);
   table.comments = {{"tool", std::string("remapc ") + remap::kVersion}};
   add_side("source", setup.source, &table.comments);
+  add_widths("source", setup.source_widths, &table.comments);
+  add_noise("source", renderer, options.source, &table.comments);
   add_side("target", setup.target, &table.comments);
+  add_widths("target", setup.target_widths, &table.comments);
+  add_noise("target", renderer, options.target, &table.comments);
   add_comparison(renderer, options, &table.comments);
   add_stages(setup, &table);
   add_resolution(options, &table.comments);
@@ -136,19 +140,28 @@ Table empty_table(const Renderer& renderer, const SweepSetup& setup) {
 // Probes both models, matches their light, and makes what the blocks need.
 SweepSetup make_setup(const SweepOptions& options, const Photographer& photographer,
                       const ModelDescription& source, const ModelDescription& target) {
-  const Range alphas = sampled_alphas(options.samples);
-  const Range probed{std::max(target.alpha.min, alphas.min), target.alpha.max};
-  const Range searched{std::max(target.alpha.min, alphas.min / kNarrowing), target.alpha.max};
-  SweepSetup setup{
-      options,
-      photographer,
-      {source, probe_specular(photographer, source, alphas), 1.0, {}},
-      {target, probe_specular(photographer, target, probed), 1.0, {}},
-      1.0,
-      light_matched(source, target) ? match_diffuse(photographer, source, target) : DiffuseMatch{},
-      nullptr,
-      nullptr,
-      nullptr};
+  const EffectiveWidths source_widths = probe_widths(photographer, source, sampled_alphas(options.samples));
+  const Range alphas = source_widths.effective;
+  const Range wanted{std::max(target.alpha.min, alphas.min / kNarrowing), target.alpha.max};
+  const EffectiveWidths target_widths = probe_widths(photographer, target, wanted);
+  const Range searched = target_widths.effective;
+  const Range probed{std::max(searched.min, alphas.min), searched.max};
+  // Apart from the aggregate: gcc 12 destroys members twice where a later one throws.
+  const SpecularResponse source_law = probe_specular(photographer, source, alphas);
+  const SpecularResponse target_law = probe_specular(photographer, target, probed);
+  const DiffuseMatch diffuse =
+      light_matched(source, target) ? match_diffuse(photographer, source, target) : DiffuseMatch{};
+  SweepSetup setup{options,
+                   photographer,
+                   {source, source_law, 1.0, {}},
+                   {target, target_law, 1.0, {}},
+                   1.0,
+                   diffuse,
+                   nullptr,
+                   nullptr,
+                   nullptr,
+                   source_widths,
+                   target_widths};
   if (options.match_irradiance) {
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;
@@ -200,8 +213,10 @@ double subpixel_alpha(int resolution, int samples_per_axis) {
   return 1.5 / (0.5 * resolution * samples_per_axis);
 }
 
-Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution,
+Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const SweepExecution& execution,
                 const std::filesystem::path& journal_path, bool resume) {
+  const SteadyRenderer renderer(any_renderer, {options.source, options.target},
+                                options.objective.lights.front());
   const ModelDescription source = recast(find_model(renderer, options.source), options.source_casting);
   const ModelDescription target = recast(find_model(renderer, options.target), options.target_casting);
   require_options(options, source, target);

@@ -11,6 +11,8 @@ namespace {
 // Nodes on one side only multiply the error of interpolation by about 40; steps a quarter as wide divide it
 // by 4^11.
 constexpr double kEdgeRefinement = 4.0;
+// Of the last step, as a share of the others.
+constexpr double kLeastStep = 0.3;
 
 }  // namespace
 
@@ -25,8 +27,15 @@ TargetBank::TargetBank(const Photographer& photographer, const Subject& target, 
     const bool narrow = logs.size() <= kInterpolationNodes;
     logs.push_back(logs.back() - (narrow ? log_step_ / kEdgeRefinement : log_step_));
   }
+  // None below the range, where the target may not answer; a last step that is too narrow goes to its
+  // neighbour.
+  if (logs.size() > kInterpolationNodes) {
+    if (logs[logs.size() - 2] - bottom < kLeastStep * log_step_) logs.pop_back();
+    logs.back() = bottom;
+  }
   for (auto log = logs.rbegin(); log != logs.rend(); ++log) alphas_.push_back(std::exp(*log));
   alphas_.back() = alphas.max;
+  if (logs.back() == bottom) alphas_.front() = alphas.min;
   for (std::size_t i = 0; i < alphas_.size(); ++i) slots_.emplace_back();
 }
 

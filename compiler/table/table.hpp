@@ -21,7 +21,7 @@ struct CsvCell;
 // How far a row can be trusted. Fits use kOk rows only.
 enum class RowStatus {
   kOk,
-  kClamped,   // a target parameter lies at its bound
+  kClamped,   // a target parameter lies at its bound, or the source's renderer holds its width at one
   kFlat,      // no highlight to match
   kUnstable,  // searches from different starts disagree
 };

@@ -112,7 +112,7 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
     model.precision = field["precision"].number();
     field["precision"].require(model.precision >= 0.0 && model.precision < 0.1, "a number from 0 to 0.1");
   }
-  model.is_costly = true;  // another process, and its files
+  model.is_external = true;  // another process, and its files
   if (field.json().contains("noise")) {
     field["noise"].require(field["noise"].json().is_boolean(), "true or false");
     model.noise = field["noise"].json().get<bool>();

@@ -1,8 +1,9 @@
 """Cycles: Glossy BSDF in its distributions, and Principled. For the module `bpy` (Blender 5) and inside Blender 3.4.
 
-The sphere is a point cloud of one point, which Cycles intersects exactly; a mesh never is. Sample 0 of a pixel is its
-centre with any filter, so one sample is exact; an N x N grid is a larger picture, averaged. The masking function of
-GGX and Beckmann changed between 3.4 (separable) and 5.0 (height-correlated), so the prefix holds the version.
+The sphere is a point cloud of one point, which Cycles intersects exactly; a mesh never is, and serves other shapes.
+Sample 0 of a pixel is its centre with any filter, so one sample is exact; an N x N grid is a larger picture, averaged.
+The masking function of GGX and Beckmann changed between 3.4 (separable) and 5.0 (height-correlated), so the prefix
+holds the version.
 This file must not be named cycles.py: Blender would take it for its own add-on.
 """
 import math
@@ -39,7 +40,7 @@ MODELS += [
 
 def describe(threads):
     make_scene(threads)
-    return {"renderer": f"Cycles of Blender {bpy.app.version_string}", "models": MODELS}
+    return {"renderer": f"Cycles of Blender {bpy.app.version_string}", "models": MODELS, "meshes": True}
 
 
 def make_scene(threads):
@@ -94,6 +95,32 @@ def one_point(material):
     group.links.new(skin.outputs[0], end.inputs[0])
     ball.modifiers.new("sphere", "NODES").node_group = group
     return ball
+
+
+def read_ply(path):
+    """Points and triangles of a mesh as the protocol has it: positions and normals as floats, then triangles."""
+    with open(path, "rb") as file:
+        head, body = file.read().split(b"end_header\n", 1)
+    points, triangles = (int(line.split()[2]) for line in head.decode().splitlines() if line.startswith("element"))
+    vertices = np.frombuffer(body, "<f4", points * 6).reshape(points, 6)
+    faces = np.frombuffer(body, np.dtype([("count", "u1"), ("points", "<i4", 3)]), triangles, vertices.nbytes)
+    return vertices[:, :3], faces["points"]
+
+
+def show_shape(place):
+    """The sphere, or the mesh of another shape in its place; normals are those of smooth shading."""
+    scene = bpy.context.scene
+    wanted = place.get("shape", "ball")
+    if wanted not in scene.objects:
+        points, triangles = read_ply(place["mesh"])
+        mesh = bpy.data.meshes.new(wanted)
+        mesh.from_pydata(points.tolist(), [], triangles.tolist())
+        mesh.polygons.foreach_set("use_smooth", np.ones(len(triangles), bool))
+        mesh.materials.append(bpy.data.materials["skin"])
+        scene.collection.objects.link(bpy.data.objects.new(wanted, mesh))
+    for thing in scene.objects:
+        if thing.type == "MESH":
+            thing.hide_render = thing.name != wanted
 
 
 shader_of = {"model": None}
@@ -155,6 +182,7 @@ def read_exr(path, side):
 def render(request, values):
     scene, place = bpy.context.scene, request["scene"]
     set_material(request["model"], values)
+    show_shape(place)
     camera, lamp = scene.camera, scene.objects["lamp"]
     camera.location = (0, 0, place["camera"]["distance"])  # not turned: looks down -z, +y is up
     camera.data.angle = 2 * math.radians(place["camera"]["half_angle"])
