@@ -205,7 +205,9 @@ class Builder {
     options.objective = objective_preset(recipe.objective);
     options.objective_name = recipe.objective;
     options.resolution = recipe.resolution;
-    const remap::Range speculars = canonical_speculars(renderer_, find_model(renderer_, source));
+    remap::Range speculars = canonical_speculars(renderer_, find_model(renderer_, source));
+    if (const auto part = recipe.speculars.find(source); part != recipe.speculars.end())
+      speculars = {std::max(speculars.min, part->second.min), std::min(speculars.max, part->second.max)};
     options.samples =
         grid_samples(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);
     options.sampling = grid_text(recipe.alphas, recipe.roughness_samples, speculars, recipe.specular_samples);

@@ -48,6 +48,9 @@ void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
   recipe.alphas = remap::read_range(group["alpha"]);
   recipe.roughness_samples = read_count(group["roughness_samples"]);
   recipe.specular_samples = read_count(group["specular_samples"]);
+  if (group.json().contains("speculars"))
+    for (const auto& [model, range] : group["speculars"].json().items())
+      recipe.speculars[model] = remap::read_range(group["speculars"][model]);
   const auto seed = static_cast<std::uint64_t>(group["seed"].count());
   for (const auto& [source, target] : read_pairs(group)) {
     nlohmann::ordered_json text = group.json();

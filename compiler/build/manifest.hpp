@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -22,6 +23,7 @@ struct SweepRecipe {
   remap::Range alphas{0.01, 1.0};
   std::size_t roughness_samples = 30;
   std::size_t specular_samples = 30;
+  std::map<std::string, remap::Range> speculars;  // of source models, canonical, where not all that they take
 };
 
 // One converter. Every kind but the first needs no renderer.

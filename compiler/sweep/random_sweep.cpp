@@ -188,7 +188,8 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
 
 Matching make_matching(const RandomSweepOptions& options, const Photographer& photographer,
                        const ModelDescription& source, const ModelDescription& target) {
-  Matching matching{options, photographer, source, varied_of(options, source), {}, 1.0, nullptr, nullptr};
+  std::vector<Varied> varied = varied_of(options, source);  // throws: not within the aggregate (make_setup)
+  Matching matching{options, photographer, source, std::move(varied), {}, 1.0, nullptr, nullptr};
   require_roleless(target, options.searched);
   const Range own = range_of(options, source, source.parameter(ParameterRole::kRoughness));
   const double a = remap::to_alpha(source.roughness, own.min), b = remap::to_alpha(source.roughness, own.max);

@@ -49,7 +49,8 @@ json description(const json& request) {
   return {{"id", request.at("id")},
           {"protocol", protocol},
           {"renderer", "Fake " + options["version"]},
-          {"models", {model}}};
+          {"models", {model}},
+          {"meshes", has_fault("meshes")}};
 }
 
 // What is wrong with a picture, by the name of the fault.
@@ -86,11 +87,54 @@ void spoil(const json& request, remapc::Image* image) {
     move([&](std::size_t row, std::size_t column) { return (row + 1) % side * side + column; });
 }
 
+// The mesh of a scene, read as the protocol has it: its counts, and how far its vertices are from the torus
+// that `shape` means (radii 0.68 and 0.3, its axis 40 degrees from +z to +y), and its normals from that of
+// the torus.
+std::string mesh_report(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  std::size_t vertices = 0, faces = 0;
+  while (std::getline(file, line) && line != "end_header") {
+    if (line.starts_with("element vertex ")) vertices = std::stoul(line.substr(15));
+    if (line.starts_with("element face ")) faces = std::stoul(line.substr(13));
+  }
+  const double tilt = 40.0 / 180.0 * 3.14159265358979, axis[3] = {0.0, std::sin(tilt), std::cos(tilt)};
+  double worst = 0.0;
+  for (std::size_t i = 0; i < vertices; ++i) {
+    float v[6];  // position, normal
+    file.read(reinterpret_cast<char*>(v), sizeof(v));
+    const double height = v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2];
+    double flat[3], around = 0.0;
+    for (int k = 0; k < 3; ++k) flat[k] = v[k] - height * axis[k];
+    for (const double part : flat) around += part * part;
+    around = std::sqrt(around);
+    for (int k = 0; k < 3; ++k) {
+      const double from_circle = v[k] - 0.68 * flat[k] / around;
+      worst = std::max(worst, std::fabs(from_circle - 0.3 * v[3 + k]));
+    }
+  }
+  std::size_t good = 0;
+  for (std::size_t i = 0; i < faces; ++i) {
+    unsigned char count = 0;
+    std::uint32_t corner[3] = {};
+    file.read(reinterpret_cast<char*>(&count), 1);
+    file.read(reinterpret_cast<char*>(corner), sizeof(corner));
+    if (count == 3 && corner[0] < vertices && corner[1] < vertices && corner[2] < vertices) ++good;
+  }
+  const bool complete =
+      file.good() && file.peek() == EOF && good == faces && vertices > 0 && faces == 2 * vertices;
+  return std::string(complete ? "complete" : "broken") + (worst < 1e-6 ? " exact" : " off");
+}
+
 remapc::Image picture(const json& request) {
   const json &values = request.at("parameters"), &scene = request.at("scene");
   remapc::Scene place{scene.at("resolution"),
                       scene.at("samples_per_axis"),
                       {scene.at("light").at("angle"), scene.at("light").at("distance")}};
+  if (scene.contains("shape")) {
+    log_line("mesh " + scene.at("shape").get<std::string>() + " " + mesh_report(scene.at("mesh")));
+    place.shape = remapc::Shape::kTorus;
+  }
   if (has_fault("jitter") && place.samples_per_axis == 1) place.samples_per_axis = 2;  // no centre among them
   if (has_fault("no-square")) place.light.distance = 3.0;
   remapc::Material material{"mitsuba/ggx-plain", {}};

@@ -134,6 +134,21 @@ TEST_CASE("worker: a thread that ends takes no worker with it") {
   CHECK(session.log_lines("process").size() <= 2);
 }
 
+TEST_CASE("worker: another shape comes as a mesh, where a worker takes meshes") {
+  const FakeSession session;
+  const Scene scene{32, 1, {45.0, 3.0}, 0, Shape::kTorus};
+  const WorkerRenderer renderer(session.entry("meshes"), session.settings());
+  const Image found = renderer.render(fake_material(), scene);
+  const Image expected = make_builtin_renderer()->render(
+      {"mitsuba/ggx-plain", {{"alpha", {0.2}}, {"specular", {0.5}}, {"diffuse", {0.0}}}}, scene);
+  CHECK(found.values == expected.values);
+  CHECK(session.log_lines("mesh") == std::vector<std::string>{"torus complete exact"});
+
+  const WorkerRenderer sphere_only(session.entry(), session.settings());
+  CHECK_THROWS_WITH(sphere_only.render(fake_material(), scene),
+                    "worker fake: renders spheres only; expected no torus");
+}
+
 TEST_CASE("worker: materials are checked before it is asked") {
   const FakeSession session;
   const WorkerRenderer renderer(session.entry(), session.settings());
