@@ -33,6 +33,21 @@ WorkerSettings worker_settings(const RendererOptions& options) {
   return settings;
 }
 
+std::string pictures_text(const PictureCount& pictures) {
+  if (pictures.rendered + pictures.cached == 0) return "";
+  return ", " + std::to_string(pictures.rendered) + " pictures rendered and " +
+         std::to_string(pictures.cached) + " from the cache";
+}
+
+PictureProgress::PictureProgress(RendererSet* renderers, const std::string& label, std::size_t total,
+                                 bool shown)
+    : renderers_(renderers), progress_(label, total, shown) {
+  renderers_->watch(
+      [this, label](const PictureCount& pictures) { progress_.relabel(label + pictures_text(pictures)); });
+}
+
+PictureProgress::~PictureProgress() { renderers_->watch(nullptr); }
+
 std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options) {
   return std::make_unique<RendererSet>(known_workers(options.workers), worker_settings(options));
 }

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "command_line/progress.hpp"
 #include "worker/renderer_set.hpp"
 
 namespace remapc {
@@ -27,5 +28,23 @@ WorkerSettings worker_settings(const RendererOptions& options);
 
 // The built-in renderer and all known workers.
 std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options);
+
+// `, 12 pictures rendered and 30 from the cache`; empty where no worker took part.
+std::string pictures_text(const PictureCount& pictures);
+
+// A progress line of rows that also counts the pictures of workers. `renderers` must outlive it.
+class PictureProgress {
+ public:
+  PictureProgress(RendererSet* renderers, const std::string& label, std::size_t total, bool shown);
+  ~PictureProgress();
+  PictureProgress(const PictureProgress&) = delete;
+  PictureProgress& operator=(const PictureProgress&) = delete;
+
+  void advance_to(std::size_t done) { progress_.advance_to(done); }
+
+ private:
+  RendererSet* renderers_;
+  remap::Progress progress_;
+};
 
 }  // namespace remapc

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line/interruption.hpp"
-#include "command_line/progress.hpp"
 #include "commands/commands.hpp"
 #include "commands/pair_selection.hpp"
 #include "commands/parameter_setting.hpp"
@@ -94,8 +93,8 @@ void run(const SampleCommand& command) {
   const auto renderer = make_renderers(command.renderers);
   NamedTable table;
   {
-    remap::Progress progress("sample " + options.source + " -> " + options.target, options.count,
-                             !command.quiet);
+    PictureProgress progress(renderer.get(), "sample " + options.source + " -> " + options.target,
+                             options.count, !command.quiet);
     SweepExecution execution;
     execution.jobs = command.jobs;
     execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };

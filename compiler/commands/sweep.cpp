@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line/interruption.hpp"
-#include "command_line/progress.hpp"
 #include "commands/commands.hpp"
 #include "commands/pair_selection.hpp"
 #include "commands/renderer_options.hpp"
@@ -93,13 +92,6 @@ void warn_of_subpixel(const Table& table, const SweepOptions& options) {
               << ", where the highlight is smaller than a pixel; take more --resolution or --pixel-samples\n";
 }
 
-// Nothing where no worker took part.
-std::string pictures_text(const PictureCount& pictures) {
-  if (pictures.rendered + pictures.cached == 0) return "";
-  return ", " + std::to_string(pictures.rendered) + " pictures rendered and " +
-         std::to_string(pictures.cached) + " from the cache";
-}
-
 void report(const SweepCommand& command, const Table& table, const PictureCount& pictures, double seconds) {
   std::map<std::string, std::size_t> statuses;
   double square = 0.0;
@@ -140,8 +132,8 @@ void run(const SweepCommand& command) {
 
   Table table;
   {
-    remap::Progress progress("sweep " + options.source + " -> " + options.target, options.samples.size(),
-                             !command.quiet);
+    PictureProgress progress(renderer.get(), "sweep " + options.source + " -> " + options.target,
+                             options.samples.size(), !command.quiet);
     SweepExecution execution;
     execution.jobs = command.jobs;
     execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };

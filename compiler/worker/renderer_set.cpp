@@ -8,7 +8,9 @@
 namespace remapc {
 
 RendererSet::RendererSet(std::vector<WorkerEntry> workers, WorkerSettings settings)
-    : workers_(std::move(workers)), settings_(std::move(settings)), builtin_(make_builtin_renderer()) {}
+    : workers_(std::move(workers)), settings_(std::move(settings)), builtin_(make_builtin_renderer()) {
+  settings_.on_picture = [this] { tell_watcher(); };
+}
 
 RendererSet::~RendererSet() = default;
 
@@ -61,6 +63,16 @@ ModelDescription RendererSet::model(const std::string& name) const {
 
 Image RendererSet::render(const Material& material, const Scene& scene) const {
   return renderer_of(material.model).render(material, scene);
+}
+
+void RendererSet::watch(std::function<void(const PictureCount&)> watcher) {
+  const std::lock_guard lock(watcher_mutex_);
+  watcher_ = std::move(watcher);
+}
+
+void RendererSet::tell_watcher() {
+  const std::lock_guard lock(watcher_mutex_);
+  if (watcher_) watcher_(pictures());
 }
 
 PictureCount RendererSet::pictures() const {

@@ -28,18 +28,23 @@ class RendererSet final : public Renderer {
 
   // Of workers; the built-in renderer is not counted.
   PictureCount pictures() const;
+  // `watcher` hears of every picture of a worker, from any thread; none: nobody does.
+  void watch(std::function<void(const PictureCount&)> watcher);
   std::vector<std::string> remarks() const;
 
  private:
   // The renderer of a model by its prefix; the built-in one where no worker has that prefix.
   const Renderer& renderer_of(const std::string& model) const;
   std::vector<const WorkerRenderer*> started() const;
+  void tell_watcher();
 
   const std::vector<WorkerEntry> workers_;
-  const WorkerSettings settings_;
+  WorkerSettings settings_;
   const std::unique_ptr<Renderer> builtin_;
   mutable std::mutex mutex_;
   mutable std::map<std::string, std::unique_ptr<WorkerRenderer>> started_;
+  std::mutex watcher_mutex_;
+  std::function<void(const PictureCount&)> watcher_;
 };
 
 }  // namespace remapc

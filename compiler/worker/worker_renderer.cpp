@@ -124,11 +124,13 @@ Image WorkerRenderer::render(const Material& material, const Scene& scene) const
   if (cache_) {
     if (auto found = cache_->find(request)) {
       ++cached_;
+      if (settings_.on_picture) settings_.on_picture();
       return std::move(*found);
     }
   }
   Image image = render_anew(request);
   ++rendered_;
+  if (settings_.on_picture) settings_.on_picture();
   if (cache_) cache_->keep(request, image);
   return image;
 }

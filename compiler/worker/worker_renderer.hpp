@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -24,6 +25,7 @@ struct WorkerSettings {
   std::optional<std::filesystem::path> cache;  // none: every picture is rendered
   unsigned processes = 0;                      // of one worker at once, at most; 0: one a core
   WorkerLimits limits;
+  std::function<void()> on_picture;  // after every picture, from any thread
 };
 
 // Pictures that a renderer has given so far.

@@ -36,27 +36,31 @@ void Progress::advance_to(std::size_t done) {
   const std::lock_guard lock(mutex_);
   if (done <= done_) return;
   done_ = done;
-  const Clock::time_point now = Clock::now();
-  if (shown_ && now - last_shown_ >= kInterval) show(now);
+  show_in_time();
 }
 
 void Progress::advance(std::size_t count) {
   const std::lock_guard lock(mutex_);
   done_ += count;
-  const Clock::time_point now = Clock::now();
-  if (shown_ && now - last_shown_ >= kInterval) show(now);
+  show_in_time();
 }
 
 void Progress::relabel(std::string label) {
   const std::lock_guard lock(mutex_);
   label_ = std::move(label);
+  show_in_time();
+}
+
+void Progress::show_in_time() {
+  const Clock::time_point now = Clock::now();
+  if (shown_ && now - last_shown_ >= kInterval) show(now);
 }
 
 void Progress::show(Clock::time_point now) {
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double share = static_cast<double>(done_) / static_cast<double>(total_);
-  const std::string left = clock_text(elapsed * (1.0 - share) / share);
-  std::fprintf(stderr, "\r\033[K%s  %.0f %%, %s left", label_.c_str(), 100.0 * share, left.c_str());
+  const std::string left = done_ == 0 ? "" : ", " + clock_text(elapsed * (1.0 - share) / share) + " left";
+  std::fprintf(stderr, "\r\033[K%s  %.0f %%%s", label_.c_str(), 100.0 * share, left.c_str());
   std::fflush(stderr);
   last_shown_ = now;
   line_is_up_ = true;

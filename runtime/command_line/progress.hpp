@@ -24,11 +24,12 @@ class Progress {
   void advance_to(std::size_t done);
   // `count` more units are ready.
   void advance(std::size_t count = 1);
-  // What the line says from its next change on.
+  // What the line says from now on.
   void relabel(std::string label);
 
  private:
   using Clock = std::chrono::steady_clock;
+  void show_in_time();
   void show(Clock::time_point now);
 
   std::string label_;
