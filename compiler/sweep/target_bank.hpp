@@ -24,8 +24,9 @@ inline constexpr double kBankRatio = 1.05;
 
 class TargetBank {
  public:
-  // A bank for widths in `alphas`, neighbours at most `ratio` apart, and closer at the upper end, where
-  // interpolation has nodes on one side only. `target` must be affine in canonical specular (probe.hpp).
+  // A bank for widths in `alphas` and no less than the model takes: neighbours at most `ratio` apart (the
+  // last two half as much again), closer at the upper end, where interpolation has nodes on one side only.
+  // `target` must be affine in canonical specular (probe.hpp).
   TargetBank(const Photographer& photographer, const Subject& target, const remap::Range& alphas,
              double ratio);
 
