@@ -9,6 +9,7 @@
 #include "number_text.hpp"
 #include "parallel.hpp"
 #include "sweep/block_match.hpp"
+#include "sweep/family_probe.hpp"
 #include "sweep/joint_match.hpp"
 #include "sweep/photographer.hpp"
 #include "sweep/provenance.hpp"
@@ -142,8 +143,8 @@ SweepSetup make_setup(const SweepOptions& options, const Photographer& photograp
   SweepSetup setup{
       options,
       photographer,
-      {source, probe_specular(photographer, source, alphas), 1.0, {}},
-      {target, probe_specular(photographer, target, probed), 1.0, {}},
+      {source, probe_specular(photographer, source, alphas)},
+      {target, probe_specular(photographer, target, probed)},
       1.0,
       light_matched(source, target) ? match_diffuse(photographer, source, target) : DiffuseMatch{},
       nullptr,
@@ -153,13 +154,15 @@ SweepSetup make_setup(const SweepOptions& options, const Photographer& photograp
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;
   }
-  if (!setup.source.response.affine()) setup.source.curve = probe_curve(photographer, source, alphas);
-  const bool affine = setup.target.response.affine();
-  if (affine) setup.bank = std::make_unique<TargetBank>(photographer, setup.target, searched, kBankRatio);
-  if (!affine) setup.grid = std::make_unique<TargetGrid>(photographer, setup.target, searched);
-  if (affine && has_diffuse(options) && probe_diffuse(photographer, target, probed))
+  if (!setup.source.response.affine()) setup.source.curve = probe_family(photographer, source, alphas);
+  if (!setup.target.response.affine()) setup.target.curve = probe_family(photographer, target, probed);
+  if (setup.target.family())
+    setup.bank = std::make_unique<TargetBank>(photographer, setup.target, searched, kBankRatio);
+  else
+    setup.grid = std::make_unique<TargetGrid>(photographer, setup.target, searched);
+  if (setup.bank && has_diffuse(options) && probe_diffuse(photographer, target, probed))
     setup.pictures = std::make_unique<BankPictures>(photographer, setup.target, *setup.bank);
-  else if (!affine || has_diffuse(options))
+  else if (!setup.bank || has_diffuse(options))
     setup.pictures = std::make_unique<RenderedPictures>(photographer, setup.target, searched);
   return setup;
 }

@@ -43,25 +43,22 @@ TargetBank::TargetBank(const Photographer& photographer, const Subject& target, 
                        double ratio)
     : photographer_(photographer),
       target_(target),
-      speculars_(target.linear_range()),
+      family_(target.family().value()),
       log_step_(std::log(ratio)),
       alphas_(bank_alphas(alphas, ratio, target.model.alpha.min)) {
   for (std::size_t i = 0; i < alphas_.size(); ++i) slots_.emplace_back();
 }
 
-const BankEntry& TargetBank::entry(std::size_t node) const {
+const std::vector<std::vector<float>>& TargetBank::pictures(std::size_t node) const {
   Slot& slot = slots_[node];
   slot.begun = true;
-  std::call_once(slot.once, [&] {
-    AffinePictures pictures = take_affine(photographer_, target_, alphas_[node]);
-    slot.entry = {std::move(pictures.base), std::move(pictures.slope)};
-  });
-  return slot.entry;
+  std::call_once(slot.once, [&] { slot.pictures = take_family(photographer_, target_, alphas_[node]); });
+  return slot.pictures;
 }
 
 void TargetBank::prepare(std::span<const std::size_t> nodes) const {
   for (const std::size_t node : nodes)
-    if (!slots_[node].begun.exchange(true)) entry(node);
+    if (!slots_[node].begun.exchange(true)) pictures(node);
 }
 
 }  // namespace remapc
