@@ -99,11 +99,11 @@ class BlendRenderer final : public Renderer {
   std::string version() const override { return "blend"; }
   std::vector<ModelDescription> models() const override {
     auto all = builtin_->models();
-    ModelDescription blend{
-        "disguised/blend",
-        remap::RoughnessConvention::kAlpha,
-        {0.05, 0.8},
-        {{"alpha", ParameterRole::kRoughness, {0.05, 0.8}}, {"level", ParameterRole::kSpecular, speculars_}}};
+    ModelDescription blend{"disguised/blend",
+                           remap::RoughnessConvention::kAlpha,
+                           {0.05, 0.8},
+                           {{"alpha", ParameterRole::kRoughness, {0.05, 0.8}},
+                            {"level", ParameterRole::kSpecular, speculars_, 0.0, true}}};
     all.push_back(blend);
     return all;
   }
