@@ -4,7 +4,6 @@
 
 #include "sweep/joint_match.hpp"
 #include "sweep/match.hpp"
-#include "sweep/specular_curve.hpp"
 
 namespace remapc {
 namespace {
@@ -20,8 +19,8 @@ TableRow matched_row(const SamplePoint& sample, const Match& match) {
   return {sample.alpha, sample.specular, match.alpha, match.specular, match.error, match.status, 0};
 }
 
-// A target without a linear coordinate: specular and alpha by non-linear least squares, from the best of a
-// grid of pictures.
+// A target whose pictures are no combinations of a few: specular and alpha by non-linear least squares, from
+// the best of a grid of pictures.
 TableRow searched_row(const SweepSetup& setup, const SamplePoint& sample, std::vector<float> picture,
                       std::vector<float> weights) {
   const std::vector<Sitting> starts = setup.grid->minima(picture, weights);
@@ -41,23 +40,22 @@ TableRow searched_row(const SweepSetup& setup, const SamplePoint& sample, std::v
 class SourcePictures {
  public:
   SourcePictures(const SweepSetup& setup, const SampleBlock& block) : setup_(setup), alpha_(block.alpha) {
-    const remap::Range linear = setup.source.linear_range();
-    nodes_ = setup.source.curve;
-    if (setup.source.response.affine() && setup.source.model.is_external) nodes_ = {linear.min, linear.max};
-    if (nodes_.size() >= block.samples.size()) nodes_.clear();
-    for (const double specular : nodes_)
-      pictures_.push_back(setup.photographer.take(setup.source, {alpha_, specular, 0.0}));
+    const bool rendered = setup.source.response.affine() && !setup.source.model.is_external;
+    if (!rendered) family_ = setup.source.family();
+    if (family_ && family_->picture_count() >= block.samples.size()) family_.reset();
+    if (family_) pictures_ = take_family(setup.photographer, setup.source, alpha_);
   }
 
   std::vector<float> at(double specular) const {
-    if (nodes_.empty()) return setup_.photographer.take(setup_.source, {alpha_, specular, 0.0});
-    return curve_picture(nodes_, pictures_, std::min(specular, nodes_.back()));  // constant beyond a knee
+    if (!family_) return setup_.photographer.take(setup_.source, {alpha_, specular, 0.0});
+    // Constant beyond a knee.
+    return combined(pictures_, family_->weights_at(std::min(specular, family_->range.max)));
   }
 
  private:
   const SweepSetup& setup_;
   double alpha_;
-  std::vector<double> nodes_;
+  std::optional<SpecularFamily> family_;
   std::vector<std::vector<float>> pictures_;
 };
 

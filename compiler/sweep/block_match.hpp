@@ -25,9 +25,9 @@ struct SweepSetup {
   Subject target;
   double irradiance_scale = 1.0;             // what the source's pictures are multiplied by
   DiffuseMatch diffuse;                      // of the source's pictures, so multiplied
-  std::unique_ptr<TargetBank> bank;          // of a target that is affine in specular
+  std::unique_ptr<TargetBank> bank;          // of a target that has a family (Subject::family)
   std::unique_ptr<TargetPictures> pictures;  // for non-linear matches
-  std::unique_ptr<TargetGrid> grid;          // of a target that is not affine in specular
+  std::unique_ptr<TargetGrid> grid;          // of a target that has none
   EffectiveWidths source_widths, target_widths;
 };
 

@@ -16,6 +16,23 @@ constexpr std::size_t kCoarseStride = 6;
 // A second minimum counts as a rival where its error is within 1 % of the best and its width is not a
 // neighbour.
 constexpr double kRivalError = 1.01;
+// The same for a second specular at one width: this share of the range away. Errors up to kSameError are
+// those of pictures.
+constexpr double kRivalDistance = 0.02;
+constexpr double kSameError = 1e-4;
+
+// Losses at neighbouring nodes, to be interpolated coefficient by coefficient.
+struct LossWindow {
+  std::array<std::vector<double>, kInterpolationNodes> losses;
+  LagrangeBasis::Values logs{};  // log(alpha)
+
+  std::vector<double> sum(const LagrangeBasis::Values& weights) const {
+    std::vector<double> total(losses.front().size());
+    for (std::size_t i = 0; i < kInterpolationNodes; ++i)
+      for (std::size_t k = 0; k < total.size(); ++k) total[k] += weights[i] * losses[i][k];
+    return total;
+  }
+};
 
 }  // namespace
 
@@ -27,33 +44,35 @@ Matcher::Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis,
     for (std::size_t i = 0; i < picture.size(); ++i) weighted[i] = picture[i] * weights_[i];
     weighted_basis_.push_back(std::move(weighted));
   }
-  for (std::size_t i = 0; i < basis_.size(); ++i)
-    for (std::size_t j = 0; j < basis_.size(); ++j)
-      power_[i][j] = inner_product(weighted_basis_[i].data(), basis_[j].data(), basis_[j].size());
+  for (const auto& weighted : weighted_basis_) {
+    power_.emplace_back();
+    for (const auto& picture : basis_)
+      power_.back().push_back(inner_product(weighted.data(), picture.data(), picture.size()));
+  }
 }
 
 const Matcher::Products& Matcher::products(std::size_t node) {
   const auto known = products_.find(node);
   if (known != products_.end()) return known->second;
-  const BankEntry& entry = bank_.entry(node);
-  const float *base = entry.base.data(), *slope = entry.slope.data();
-  const float *weights = weights_.data(), *source = weighted_basis_[0].data();
-  LaneSums aa{}, ab{}, bb{}, xa{}, xb{};
-  for_each_pixel(weights_.size(), [&](std::size_t i, std::size_t lane) {
-    const double a = base[i], b = slope[i], w = weights[i], x = source[i];
-    aa[lane] += w * a * a;
-    ab[lane] += w * a * b;
-    bb[lane] += w * b * b;
-    xa[lane] += x * a;
-    xb[lane] += x * b;
-  });
+  const std::vector<std::vector<float>>& pictures = bank_.pictures(node);
+  const std::vector<Polynomial>& weights = bank_.family().weights;
   Products p;
-  p.aa = total(aa), p.ab = total(ab), p.bb = total(bb), p.xa[0] = total(xa), p.xb[0] = total(xb);
-  if (basis_.size() == 2) {
-    p.xa[1] = inner_product(weighted_basis_[1].data(), base, weights_.size());
-    p.xb[1] = inner_product(weighted_basis_[1].data(), slope, weights_.size());
+  const auto add = [](double factor, const Polynomial& polynomial, Polynomial* sum) {
+    sum->resize(std::max(sum->size(), polynomial.size()));
+    for (std::size_t i = 0; i < polynomial.size(); ++i) (*sum)[i] += factor * polynomial[i];
+  };
+  for (std::size_t j = 0; j < pictures.size(); ++j)
+    for (std::size_t k = j; k < pictures.size(); ++k) {
+      const double product =
+          weighted_product(weights_.data(), pictures[j].data(), pictures[k].data(), weights_.size());
+      add(j == k ? product : 2.0 * product, polynomial_product(weights[j], weights[k]), &p.power);
+    }
+  for (const auto& source : weighted_basis_) {
+    p.cross.emplace_back();
+    for (std::size_t k = 0; k < pictures.size(); ++k)
+      add(inner_product(source.data(), pictures[k].data(), weights_.size()), weights[k], &p.cross.back());
   }
-  return products_.emplace(node, p).first->second;
+  return products_.emplace(node, std::move(p)).first->second;
 }
 
 double Matcher::source_power(const std::vector<double>& coefficients) const {
@@ -63,25 +82,23 @@ double Matcher::source_power(const std::vector<double>& coefficients) const {
   return power;
 }
 
-// |I - A - s B|^2 = (II - 2 IA + AA) - 2 s (IB - AB) + s^2 BB, all weighted. II is left out here: it does not
-// depend on the width, and refine() differentiates.
-Matcher::Quadratic Matcher::quadratic(const Products& p, const std::vector<double>& coefficients) const {
-  double ia = 0.0, ib = 0.0;
-  for (std::size_t k = 0; k < basis_.size(); ++k) {
-    ia += coefficients[k] * p.xa[k];
-    ib += coefficients[k] * p.xb[k];
-  }
-  return {p.aa - 2.0 * ia, ib - p.ab, p.bb};
+// |I - T|^2 = II - 2 IT + TT, all weighted. II is left out here: it does not depend on the width, and
+// refine() differentiates.
+Matcher::Polynomial Matcher::loss(const Products& products, const std::vector<double>& coefficients) const {
+  Polynomial result = products.power;
+  Polynomial cross(products.cross.front().size());
+  for (std::size_t b = 0; b < coefficients.size(); ++b)
+    for (std::size_t i = 0; i < cross.size(); ++i) cross[i] += coefficients[b] * products.cross[b][i];
+  for (std::size_t i = 0; i < cross.size(); ++i) result[i] -= 2.0 * cross[i];
+  return result;
 }
 
-Matcher::Optimum Matcher::optimum(const Quadratic& q) const {
-  const double best = q.c2 > 0.0 ? q.c1 / q.c2 : 0.0;
-  const double specular = std::clamp(best, bank_.min_specular(), bank_.max_specular());
-  return {specular, q.c0 + specular * (specular * q.c2 - 2.0 * q.c1)};
+PolynomialMinimum Matcher::least(const Polynomial& loss) const {
+  return polynomial_minima(loss, bank_.family().coordinate_range()).front();
 }
 
 double Matcher::loss_at_node(std::size_t node, const std::vector<double>& coefficients) {
-  return optimum(quadratic(products(node), coefficients)).loss;
+  return least(loss(products(node), coefficients)).value;
 }
 
 std::size_t Matcher::descend(std::size_t node, const std::vector<double>& coefficients) {
@@ -107,28 +124,16 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   std::array<std::size_t, kInterpolationNodes> nodes{};
   std::iota(nodes.begin(), nodes.end(), first);
   bank_.prepare(nodes);
-  std::array<Quadratic, kInterpolationNodes> window;
-  LagrangeBasis::Values logs{};
+  LossWindow window;
   for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
-    window[i] = quadratic(products(first + i), coefficients);
-    logs[i] = std::log(bank_.alpha(first + i));
+    window.losses[i] = loss(products(first + i), coefficients);
+    window.logs[i] = std::log(bank_.alpha(first + i));
   }
-  const auto interpolate = [&](const LagrangeBasis::Values& basis) {
-    Quadratic sum;
-    for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
-      sum.c0 += basis[i] * window[i].c0;
-      sum.c1 += basis[i] * window[i].c1;
-      sum.c2 += basis[i] * window[i].c2;
-    }
-    return sum;
-  };
   // Derivative of the loss by log(alpha) at the best specular: what the specular would do does not matter
   // there.
   const auto derivative = [&](double x) {
-    const LagrangeBasis basis(logs, x);
-    const double s = optimum(interpolate(basis.value)).specular;
-    const Quadratic d = interpolate(basis.derivative);
-    return d.c0 + s * (s * d.c2 - 2.0 * d.c1);
+    const LagrangeBasis basis(window.logs, x);
+    return polynomial_value(window.sum(basis.derivative), least(window.sum(basis.value)).at);
   };
 
   const bool at_edge = node == 0 || node + 1 == bank_.size();
@@ -141,15 +146,27 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
     x = 0.5 * (low + high);
     (derivative(x) < 0.0 ? low : high) = x;
   }
-  const Optimum best = optimum(interpolate(LagrangeBasis(logs, x).value));
-  const double power = source_power(coefficients);
-  Match match;
-  match.alpha = std::exp(x);
-  match.specular = best.specular;
-  match.error = std::sqrt(std::max(0.0, power + best.loss) / power);
-  const bool clamped = (at_edge && !bracketed) || best.specular <= bank_.min_specular() ||
-                       best.specular >= bank_.max_specular();
-  match.status = clamped ? RowStatus::kClamped : RowStatus::kOk;
+  Match match = match_at(x, window.sum(LagrangeBasis(window.logs, x).value), source_power(coefficients));
+  if (at_edge && !bracketed && match.status == RowStatus::kOk) match.status = RowStatus::kClamped;
+  return match;
+}
+
+// The match at log(alpha) = `x`, from the loss there.
+Match Matcher::match_at(double x, const Polynomial& loss, double power) const {
+  const SpecularFamily& family = bank_.family();
+  const remap::Range range = family.coordinate_range();
+  const auto error = [&](const PolynomialMinimum& minimum) {
+    return std::sqrt(std::max(0.0, power + minimum.value) / power);
+  };
+  const std::vector<PolynomialMinimum> minima = polynomial_minima(loss, range);
+  const PolynomialMinimum& best = minima.front();
+  Match match{std::exp(x), family.specular(best.at), error(best), RowStatus::kOk};
+  if (best.at <= range.min || best.at >= range.max) match.status = RowStatus::kClamped;
+  for (std::size_t i = 1; i < minima.size(); ++i) {
+    const bool apart = std::fabs(minima[i].at - best.at) > kRivalDistance * (range.max - range.min);
+    if (apart && error(minima[i]) < kRivalError * match.error + kSameError)
+      match.status = RowStatus::kUnstable;
+  }
   return match;
 }
 

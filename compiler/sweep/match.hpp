@@ -1,12 +1,12 @@
-// The match: which width and specular of the target give the picture of the source. Specular in closed form
-// for each width, width by a search over the bank and then the root of the derivative.
+// The match: which width and specular of the target give the picture of the source. At each width the loss is
+// a polynomial in the coordinate of the target's family, whose least value over all speculars is found as
+// such; width by a search over the bank and then the root of the derivative.
 #pragma once
 
-#include <array>
 #include <map>
-#include <optional>
 #include <vector>
 
+#include "sweep/polynomial.hpp"
 #include "sweep/target_bank.hpp"
 #include "table/table.hpp"
 
@@ -27,40 +27,36 @@ class Matcher {
   // `basis`: 1 or 2 pictures; `squared_weights`: w^2 of each pixel, as long as they are.
   Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, std::vector<float> squared_weights);
 
-  // `minima`: nodes of the bank to start from, and on return those of the minima found. Empty: the whole bank
-  // is searched. Materials that differ little in specular share their minima, and most of the search with
-  // them.
+  // The status is kUnstable where another width or specular gives as good a picture. `minima`: nodes of the
+  // bank to start from, and on return those of the minima found. Empty: the whole bank is searched. Materials
+  // that differ little in specular share their minima, and most of the search with them.
   Match match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima);
 
  private:
-  // Weighted inner products of one bank node: base (a), slope (b) and the basis (x).
+  // A polynomial in the coordinate of the bank's family.
+  using Polynomial = std::vector<double>;
+  // Weighted inner products at one bank node: of the target's picture with itself, and with each of the
+  // basis.
   struct Products {
-    double aa = 0.0, ab = 0.0, bb = 0.0;
-    std::array<double, 2> xa{}, xb{};
-  };
-  // The loss of one source material at one width as a quadratic in specular: c0 - 2 c1 s + c2 s^2.
-  struct Quadratic {
-    double c0 = 0.0, c1 = 0.0, c2 = 0.0;
-  };
-  struct Optimum {
-    double specular = 0.0;
-    double loss = 0.0;
+    Polynomial power;
+    std::vector<Polynomial> cross;
   };
 
   const Products& products(std::size_t node);
-  Quadratic quadratic(const Products& p, const std::vector<double>& coefficients) const;
-  Optimum optimum(const Quadratic& q) const;
+  Polynomial loss(const Products& products, const std::vector<double>& coefficients) const;
+  PolynomialMinimum least(const Polynomial& loss) const;
   double loss_at_node(std::size_t node, const std::vector<double>& coefficients);
   std::vector<std::size_t> coarse_minima(const std::vector<double>& coefficients);
   std::size_t descend(std::size_t node, const std::vector<double>& coefficients);
   Match refine(std::size_t node, const std::vector<double>& coefficients);
+  Match match_at(double x, const Polynomial& loss, double power) const;
   double source_power(const std::vector<double>& coefficients) const;
 
   const TargetBank& bank_;
   std::vector<std::vector<float>> basis_;
   std::vector<float> weights_;
   std::vector<std::vector<float>> weighted_basis_;
-  std::array<std::array<double, 2>, 2> power_{};  // basis against basis
+  std::vector<std::vector<double>> power_;  // basis against basis
   std::map<std::size_t, Products> products_;
 };
 

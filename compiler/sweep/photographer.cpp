@@ -111,6 +111,12 @@ remap::Range Subject::diffuse_range() const {
   return model.parameter(ParameterRole::kDiffuse).range;
 }
 
+std::optional<SpecularFamily> Subject::family() const {
+  if (!response.affine()) return curve;
+  const remap::Range range = linear_range();
+  return affine_family(range, response.proportional() && range.min == 0.0);
+}
+
 AffinePictures take_affine(const Photographer& photographer, const Subject& subject, double alpha) {
   const remap::Range range = subject.linear_range();
   AffinePictures pictures;
@@ -127,6 +133,20 @@ AffinePictures take_affine(const Photographer& photographer, const Subject& subj
     if (range.min != 0.0)
       pictures.base[i] = static_cast<float>(pictures.base[i] - range.min * pictures.slope[i]);
   }
+  return pictures;
+}
+
+std::vector<std::vector<float>> take_family(const Photographer& photographer, const Subject& subject,
+                                            double alpha) {
+  std::vector<std::vector<float>> pictures;
+  if (subject.response.affine()) {
+    AffinePictures affine = take_affine(photographer, subject, alpha);
+    if (subject.family()->picture_count() == 2) pictures.push_back(std::move(affine.base));
+    pictures.push_back(std::move(affine.slope));
+    return pictures;
+  }
+  for (const double specular : subject.curve.value().speculars)
+    pictures.push_back(photographer.take(subject, {alpha, specular, 0.0}));
   return pictures;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "sweep/objective.hpp"
 #include "sweep/probe.hpp"
 #include "sweep/renderer.hpp"
+#include "sweep/specular_family.hpp"
 
 namespace remapc {
 
@@ -36,8 +38,11 @@ struct Subject {
   ModelDescription model;
   SpecularResponse response;
   double exposure = 1.0;
-  std::vector<double> curve =
-      {};  // of a model without a law: speculars that pictures are interpolated between
+  // Of a model without a law, where one was found (probe_family).
+  std::optional<SpecularFamily> curve = std::nullopt;
+
+  // How pictures depend on specular: by the law, else the curve. None where every picture must be rendered.
+  std::optional<SpecularFamily> family() const;
 
   // Canonical speculars that the model takes, and those in which its picture is linear: they end at a knee.
   remap::Range specular_range() const;
@@ -87,5 +92,10 @@ struct AffinePictures {
   std::vector<float> base, slope, full;
 };
 AffinePictures take_affine(const Photographer& photographer, const Subject& subject, double alpha);
+
+// The pictures of the subject's family, which it must have, at one width: base and slope, or slope alone, of
+// an affine one.
+std::vector<std::vector<float>> take_family(const Photographer& photographer, const Subject& subject,
+                                            double alpha);
 
 }  // namespace remapc

@@ -10,7 +10,6 @@
 #include "sweep/fresnel.hpp"
 #include "sweep/photographer.hpp"
 #include "sweep/picture_sums.hpp"
-#include "sweep/specular_curve.hpp"
 
 namespace remapc {
 namespace {
@@ -30,12 +29,7 @@ constexpr double kWidthPrecision = 2e-3;
 // A knee below this share of the range is no knee that a person would meet.
 constexpr int kMostHalvings = 20;
 
-// Deviations up to this come from the rounding of the pictures that a law is looked for in.
-double picture_tolerance(const ModelDescription& model) {
-  return std::max(kPictureTolerance, 2.0 * model.precision);
-}
-
-// The same for a quotient of sums.
+// As picture_tolerance, for a quotient of sums.
 double ratio_tolerance(const ModelDescription& model) { return std::max(kRatioTolerance, model.precision); }
 
 double brightest(const Picture& picture) { return *std::max_element(picture.begin(), picture.end()); }
@@ -197,6 +191,10 @@ std::string_view law_name(SpecularLaw law) {
   return "other";
 }
 
+double picture_tolerance(const ModelDescription& model) {
+  return std::max(kPictureTolerance, 2.0 * model.precision);
+}
+
 double SpecularResponse::canonical(double own) const {
   return law == SpecularLaw::kIor ? normal_reflectance(own) : own;
 }
@@ -208,35 +206,6 @@ double SpecularResponse::own(double canonical) const {
 SpecularResponse probe_specular(const Photographer& photographer, const ModelDescription& model,
                                 const Range& alphas) {
   return SpecularProbe(photographer, model, alphas).law();
-}
-
-std::vector<double> probe_curve(const Photographer& photographer, const ModelDescription& model,
-                                const Range& alphas) {
-  constexpr std::size_t kPoints =
-      9;  // of Chebyshev's second kind: every second and every fourth are such too
-  const Range range = model.parameter(ParameterRole::kSpecular).range;
-  const std::vector<double> points = curve_points(range, kPoints);
-  std::vector<std::vector<Picture>> widths;
-  for (const double alpha : {alphas.min, std::sqrt(alphas.min * alphas.max), alphas.max}) {
-    widths.emplace_back();
-    for (const double specular : points)
-      widths.back().push_back(photographer.take(model, Sitting{alpha, specular, 0.0}));
-  }
-  for (const std::size_t stride : {std::size_t{4}, std::size_t{2}}) {
-    std::vector<double> nodes;
-    for (std::size_t i = 0; i < kPoints; i += stride) nodes.push_back(points[i]);
-    const bool good = std::all_of(widths.begin(), widths.end(), [&](const std::vector<Picture>& pictures) {
-      std::vector<Picture> known;
-      for (std::size_t i = 0; i < kPoints; i += stride) known.push_back(pictures[i]);
-      for (std::size_t i = 0; i < kPoints; ++i)
-        if (line_deviation(pictures[i], pictures.back(), 0.0, curve_picture(nodes, known, points[i])) >
-            picture_tolerance(model))
-          return false;
-      return true;
-    });
-    if (good) return nodes;
-  }
-  return {};
 }
 
 EffectiveWidths probe_widths(const Photographer& photographer, const ModelDescription& model,

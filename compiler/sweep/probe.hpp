@@ -45,11 +45,9 @@ struct SpecularResponse {
 SpecularResponse probe_specular(const Photographer& photographer, const ModelDescription& model,
                                 const remap::Range& alphas);
 
-// Canonical speculars between which pictures of a model that follows no law are interpolated by a polynomial:
-// 3 or 5 of them, where the pictures at others show that this is as good as rendering; else none. 27
-// pictures.
-std::vector<double> probe_curve(const Photographer& photographer, const ModelDescription& model,
-                                const remap::Range& alphas);
+// Deviations of pixels up to this, relative to the brightest of a picture, come from the rounding of the
+// pictures that a law is looked for in.
+double picture_tolerance(const ModelDescription& model);
 
 // Widths that a sweep is about, and the part of them in which the width changes the picture.
 struct EffectiveWidths {

@@ -11,6 +11,10 @@ constexpr int kWidthDigits = 4;
 
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 
+std::string pictures_text(std::size_t count) {
+  return count == 1 ? "1 picture" : std::to_string(count) + " pictures";
+}
+
 std::string lights_text(const std::vector<Light>& lights) {
   std::string text;
   for (const Light& light : lights) text += (text.empty() ? "" : ",") + light_name(light);
@@ -39,9 +43,9 @@ void add_side(const std::string& role, const Subject& subject, Comments* comment
   comments->emplace_back(role + "_specular_proportional", yes_no(response.proportional()));
   comments->emplace_back(role + "_specular_law", std::string(law_name(response.law)));
   if (response.law == SpecularLaw::kIor) comments->emplace_back(role + "_specular_column", "f0");
-  if (!subject.curve.empty())
+  if (subject.curve)
     comments->emplace_back(role + "_specular_interpolated",
-                           std::to_string(subject.curve.size()) + " pictures a width");
+                           pictures_text(subject.curve->picture_count()) + " a width");
   if (response.law == SpecularLaw::kClamped)
     comments->emplace_back(role + "_specular_knee", number_text(response.knee));
 }

@@ -9,6 +9,7 @@
 #include "error.hpp"
 #include "number_text.hpp"
 #include "parallel.hpp"
+#include "sweep/family_probe.hpp"
 #include "sweep/joint_match.hpp"
 #include "sweep/photographer.hpp"
 #include "sweep/provenance.hpp"
@@ -108,7 +109,7 @@ struct Matching {
   std::vector<Varied> varied;
   Subject target;
   double irradiance_scale = 1.0;
-  std::unique_ptr<TargetBank> bank;  // of a target that is affine in specular, and to which diffuse adds
+  std::unique_ptr<TargetBank> bank;  // of a target that has a family, and to which diffuse adds
   std::unique_ptr<TargetPictures> pictures;
 
   bool colour(const Coordinate& coordinate) const { return !options.grey && !coordinate.shared; }
@@ -198,9 +199,11 @@ Matching make_matching(const RandomSweepOptions& options, const Photographer& ph
   matching.target = {target, probe_specular(photographer, target, {narrowest, target.alpha.max})};
   if (options.match_irradiance && light_matched(source, target))
     matching.irradiance_scale = 1.0 / match_diffuse(photographer, source, target).scale;
+  if (!matching.target.response.affine() && options.searched.empty())
+    matching.target.curve = probe_family(photographer, target, {narrowest, target.alpha.max});
   const bool adds = !target.has(ParameterRole::kDiffuse) ||
                     probe_diffuse(photographer, target, {narrowest, target.alpha.max});
-  if (matching.target.response.affine() && adds && options.searched.empty()) {
+  if (matching.target.family() && adds && options.searched.empty()) {
     matching.bank = std::make_unique<TargetBank>(photographer, matching.target, searched, kBankRatio);
     matching.pictures = std::make_unique<BankPictures>(photographer, matching.target, *matching.bank);
   } else {

@@ -9,6 +9,7 @@
 #include "number_text.hpp"
 #include "parallel.hpp"
 #include "sweep/block_match.hpp"
+#include "sweep/family_probe.hpp"
 #include "sweep/joint_match.hpp"
 #include "sweep/photographer.hpp"
 #include "sweep/provenance.hpp"
@@ -145,34 +146,31 @@ SweepSetup make_setup(const SweepOptions& options, const Photographer& photograp
   const Range wanted{std::max(target.alpha.min, alphas.min / kNarrowing), target.alpha.max};
   const EffectiveWidths target_widths = probe_widths(photographer, target, wanted);
   const Range searched = target_widths.effective;
+  ModelDescription responsive = target;  // without widths that do nothing
+  if (searched.min > wanted.min) responsive.alpha.min = searched.min;
+  if (searched.max < wanted.max) responsive.alpha.max = searched.max;
   const Range probed{std::max(searched.min, alphas.min), searched.max};
   // Apart from the aggregate: gcc 12 destroys members twice where a later one throws.
   const SpecularResponse source_law = probe_specular(photographer, source, alphas);
   const SpecularResponse target_law = probe_specular(photographer, target, probed);
   const DiffuseMatch diffuse =
       light_matched(source, target) ? match_diffuse(photographer, source, target) : DiffuseMatch{};
-  SweepSetup setup{options,
-                   photographer,
-                   {source, source_law, 1.0, {}},
-                   {target, target_law, 1.0, {}},
-                   1.0,
-                   diffuse,
-                   nullptr,
-                   nullptr,
-                   nullptr,
-                   source_widths,
-                   target_widths};
+  SweepSetup setup{
+      options, photographer,  {source, source_law}, {responsive, target_law}, 1.0, diffuse, nullptr, nullptr,
+      nullptr, source_widths, target_widths};
   if (options.match_irradiance) {
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;
   }
-  if (!setup.source.response.affine()) setup.source.curve = probe_curve(photographer, source, alphas);
-  const bool affine = setup.target.response.affine();
-  if (affine) setup.bank = std::make_unique<TargetBank>(photographer, setup.target, searched, kBankRatio);
-  if (!affine) setup.grid = std::make_unique<TargetGrid>(photographer, setup.target, searched);
-  if (affine && has_diffuse(options) && probe_diffuse(photographer, target, probed))
+  if (!setup.source.response.affine()) setup.source.curve = probe_family(photographer, source, alphas);
+  if (!setup.target.response.affine()) setup.target.curve = probe_family(photographer, target, probed);
+  if (setup.target.family())
+    setup.bank = std::make_unique<TargetBank>(photographer, setup.target, searched, kBankRatio);
+  else
+    setup.grid = std::make_unique<TargetGrid>(photographer, setup.target, searched);
+  if (setup.bank && has_diffuse(options) && probe_diffuse(photographer, target, probed))
     setup.pictures = std::make_unique<BankPictures>(photographer, setup.target, *setup.bank);
-  else if (!affine || has_diffuse(options))
+  else if (!setup.bank || has_diffuse(options))
     setup.pictures = std::make_unique<RenderedPictures>(photographer, setup.target, searched);
   return setup;
 }

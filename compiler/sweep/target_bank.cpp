@@ -11,47 +11,54 @@ namespace {
 // Nodes on one side only multiply the error of interpolation by about 40; steps a quarter as wide divide it
 // by 4^11.
 constexpr double kEdgeRefinement = 4.0;
-// Of the last step, as a share of the others.
-constexpr double kLeastStep = 0.3;
+
+// From the top down: a window of narrow steps, then full ones, to the first at or below the bottom; to the
+// bottom itself where that one would be below `least`, which is all that the model takes.
+std::vector<double> bank_alphas(const remap::Range& alphas, double ratio, double least) {
+  const double bottom = std::log(alphas.min), top = std::log(alphas.max), step = std::log(ratio);
+  double narrow_step = step / kEdgeRefinement;
+  if (least < alphas.max)
+    narrow_step =
+        std::min(narrow_step, (top - std::log(least)) / static_cast<double>(kInterpolationNodes - 1));
+  std::vector<double> logs = {top};
+  while (logs.back() > bottom || logs.size() < kInterpolationNodes)
+    logs.push_back(logs.back() - (logs.size() <= kInterpolationNodes ? narrow_step : step));
+  const bool below = std::exp(logs.back()) < least;
+  if (below) {
+    // A node too near its neighbour would only multiply the noise of pictures.
+    const double before_last = logs[logs.size() - 2];
+    if (logs.size() > kInterpolationNodes && before_last - bottom < 0.5 * (before_last - logs.back()))
+      logs.pop_back();
+  }
+  std::vector<double> widths;
+  for (auto log = logs.rbegin(); log != logs.rend(); ++log) widths.push_back(std::exp(*log));
+  if (below) widths.front() = alphas.min;
+  widths.back() = alphas.max;
+  return widths;
+}
 
 }  // namespace
 
 TargetBank::TargetBank(const Photographer& photographer, const Subject& target, const remap::Range& alphas,
                        double ratio)
-    : photographer_(photographer), target_(target), speculars_(target.linear_range()) {
-  // From the top down: a window of narrow steps, then the full ones.
-  log_step_ = std::log(ratio);
-  const double bottom = std::log(alphas.min), top = std::log(alphas.max);
-  std::vector<double> logs = {top};
-  while (logs.back() > bottom || logs.size() < kInterpolationNodes) {
-    const bool narrow = logs.size() <= kInterpolationNodes;
-    logs.push_back(logs.back() - (narrow ? log_step_ / kEdgeRefinement : log_step_));
-  }
-  // None below the range, where the target may not answer; a last step that is too narrow goes to its
-  // neighbour.
-  if (logs.size() > kInterpolationNodes) {
-    if (logs[logs.size() - 2] - bottom < kLeastStep * log_step_) logs.pop_back();
-    logs.back() = bottom;
-  }
-  for (auto log = logs.rbegin(); log != logs.rend(); ++log) alphas_.push_back(std::exp(*log));
-  alphas_.back() = alphas.max;
-  if (logs.back() == bottom) alphas_.front() = alphas.min;
+    : photographer_(photographer),
+      target_(target),
+      family_(target.family().value()),
+      log_step_(std::log(ratio)),
+      alphas_(bank_alphas(alphas, ratio, target.model.alpha.min)) {
   for (std::size_t i = 0; i < alphas_.size(); ++i) slots_.emplace_back();
 }
 
-const BankEntry& TargetBank::entry(std::size_t node) const {
+const std::vector<std::vector<float>>& TargetBank::pictures(std::size_t node) const {
   Slot& slot = slots_[node];
   slot.begun = true;
-  std::call_once(slot.once, [&] {
-    AffinePictures pictures = take_affine(photographer_, target_, alphas_[node]);
-    slot.entry = {std::move(pictures.base), std::move(pictures.slope)};
-  });
-  return slot.entry;
+  std::call_once(slot.once, [&] { slot.pictures = take_family(photographer_, target_, alphas_[node]); });
+  return slot.pictures;
 }
 
 void TargetBank::prepare(std::span<const std::size_t> nodes) const {
   for (const std::size_t node : nodes)
-    if (!slots_[node].begun.exchange(true)) entry(node);
+    if (!slots_[node].begun.exchange(true)) pictures(node);
 }
 
 }  // namespace remapc

@@ -1,5 +1,5 @@
-// The bank of target pictures: for widths on a geometric grid, the target at specular 0 and its slope in
-// specular, each rendered once, when a search first asks for it.
+// The bank of target pictures: for widths on a geometric grid, the few pictures that all others of that width
+// are combinations of (specular_family.hpp), rendered once, when a search first asks for them.
 #pragma once
 
 #include <atomic>
@@ -12,31 +12,26 @@
 
 namespace remapc {
 
-// One width: picture = base + specular * slope, floats as Photographer::take gives them.
-struct BankEntry {
-  std::vector<float> base;
-  std::vector<float> slope;
-};
-
 // Neighbouring widths of a bank, at most. Interpolating the loss over twelve of them is good to 1e-7 in
 // alpha.
 inline constexpr double kBankRatio = 1.05;
 
 class TargetBank {
  public:
-  // A bank for widths in `alphas`, neighbours at most `ratio` apart, and closer at the upper end, where
-  // interpolation has nodes on one side only. `target` must be affine in canonical specular (probe.hpp).
+  // A bank for widths in `alphas` and no less than the model takes: neighbours at most `ratio` apart (the
+  // last two half as much again), closer at the upper end, where interpolation has nodes on one side only.
+  // `target` must have a family (Subject::family).
   TargetBank(const Photographer& photographer, const Subject& target, const remap::Range& alphas,
              double ratio);
 
   std::size_t size() const { return alphas_.size(); }
   double alpha(std::size_t node) const { return alphas_[node]; }
-  double log_step() const { return log_step_; }           // largest, in log(alpha)
-  double min_specular() const { return speculars_.min; }  // canonical
-  double max_specular() const { return speculars_.max; }  // a knee, where the target has one
+  double log_step() const { return log_step_; }  // largest, in log(alpha)
+  const SpecularFamily& family() const { return family_; }
 
-  // The pictures of a node; rendered on the first call, kept for the next. Safe from many threads.
-  const BankEntry& entry(std::size_t node) const;
+  // The pictures of a node (take_family); rendered on the first call, kept for the next. Safe from many
+  // threads.
+  const std::vector<std::vector<float>>& pictures(std::size_t node) const;
 
   // Renders those of `nodes` that no other thread has begun: threads that want the same nodes share the work
   // instead of waiting for each other at every one.
@@ -46,11 +41,11 @@ class TargetBank {
   struct Slot {
     std::once_flag once;
     std::atomic<bool> begun{false};
-    BankEntry entry;
+    std::vector<std::vector<float>> pictures;
   };
   const Photographer& photographer_;
   Subject target_;
-  remap::Range speculars_;
+  SpecularFamily family_;
   double log_step_;
   std::vector<double> alphas_;
   mutable std::deque<Slot> slots_;

@@ -1,5 +1,5 @@
-// Pictures of a target on a coarse grid of widths and speculars: where a search starts for a target that has
-// no linear coordinate.
+// Pictures of a target on a coarse grid of widths and speculars: where a search starts for a target without a
+// family (Subject::family).
 #pragma once
 
 #include <deque>

@@ -68,12 +68,10 @@ void TargetPictures::set_value(Sitting* point, std::size_t coordinate, double va
 }
 
 BankPictures::BankPictures(const Photographer& photographer, const Subject& target, const TargetBank& bank)
-    : TargetPictures(target, {bank.alpha(0), bank.alpha(bank.size() - 1)}, {}),
-      bank_(bank),
-      black_base_(target.response.proportional()) {
+    : TargetPictures(target, {bank.alpha(0), bank.alpha(bank.size() - 1)}, {}), bank_(bank) {
   const Range diffuses = target.diffuse_range();
   if (!(diffuses.max > diffuses.min)) {
-    diffuse_.resize(bank.entry(bank.size() - 1).slope.size());
+    diffuse_.resize(bank.pictures(bank.size() - 1).front().size());
     return;
   }
   const Sitting lit{bank.alpha(bank.size() - 1), target.linear_range().min, diffuses.max};
@@ -88,28 +86,35 @@ BankPictures::BankPictures(const Photographer& photographer, const Subject& targ
 
 PictureTangents BankPictures::at(const Sitting& point, const std::vector<bool>& wanted) const {
   const Window window = Window::around(bank_, point.alpha);
+  const std::vector<double> weights = bank_.family().weights_at(point.specular);
+  const std::vector<double> slopes = bank_.family().slopes_at(point.specular);
   const std::size_t pixels = diffuse_.size();
   PictureTangents result{std::vector<float>(pixels),
                          {std::vector<float>(pixels), std::vector<float>(pixels),
                           wanted[kDiffuseCoordinate] ? diffuse_ : std::vector<float>()}};
   std::vector<float>&by_alpha = result.by[kAlphaCoordinate], &by_specular = result.by[kSpecularCoordinate];
-  std::array<const BankEntry*, kInterpolationNodes> entries{};
-  for (std::size_t i = 0; i < kInterpolationNodes; ++i) entries[i] = &bank_.entry(window.first + i);
+  std::array<const std::vector<std::vector<float>>*, kInterpolationNodes> nodes{};
+  for (std::size_t i = 0; i < kInterpolationNodes; ++i) nodes[i] = &bank_.pictures(window.first + i);
   for (std::size_t start = 0; start < pixels; start += kBlockPixels) {
     const std::size_t count = std::min(kBlockPixels, pixels - start);
-    Block base{}, slope{}, base_rise{}, slope_rise{};
-    for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
-      add_scaled(window.basis.value[i], &entries[i]->slope[start], count, &slope);
-      add_scaled(window.basis.derivative[i], &entries[i]->slope[start], count, &slope_rise);
-      if (black_base_) continue;
-      add_scaled(window.basis.value[i], &entries[i]->base[start], count, &base);
-      add_scaled(window.basis.derivative[i], &entries[i]->base[start], count, &base_rise);
+    Block picture{}, slope{}, rise{};
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      Block interpolated{}, interpolated_rise{};
+      for (std::size_t i = 0; i < kInterpolationNodes; ++i) {
+        const float* values = &(*nodes[i])[k][start];
+        add_scaled(window.basis.value[i], values, count, &interpolated);
+        add_scaled(window.basis.derivative[i], values, count, &interpolated_rise);
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        picture[i] += weights[k] * interpolated[i];
+        slope[i] += slopes[k] * interpolated[i];
+        rise[i] += weights[k] * interpolated_rise[i];
+      }
     }
     for (std::size_t i = 0; i < count; ++i) {
-      result.picture[start + i] =
-          static_cast<float>(base[i] + point.specular * slope[i] + point.diffuse * diffuse_[start + i]);
+      result.picture[start + i] = static_cast<float>(picture[i] + point.diffuse * diffuse_[start + i]);
       by_specular[start + i] = static_cast<float>(slope[i]);
-      by_alpha[start + i] = static_cast<float>((base_rise[i] + point.specular * slope_rise[i]) / point.alpha);
+      by_alpha[start + i] = static_cast<float>(rise[i] / point.alpha);
     }
   }
   return result;

@@ -1,5 +1,5 @@
 // The target's picture and how it changes with each parameter, at any parameters: what a non-linear match
-// asks for. From the bank where the target is affine, from renders where it is not.
+// asks for. From the bank where the target has one, else from renders.
 #pragma once
 
 #include <string>
@@ -43,8 +43,8 @@ class TargetPictures {
   std::vector<Coordinate> coordinates_;
 };
 
-// Pictures of a target that is affine in specular and to which diffuse adds (probe.hpp), interpolated between
-// the nodes of the bank: no renders but those of the bank and one of the diffuse picture.
+// Pictures of a target to whose specular diffuse adds (probe_diffuse), interpolated between the nodes of the
+// bank: no renders but those of the bank and two for the diffuse picture.
 class BankPictures final : public TargetPictures {
  public:
   BankPictures(const Photographer& photographer, const Subject& target, const TargetBank& bank);
@@ -53,7 +53,6 @@ class BankPictures final : public TargetPictures {
 
  private:
   const TargetBank& bank_;
-  bool black_base_;
   std::vector<float> diffuse_;  // what diffuse 1 adds
 };
 

@@ -2,6 +2,7 @@
 // meets the sweep.
 #pragma once
 
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -78,6 +79,58 @@ class LawRenderer final : public Renderer {
   std::string inner_;
   remap::Range range_;
   std::function<double(double)> law_;
+  std::unique_ptr<Renderer> builtin_ = make_builtin_renderer();
+};
+
+// `disguised/blend`, alone: the sum of built-in pictures, each of a model and width of its own, times
+// functions of the one specular parameter, so that the shape of the picture and not only its strength depends
+// on it. Refuses widths out of its range, as real renderers do, and counts its pictures.
+class BlendRenderer final : public Renderer {
+ public:
+  struct Term {
+    std::string model;  // of the built-in renderer; at full specular, without diffuse
+    double width;       // its alpha as a multiple of the blend's
+    std::function<double(double)> weight;
+  };
+
+  BlendRenderer(std::vector<Term> terms, remap::Range speculars)
+      : terms_(std::move(terms)), speculars_(speculars) {}
+
+  std::string version() const override { return "blend"; }
+  std::vector<ModelDescription> models() const override {
+    auto all = builtin_->models();
+    ModelDescription blend{"disguised/blend",
+                           remap::RoughnessConvention::kAlpha,
+                           {0.05, 0.8},
+                           {{"alpha", ParameterRole::kRoughness, {0.05, 0.8}},
+                            {"level", ParameterRole::kSpecular, speculars_, 0.0, true}}};
+    all.push_back(blend);
+    return all;
+  }
+  Image render(const Material& material, const Scene& scene) const override {
+    if (material.model != "disguised/blend") return builtin_->render(material, scene);
+    require_material(material, find_model(*this, material.model));
+    ++pictures_;
+    const double alpha = material.parameters.at("alpha")[0], level = material.parameters.at("level")[0];
+    std::vector<double> sums;
+    Image image;
+    for (const Term& term : terms_) {
+      const ModelDescription model = find_model(*builtin_, term.model);
+      image = builtin_->render(grey_material(model, alpha * term.width, 1.0, 0.0), scene);
+      sums.resize(image.values.size());
+      const double weight = term.weight(level);
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weight * static_cast<double>(image.values[i]);
+    }
+    image.values.assign(sums.begin(), sums.end());
+    return image;
+  }
+
+  std::size_t pictures() const { return pictures_; }
+
+ private:
+  std::vector<Term> terms_;
+  remap::Range speculars_;
+  mutable std::atomic<std::size_t> pictures_{0};
   std::unique_ptr<Renderer> builtin_ = make_builtin_renderer();
 };
 

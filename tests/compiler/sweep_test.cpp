@@ -14,7 +14,9 @@
 #include "files.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
+#include "sweep/interpolation.hpp"
 #include "sweep/photographer.hpp"
+#include "sweep/target_bank.hpp"
 
 using namespace remapc;
 
@@ -175,6 +177,29 @@ TEST_CASE("sweep: several lights are matched together") {
   const double both = sweep(*renderer, options).rows.front().alpha2;
   CHECK(both > std::min(headlight, side));
   CHECK(both < std::max(headlight, side));
+}
+
+TEST_CASE("bank: widths cover the range, no less than the model takes, no further apart than asked") {
+  const auto renderer = make_builtin_renderer();
+  const Photographer photographer(*renderer, objective_preset("paper"), 8, 1);
+  const ModelDescription model = find_model(*renderer, "mitsuba/ggx");
+  const SpecularResponse response = probe_specular(photographer, model, {0.1, 1.0});
+  // The last: less than a window of the usual steps.
+  for (const remap::Range alphas :
+       {remap::Range{0.00275625, 1.0}, {0.01, 0.99}, {0.2, 0.2 * 1.6}, {0.25, 1.0}, {0.95, 1.0}})
+    for (const bool takes_less : {false, true}) {
+      Subject target{model, response};
+      target.model.alpha.min = takes_less ? 1e-4 : alphas.min;
+      const TargetBank bank(photographer, target, alphas, kBankRatio);
+      REQUIRE(bank.size() >= kInterpolationNodes);
+      CHECK(bank.alpha(0) <= alphas.min);
+      CHECK(bank.alpha(0) >= target.model.alpha.min);
+      CHECK(bank.alpha(bank.size() - 1) == alphas.max);
+      for (std::size_t i = 1; i < bank.size(); ++i) {
+        CHECK(bank.alpha(i) > bank.alpha(i - 1));
+        CHECK(bank.alpha(i) < bank.alpha(i - 1) * std::pow(kBankRatio, i == 1 ? 1.5001 : 1.0001));
+      }
+    }
 }
 
 TEST_CASE("grid: uniform over widths with both ends, over specular without 0") {

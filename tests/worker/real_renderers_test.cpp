@@ -177,3 +177,34 @@ TEST_CASE("real renderers: Cycles 5's GGX follows the curve of its other masking
     CHECK(table.rows[i].specular2 / 0.5 == Approx(curve[i][2]).margin(1e-3));
   }
 }
+
+TEST_CASE("real renderers: Radiance to three.js, quadratic in F0, follows the curve of another search") {
+  const RendererSet renderers(known_workers({}), settings());
+  if (!is_here(renderers, "radiance", "plastic") || !is_here(renderers, "threejs-r187", "standard-metal"))
+    return;
+  SweepOptions options;
+  options.source = "radiance/plastic";
+  options.target = "threejs-r187/standard-metal";
+  options.objective = objective_preset("paper");
+  options.resolution = 256;
+  // Found by a search in Python over 37 pictures of F0 0.04 and a parabola: alpha, three.js' roughness, F0
+  // for each unit of Radiance's specularity.
+  const std::vector<std::array<double, 3>> curve = {{0.05, 0.2303, 1.289}, {0.1, 0.3243, 1.267},
+                                                    {0.2, 0.4508, 1.196},  {0.4, 0.6057, 1.011},
+                                                    {0.6, 0.7097, 0.863},  {0.9, 0.8348, 0.733}};
+  for (const auto& point : curve) options.samples.push_back({point[0], 0.04 / point[2]});
+  const Table table = run_sweep(renderers, options, {});
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const double roughness = remap::from_alpha(remap::RoughnessConvention::kRoughness, table.rows[i].alpha2);
+    CHECK(roughness == Approx(curve[i][1]).margin(2e-3));
+    // The search took F0 in proportion, which it is but for the light that Schlick's Fresnel leaves at 0.
+    CHECK(table.rows[i].specular2 == Approx(0.04).epsilon(0.02));
+    CHECK(table.rows[i].status == RowStatus::kOk);
+  }
+  // Probes of both laws (9 and 9) and of the family (27); a picture a width and two a sphere (6 and 12);
+  // three at a node, of which each width looks at a window of twelve and two neighbours, and all at every
+  // sixth of 110.
+  const std::size_t pictures = renderers.pictures().rendered;
+  CHECK(pictures <= 9 + 9 + 27 + 6 + 12 + 3 * (6 * 14 + 19));
+  std::cout << "Radiance to three.js, six widths at 256^2: " << pictures << " pictures\n";
+}
