@@ -16,7 +16,7 @@ using Picture = std::vector<float>;
 using Matrix = std::vector<std::vector<double>>;
 
 // Points of the finest probing; degrees up to half of it can be checked between their nodes.
-constexpr std::size_t kFinest = 16;
+constexpr std::size_t kFinest = 32;
 constexpr std::size_t kLeastChecked = 8;
 
 // One of Chebyshev's points of the second kind over -1 to 1, where polynomials through them stay tame
@@ -164,7 +164,7 @@ std::optional<SpecularFamily> probe_family(const Photographer& photographer, con
                                            const remap::Range& alphas) {
   for (const SpecularCoordinate coordinate : {SpecularCoordinate::kEven, SpecularCoordinate::kRoot}) {
     FamilyProbe probe(photographer, model, alphas, coordinate);
-    for (const std::size_t degree : {2u, 4u, 8u})
+    for (const std::size_t degree : {2u, 4u, 8u, 16u})
       if (probe.is_polynomial(degree)) return probe.smallest(degree);
   }
   return std::nullopt;

@@ -11,8 +11,8 @@ class Photographer;
 struct ModelDescription;
 
 // The family of `model` (whose canonical specular is its own parameter) with as few pictures as serve at
-// three widths within `alphas`: polynomials in specular, or in its root, of a degree up to 8 that give
-// pictures between the probed ones to picture_tolerance. None where there is no such; 9 to 68 pictures.
+// three widths within `alphas`: polynomials in specular, or in its root, of a degree up to 16 that give
+// pictures between the probed ones to picture_tolerance. None where there is no such; 9 to 198 pictures.
 std::optional<SpecularFamily> probe_family(const Photographer& photographer, const ModelDescription& model,
                                            const remap::Range& alphas);
 
