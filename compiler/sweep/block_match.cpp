@@ -1,6 +1,7 @@
 #include "sweep/block_match.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "sweep/joint_match.hpp"
 #include "sweep/match.hpp"
@@ -48,6 +49,9 @@ class SourcePictures {
 
   std::vector<float> at(double specular) const {
     if (!family_) return setup_.photographer.take(setup_.source, {alpha_, specular, 0.0});
+    // Combinations of pictures leave rounding where there is none.
+    if (specular <= family_->range.min && setup_.source.response.black_base)
+      return std::vector<float>(pictures_.front().size());
     // Constant beyond a knee.
     return combined(pictures_, family_->weights_at(std::min(specular, family_->range.max)));
   }

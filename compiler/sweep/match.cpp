@@ -102,14 +102,14 @@ double Matcher::loss_at_node(std::size_t node, const std::vector<double>& coeffi
 }
 
 std::size_t Matcher::descend(std::size_t node, const std::vector<double>& coefficients) {
-  double loss = loss_at_node(node, coefficients);
+  double lowest = loss_at_node(node, coefficients);
   for (;;) {
     std::size_t next = node;
     for (const std::size_t neighbour : {node - 1, node + 1}) {  // node - 1 wraps at 0 and fails the check
       if (neighbour >= bank_.size()) continue;
       const double candidate = loss_at_node(neighbour, coefficients);
-      if (candidate < loss) {
-        loss = candidate;
+      if (candidate < lowest) {
+        lowest = candidate;
         next = neighbour;
       }
     }

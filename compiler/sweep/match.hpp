@@ -24,7 +24,7 @@ struct Match {
 // material. Not safe to share between threads; the bank behind it is.
 class Matcher {
  public:
-  // `basis`: 1 or 2 pictures; `squared_weights`: w^2 of each pixel, as long as they are.
+  // `basis`: at least one picture; `squared_weights`: w^2 of each pixel, as long as they are.
   Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, std::vector<float> squared_weights);
 
   // The status is kUnstable where another width or specular gives as good a picture. `minima`: nodes of the

@@ -240,6 +240,16 @@ TEST_CASE("sweep: two speculars that give the same picture make a row unstable")
   CHECK(table.rows[1].specular2 == Approx((2.2 - std::sqrt(4.84 - 1.2)) / 4.0).epsilon(1e-5));
 }
 
+TEST_CASE("sweep: a source without a law is flat where it is black, whatever its parameter is there") {
+  const LawRenderer renderer("mitsuba/ward", {1.0, 2.0}, [](double s) { return 0.9 * std::pow(s - 1.0, 2); });
+  const Table table = sweep(renderer, sweep_options("disguised/law", "mitsuba/ward", "natural",
+                                                    {{0.3, 1.0}, {0.3, 1.2}, {0.3, 1.6}, {0.3, 2.0}}, 48));
+  CHECK(comment(table, "source_specular_interpolated") == "1 picture a width");
+  CHECK(table.rows[0].status == RowStatus::kFlat);
+  for (std::size_t i = 1; i < table.rows.size(); ++i)
+    CHECK(table.rows[i].specular2 == Approx(0.9 * std::pow(table.rows[i].specular1 - 1.0, 2)).epsilon(1e-5));
+}
+
 TEST_CASE("pictures: those of a family and their derivatives are those of renders") {
   const LawRenderer renderer = fresnel_level();
   const Photographer photographer(renderer, objective_preset("natural"), 32, 1);
