@@ -12,6 +12,8 @@ namespace remapc {
 namespace {
 
 constexpr int kPanel = 116, kGap = 12, kMargin = 140, kTop = 40;
+// Panels of the other models carry their names above them.
+constexpr int kSpokeTop = 40, kSpokeLabel = 26;
 constexpr int kSteps = 48;
 constexpr double kSpecular = 0.5, kLargestRatio = 2.0;
 
@@ -60,15 +62,25 @@ std::string label(double x, double y, const std::string& anchor, const std::stri
 }  // namespace
 
 std::string pairs_plot(const std::vector<remap::Fit>& fits) {
-  std::set<std::string> names;
-  for (const remap::Fit& fit : fits)
-    if (fit.likeness && !fit.likeness->ssim.empty()) names.insert({fit.source.model, fit.target.model});
-  const std::vector<std::string> models(names.begin(), names.end());
+  const std::set<std::string> hub = hub_models(fits);
+  const std::vector<std::string> models(hub.begin(), hub.end());
   const auto place = [&](std::size_t row, std::size_t column) {
     return Place{kMargin + static_cast<double>(column) * (kPanel + kGap),
                  kTop + static_cast<double>(row) * (kPanel + kGap)};
   };
-  const Place end = place(models.size(), models.size());
+  std::vector<const remap::Fit*> pairs, spokes;  // within the hub, and to or from it
+  for (const remap::Fit& fit : fits) {
+    if (!fit.likeness || fit.likeness->ssim.empty()) continue;
+    (hub.contains(fit.source.model) && hub.contains(fit.target.model) ? pairs : spokes).push_back(&fit);
+  }
+  const std::size_t columns = std::max<std::size_t>(models.size(), 1);
+  const auto spoke_place = [&](std::size_t i) {
+    const Place cell = place(models.size() + i / columns, i % columns);
+    return Place{cell.x, cell.y + kSpokeTop + static_cast<double>(i / columns) * kSpokeLabel};
+  };
+  const Place end = spokes.empty()
+                        ? place(models.size(), columns)
+                        : Place{place(0, columns).x, spoke_place(spokes.size() - 1).y + kPanel + kGap};
   std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + decimals(end.x) + "\" height=\"" +
                      decimals(end.y) + "\" font-family=\"sans-serif\" font-size=\"10\">\n" +
                      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
@@ -76,12 +88,16 @@ std::string pairs_plot(const std::vector<remap::Fit>& fits) {
     text += label(place(0, i).x + 0.5 * kPanel, kTop - 8.0, "middle", models[i]);
     text += label(kMargin - 8.0, place(i, 0).y + 0.5 * kPanel, "end", models[i]);
   }
-  for (const remap::Fit& fit : fits) {
-    if (!fit.likeness || fit.likeness->ssim.empty()) continue;
-    const auto index = [&](const std::string& model) {
-      return static_cast<std::size_t>(std::find(models.begin(), models.end(), model) - models.begin());
-    };
-    text += panel(fit, place(index(fit.source.model), index(fit.target.model)));
+  const auto index = [&](const std::string& model) {
+    return static_cast<std::size_t>(std::find(models.begin(), models.end(), model) - models.begin());
+  };
+  for (const remap::Fit* fit : pairs)
+    text += panel(*fit, place(index(fit->source.model), index(fit->target.model)));
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    const Place corner = spoke_place(i);
+    text += panel(*spokes[i], corner);
+    text += label(corner.x + 0.5 * kPanel, corner.y - 16.0, "middle", spokes[i]->source.model);
+    text += label(corner.x + 0.5 * kPanel, corner.y - 5.0, "middle", "to " + spokes[i]->target.model);
   }
   return text + "</svg>\n";
 }

@@ -48,14 +48,11 @@ Pairs measured_pairs(const std::vector<Fit>& fits) {
   return pairs;
 }
 
-std::set<std::string> models_of(const Pairs& pairs) {
-  std::set<std::string> models;
-  for (const auto& [pair, fit] : pairs) models.insert({pair.first, pair.second});
-  return models;
+std::string alike_text(const Fit& fit) {
+  return percent(fit.likeness->image_error.rms) + " %, " + decimals(mean_ssim(fit), 3);
 }
 
-std::string matrix(const Pairs& pairs) {
-  const std::set<std::string> models = models_of(pairs);
+std::string matrix(const Pairs& pairs, const std::set<std::string>& models) {
   std::string text = "| from \\ to |", rule = "|---|";
   for (const std::string& target : models) {
     text += " " + target + " |";
@@ -66,11 +63,21 @@ std::string matrix(const Pairs& pairs) {
     text += "| **" + source + "** |";
     for (const std::string& target : models) {
       const auto found = pairs.find({source, target});
-      text += found == pairs.end() ? " |"
-                                   : " " + percent(found->second->likeness->image_error.rms) + " %, " +
-                                         decimals(mean_ssim(*found->second), 3) + " |";
+      text += found == pairs.end() ? " |" : " " + alike_text(*found->second) + " |";
     }
     text += "\n";
+  }
+  return text;
+}
+
+// Models that have a converter to and from one of the `hub` only.
+std::string spokes(const Pairs& pairs, const std::set<std::string>& hub) {
+  std::string text = "| model | of the hub | to it | from it |\n|---|---|---|---|\n";
+  for (const auto& [pair, fit] : pairs) {
+    if (hub.contains(pair.first)) continue;
+    const auto back = pairs.find({pair.second, pair.first});
+    text += "| **" + pair.first + "** | " + pair.second + " | " + alike_text(*fit) + " | " +
+            (back == pairs.end() ? "" : alike_text(*back->second)) + " |\n";
   }
   return text;
 }
@@ -155,10 +162,25 @@ as out of domain. A domain ends where the target's own parameter would leave its
 
 }  // namespace
 
+std::set<std::string> hub_models(const std::vector<Fit>& fits) {
+  std::map<std::string, std::set<std::string>> neighbours;
+  for (const Fit& fit : fits) {
+    if (!is_measured(fit)) continue;
+    neighbours[fit.source.model].insert(fit.target.model);
+    neighbours[fit.target.model].insert(fit.source.model);
+  }
+  std::set<std::string> models;
+  for (const auto& [model, others] : neighbours)
+    if (others.size() > 1 || neighbours.at(*others.begin()).size() == 1) models.insert(model);
+  return models;
+}
+
 std::vector<ReportFile> report(const std::vector<Fit>& fits, const Lock& lock) {
   const Pairs pairs = measured_pairs(fits);
   std::string text = kIntroduction;
-  text += "\n## Every pair: image error rms, mean SSIM\n\n" + matrix(pairs);
+  const std::set<std::string> hub = hub_models(fits);
+  text += "\n## Every pair of the hub: image error rms, mean SSIM\n\n" + matrix(pairs, hub);
+  text += "\n## Models of real renderers: image error rms, mean SSIM\n\n" + spokes(pairs, hub);
   text +=
       std::string("\n![Target alpha and specular over source alpha, a panel a pair](") + kPlotName + ")\n";
   text +=

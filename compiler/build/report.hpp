@@ -1,6 +1,7 @@
 // The page that says how far each converter of a folder can be trusted.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,13 @@ struct ReportFile {
 // the same bytes on every machine.
 std::vector<ReportFile> report(const std::vector<remap::Fit>& fits, const Lock& lock);
 
+// Models with measured converters to or from more than one other; also two that have but each other. The rest
+// hang on one of these.
+std::set<std::string> hub_models(const std::vector<remap::Fit>& fits);
+
 // Small multiples of the measured pairs in SVG: target alpha over source alpha, and the ratio of speculars,
-// at specular 0.5 or the edge of the domain below it. One row a source, one column a target.
+// at specular 0.5 or the edge of the domain below it. One row a source, one column a target for the hub; then
+// the pairs of other models.
 std::string pairs_plot(const std::vector<remap::Fit>& fits);
 
 }  // namespace remapc
