@@ -188,3 +188,29 @@ TEST_CASE("texremap convert: a path of several steps writes what they give one a
       CHECK(s_out.at(x, 5, c) == as_stored(texel[static_cast<std::size_t>(c)], OIIO::TypeHalf));
   }
 }
+
+TEST_CASE("texremap convert: from one real renderer to another, through the hub") {
+  const std::string from = "cycles-5/ggx", to = "threejs-r187/standard-metal";
+  const std::vector<std::string> models = compiled_graph().models();
+  if (std::find(models.begin(), models.end(), from) == models.end()) return;
+  const Session session;
+  const OIIO::ImageSpec spec = test_spec(16, 16, {"Y"}, OIIO::TypeFloat);
+  write_image(session.path("r.exr"), spec,
+              [](int x, int, int) { return 0.2f + 0.03f * static_cast<float>(x); });
+  write_image(session.path("s.exr"), spec, [](int, int, int) { return 0.5f; });
+  const ProcessResult result =
+      session.texremap({"convert", "--from", from, "--to", to, "--roughness", session.path("r.exr"),
+                        "--specular", session.path("s.exr"), "-o", session.path("out"), "--json"});
+  require_success(result);
+  CHECK(Json::parse(result.output)["path"] ==
+        Json({"cycles_5_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_threejs_r187_standard_metal"}));
+  const TestImage r = read_image(session.path("out/r.exr")), s = read_image(session.path("out/s.exr"));
+  // All three are GGX with alpha = roughness^2; they differ in masking and in multiple scattering, which show
+  // on rough surfaces.
+  for (int x = 0; x < 16; ++x) {
+    const float source = 0.2f + 0.03f * static_cast<float>(x);
+    INFO("roughness " << source);
+    CHECK(r.at(x, 5, 0) == Approx(source).margin(source < 0.45f ? 0.005 : 0.02));
+    CHECK(s.at(x, 5, 0) == Approx(0.5).margin(source < 0.45f ? 0.02 : 0.1));
+  }
+}
