@@ -71,7 +71,7 @@ TEST_CASE("remapc sweep: broken off by a worker, resumed, it ends in the same ta
   const remapc::FakeSession fake;
   REQUIRE(session.remapc(sweep(session, fake, "whole.csv")).exit_code == 0);
   const std::size_t pictures = fake.pictures();
-  auto broken = sweep(session, fake, "a.csv", "die' --after '24", "other");
+  auto broken = sweep(session, fake, "a.csv", "die' --after '28", "other");
   broken.insert(broken.end(), {"--jobs", "1"});
   check_failure(session.remapc(broken), 1, "died with signal 9; last lines of its log: ");
   CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
@@ -85,7 +85,7 @@ TEST_CASE("remapc sweep: broken off by a worker, resumed, it ends in the same ta
 TEST_CASE("remapc sweep: a resumed sweep does not mix versions of a renderer") {
   const Session session;
   const remapc::FakeSession fake;
-  auto broken = sweep(session, fake, "a.csv", "die' --after '24");
+  auto broken = sweep(session, fake, "a.csv", "die' --after '28");
   broken.insert(broken.end(), {"--jobs", "1"});
   check_failure(session.remapc(broken), 1, "died with signal 9");
   REQUIRE(std::filesystem::exists(session.path("a.csv.partial")));
