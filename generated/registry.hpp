@@ -13,19 +13,33 @@
 #include "cycles_2_7_ggx_to_blender_internal_2_7_ward.hpp"
 #include "cycles_2_7_ggx_to_mitsuba_as.hpp"
 #include "cycles_2_7_ggx_to_mitsuba_ggx.hpp"
+#include "cycles_3_4_ashikhmin_shirley_to_mitsuba_as.hpp"
 #include "cycles_3_4_beckmann_to_mitsuba_beckmann.hpp"
 #include "cycles_3_4_ggx_to_mitsuba_ggx.hpp"
+#include "cycles_3_4_principled_dielectric_to_mitsuba_ggx.hpp"
+#include "cycles_3_4_principled_metal_to_mitsuba_ggx.hpp"
+#include "cycles_5_ashikhmin_shirley_to_mitsuba_as.hpp"
 #include "cycles_5_beckmann_to_mitsuba_beckmann.hpp"
 #include "cycles_5_ggx_to_mitsuba_ggx.hpp"
+#include "cycles_5_multiscatter_ggx_to_mitsuba_ggx.hpp"
+#include "cycles_5_principled_dielectric_to_mitsuba_ggx.hpp"
+#include "cycles_5_principled_metal_to_mitsuba_ggx.hpp"
 #include "mitsuba3_beckmann_to_mitsuba_beckmann.hpp"
 #include "mitsuba3_ggx_to_mitsuba_ggx.hpp"
+#include "mitsuba3_plastic_to_mitsuba_ggx.hpp"
+#include "mitsuba3_principled_dielectric_to_mitsuba_ggx.hpp"
+#include "mitsuba3_principled_metal_to_mitsuba_ggx.hpp"
 #include "mitsuba_as_to_cycles_2_7_ggx.hpp"
+#include "mitsuba_as_to_cycles_3_4_ashikhmin_shirley.hpp"
+#include "mitsuba_as_to_cycles_5_ashikhmin_shirley.hpp"
 #include "mitsuba_as_to_mitsuba_beckmann.hpp"
 #include "mitsuba_as_to_mitsuba_ggx.hpp"
 #include "mitsuba_as_to_mitsuba_phong.hpp"
 #include "mitsuba_as_to_mitsuba_ward.hpp"
 #include "mitsuba_as_to_mitsuba_ward_balanced.hpp"
 #include "mitsuba_as_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_as_to_povray_specular.hpp"
+#include "mitsuba_as_to_threejs_r187_phong.hpp"
 #include "mitsuba_beckmann_to_cycles_3_4_beckmann.hpp"
 #include "mitsuba_beckmann_to_cycles_5_beckmann.hpp"
 #include "mitsuba_beckmann_to_mitsuba3_beckmann.hpp"
@@ -37,20 +51,32 @@
 #include "mitsuba_beckmann_to_mitsuba_ward_duer.hpp"
 #include "mitsuba_ggx_to_cycles_2_7_ggx.hpp"
 #include "mitsuba_ggx_to_cycles_3_4_ggx.hpp"
+#include "mitsuba_ggx_to_cycles_3_4_principled_dielectric.hpp"
+#include "mitsuba_ggx_to_cycles_3_4_principled_metal.hpp"
 #include "mitsuba_ggx_to_cycles_5_ggx.hpp"
+#include "mitsuba_ggx_to_cycles_5_multiscatter_ggx.hpp"
+#include "mitsuba_ggx_to_cycles_5_principled_dielectric.hpp"
+#include "mitsuba_ggx_to_cycles_5_principled_metal.hpp"
 #include "mitsuba_ggx_to_mitsuba3_ggx.hpp"
+#include "mitsuba_ggx_to_mitsuba3_plastic.hpp"
+#include "mitsuba_ggx_to_mitsuba3_principled_dielectric.hpp"
+#include "mitsuba_ggx_to_mitsuba3_principled_metal.hpp"
 #include "mitsuba_ggx_to_mitsuba_as.hpp"
 #include "mitsuba_ggx_to_mitsuba_beckmann.hpp"
 #include "mitsuba_ggx_to_mitsuba_phong.hpp"
 #include "mitsuba_ggx_to_mitsuba_ward.hpp"
 #include "mitsuba_ggx_to_mitsuba_ward_balanced.hpp"
 #include "mitsuba_ggx_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_ggx_to_threejs_r187_physical_dielectric.hpp"
+#include "mitsuba_ggx_to_threejs_r187_standard_metal.hpp"
+#include "mitsuba_ggx_to_vtk_metal.hpp"
 #include "mitsuba_phong_to_mitsuba_as.hpp"
 #include "mitsuba_phong_to_mitsuba_beckmann.hpp"
 #include "mitsuba_phong_to_mitsuba_ggx.hpp"
 #include "mitsuba_phong_to_mitsuba_ward.hpp"
 #include "mitsuba_phong_to_mitsuba_ward_balanced.hpp"
 #include "mitsuba_phong_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_phong_to_povray_phong.hpp"
 #include "mitsuba_ward_balanced_to_mitsuba_as.hpp"
 #include "mitsuba_ward_balanced_to_mitsuba_beckmann.hpp"
 #include "mitsuba_ward_balanced_to_mitsuba_ggx.hpp"
@@ -74,8 +100,14 @@
 #include "mitsuba_ward_to_mitsuba_phong.hpp"
 #include "mitsuba_ward_to_mitsuba_ward_balanced.hpp"
 #include "mitsuba_ward_to_mitsuba_ward_duer.hpp"
+#include "povray_phong_to_mitsuba_phong.hpp"
+#include "povray_specular_to_mitsuba_as.hpp"
 #include "radiance_metal_to_mitsuba_ward_balanced.hpp"
 #include "radiance_plastic_to_mitsuba_ward_balanced.hpp"
+#include "threejs_r187_phong_to_mitsuba_as.hpp"
+#include "threejs_r187_physical_dielectric_to_mitsuba_ggx.hpp"
+#include "threejs_r187_standard_metal_to_mitsuba_ggx.hpp"
+#include "vtk_metal_to_mitsuba_ggx.hpp"
 
 namespace remap {
 
@@ -101,7 +133,7 @@ struct ConverterEntry {
   bool (*self_test)() noexcept;
 };
 
-inline constexpr std::array<ConverterEntry, 68> kConverters = {{
+inline constexpr std::array<ConverterEntry, 100> kConverters = {{
     {blender_internal_2_7_ward_to_cycles_2_7_ggx::kId, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceModel, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceRoughness, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceSpecular,
      blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetModel, blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetRoughness, blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetSpecular,
      blender_internal_2_7_ward_to_cycles_2_7_ggx::kDomainMin.alpha, blender_internal_2_7_ward_to_cycles_2_7_ggx::kDomainMax.alpha,
@@ -132,6 +164,12 @@ inline constexpr std::array<ConverterEntry, 68> kConverters = {{
      cycles_2_7_ggx_to_mitsuba_ggx::kDomainMin.f0, cycles_2_7_ggx_to_mitsuba_ggx::kDomainMax.f0,
      cycles_2_7_ggx_to_mitsuba_ggx::kAlphaRmsError, cycles_2_7_ggx_to_mitsuba_ggx::kSpecularRmsError, cycles_2_7_ggx_to_mitsuba_ggx::kImageRmsError,
      &cycles_2_7_ggx_to_mitsuba_ggx::evaluate_batch<1>, &cycles_2_7_ggx_to_mitsuba_ggx::evaluate_batch<3>, &cycles_2_7_ggx_to_mitsuba_ggx::self_test},
+    {cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kId, cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kSourceModel, cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kSourceRoughness, cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kSourceSpecular,
+     cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kTargetModel, cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kTargetRoughness, cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kTargetSpecular,
+     cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kDomainMin.roughness, cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kDomainMax.roughness,
+     cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kDomainMin.color, cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kDomainMax.color,
+     cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kAlphaRmsError, cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kSpecularRmsError, cycles_3_4_ashikhmin_shirley_to_mitsuba_as::kImageRmsError,
+     &cycles_3_4_ashikhmin_shirley_to_mitsuba_as::evaluate_batch<1>, &cycles_3_4_ashikhmin_shirley_to_mitsuba_as::evaluate_batch<3>, &cycles_3_4_ashikhmin_shirley_to_mitsuba_as::self_test},
     {cycles_3_4_beckmann_to_mitsuba_beckmann::kId, cycles_3_4_beckmann_to_mitsuba_beckmann::kSourceModel, cycles_3_4_beckmann_to_mitsuba_beckmann::kSourceRoughness, cycles_3_4_beckmann_to_mitsuba_beckmann::kSourceSpecular,
      cycles_3_4_beckmann_to_mitsuba_beckmann::kTargetModel, cycles_3_4_beckmann_to_mitsuba_beckmann::kTargetRoughness, cycles_3_4_beckmann_to_mitsuba_beckmann::kTargetSpecular,
      cycles_3_4_beckmann_to_mitsuba_beckmann::kDomainMin.roughness, cycles_3_4_beckmann_to_mitsuba_beckmann::kDomainMax.roughness,
@@ -144,6 +182,24 @@ inline constexpr std::array<ConverterEntry, 68> kConverters = {{
      cycles_3_4_ggx_to_mitsuba_ggx::kDomainMin.color, cycles_3_4_ggx_to_mitsuba_ggx::kDomainMax.color,
      cycles_3_4_ggx_to_mitsuba_ggx::kAlphaRmsError, cycles_3_4_ggx_to_mitsuba_ggx::kSpecularRmsError, cycles_3_4_ggx_to_mitsuba_ggx::kImageRmsError,
      &cycles_3_4_ggx_to_mitsuba_ggx::evaluate_batch<1>, &cycles_3_4_ggx_to_mitsuba_ggx::evaluate_batch<3>, &cycles_3_4_ggx_to_mitsuba_ggx::self_test},
+    {cycles_3_4_principled_dielectric_to_mitsuba_ggx::kId, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kSourceModel, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kSourceRoughness, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kSourceSpecular,
+     cycles_3_4_principled_dielectric_to_mitsuba_ggx::kTargetModel, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kTargetRoughness, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kTargetSpecular,
+     cycles_3_4_principled_dielectric_to_mitsuba_ggx::kDomainMin.roughness, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kDomainMax.roughness,
+     cycles_3_4_principled_dielectric_to_mitsuba_ggx::kDomainMin.specular, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kDomainMax.specular,
+     cycles_3_4_principled_dielectric_to_mitsuba_ggx::kAlphaRmsError, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kSpecularRmsError, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kImageRmsError,
+     &cycles_3_4_principled_dielectric_to_mitsuba_ggx::evaluate_batch<1>, &cycles_3_4_principled_dielectric_to_mitsuba_ggx::evaluate_batch<3>, &cycles_3_4_principled_dielectric_to_mitsuba_ggx::self_test},
+    {cycles_3_4_principled_metal_to_mitsuba_ggx::kId, cycles_3_4_principled_metal_to_mitsuba_ggx::kSourceModel, cycles_3_4_principled_metal_to_mitsuba_ggx::kSourceRoughness, cycles_3_4_principled_metal_to_mitsuba_ggx::kSourceSpecular,
+     cycles_3_4_principled_metal_to_mitsuba_ggx::kTargetModel, cycles_3_4_principled_metal_to_mitsuba_ggx::kTargetRoughness, cycles_3_4_principled_metal_to_mitsuba_ggx::kTargetSpecular,
+     cycles_3_4_principled_metal_to_mitsuba_ggx::kDomainMin.roughness, cycles_3_4_principled_metal_to_mitsuba_ggx::kDomainMax.roughness,
+     cycles_3_4_principled_metal_to_mitsuba_ggx::kDomainMin.base_color, cycles_3_4_principled_metal_to_mitsuba_ggx::kDomainMax.base_color,
+     cycles_3_4_principled_metal_to_mitsuba_ggx::kAlphaRmsError, cycles_3_4_principled_metal_to_mitsuba_ggx::kSpecularRmsError, cycles_3_4_principled_metal_to_mitsuba_ggx::kImageRmsError,
+     &cycles_3_4_principled_metal_to_mitsuba_ggx::evaluate_batch<1>, &cycles_3_4_principled_metal_to_mitsuba_ggx::evaluate_batch<3>, &cycles_3_4_principled_metal_to_mitsuba_ggx::self_test},
+    {cycles_5_ashikhmin_shirley_to_mitsuba_as::kId, cycles_5_ashikhmin_shirley_to_mitsuba_as::kSourceModel, cycles_5_ashikhmin_shirley_to_mitsuba_as::kSourceRoughness, cycles_5_ashikhmin_shirley_to_mitsuba_as::kSourceSpecular,
+     cycles_5_ashikhmin_shirley_to_mitsuba_as::kTargetModel, cycles_5_ashikhmin_shirley_to_mitsuba_as::kTargetRoughness, cycles_5_ashikhmin_shirley_to_mitsuba_as::kTargetSpecular,
+     cycles_5_ashikhmin_shirley_to_mitsuba_as::kDomainMin.roughness, cycles_5_ashikhmin_shirley_to_mitsuba_as::kDomainMax.roughness,
+     cycles_5_ashikhmin_shirley_to_mitsuba_as::kDomainMin.color, cycles_5_ashikhmin_shirley_to_mitsuba_as::kDomainMax.color,
+     cycles_5_ashikhmin_shirley_to_mitsuba_as::kAlphaRmsError, cycles_5_ashikhmin_shirley_to_mitsuba_as::kSpecularRmsError, cycles_5_ashikhmin_shirley_to_mitsuba_as::kImageRmsError,
+     &cycles_5_ashikhmin_shirley_to_mitsuba_as::evaluate_batch<1>, &cycles_5_ashikhmin_shirley_to_mitsuba_as::evaluate_batch<3>, &cycles_5_ashikhmin_shirley_to_mitsuba_as::self_test},
     {cycles_5_beckmann_to_mitsuba_beckmann::kId, cycles_5_beckmann_to_mitsuba_beckmann::kSourceModel, cycles_5_beckmann_to_mitsuba_beckmann::kSourceRoughness, cycles_5_beckmann_to_mitsuba_beckmann::kSourceSpecular,
      cycles_5_beckmann_to_mitsuba_beckmann::kTargetModel, cycles_5_beckmann_to_mitsuba_beckmann::kTargetRoughness, cycles_5_beckmann_to_mitsuba_beckmann::kTargetSpecular,
      cycles_5_beckmann_to_mitsuba_beckmann::kDomainMin.roughness, cycles_5_beckmann_to_mitsuba_beckmann::kDomainMax.roughness,
@@ -156,6 +212,24 @@ inline constexpr std::array<ConverterEntry, 68> kConverters = {{
      cycles_5_ggx_to_mitsuba_ggx::kDomainMin.color, cycles_5_ggx_to_mitsuba_ggx::kDomainMax.color,
      cycles_5_ggx_to_mitsuba_ggx::kAlphaRmsError, cycles_5_ggx_to_mitsuba_ggx::kSpecularRmsError, cycles_5_ggx_to_mitsuba_ggx::kImageRmsError,
      &cycles_5_ggx_to_mitsuba_ggx::evaluate_batch<1>, &cycles_5_ggx_to_mitsuba_ggx::evaluate_batch<3>, &cycles_5_ggx_to_mitsuba_ggx::self_test},
+    {cycles_5_multiscatter_ggx_to_mitsuba_ggx::kId, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kSourceModel, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kSourceRoughness, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kSourceSpecular,
+     cycles_5_multiscatter_ggx_to_mitsuba_ggx::kTargetModel, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kTargetRoughness, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kTargetSpecular,
+     cycles_5_multiscatter_ggx_to_mitsuba_ggx::kDomainMin.roughness, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kDomainMax.roughness,
+     cycles_5_multiscatter_ggx_to_mitsuba_ggx::kDomainMin.color, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kDomainMax.color,
+     cycles_5_multiscatter_ggx_to_mitsuba_ggx::kAlphaRmsError, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kSpecularRmsError, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kImageRmsError,
+     &cycles_5_multiscatter_ggx_to_mitsuba_ggx::evaluate_batch<1>, &cycles_5_multiscatter_ggx_to_mitsuba_ggx::evaluate_batch<3>, &cycles_5_multiscatter_ggx_to_mitsuba_ggx::self_test},
+    {cycles_5_principled_dielectric_to_mitsuba_ggx::kId, cycles_5_principled_dielectric_to_mitsuba_ggx::kSourceModel, cycles_5_principled_dielectric_to_mitsuba_ggx::kSourceRoughness, cycles_5_principled_dielectric_to_mitsuba_ggx::kSourceSpecular,
+     cycles_5_principled_dielectric_to_mitsuba_ggx::kTargetModel, cycles_5_principled_dielectric_to_mitsuba_ggx::kTargetRoughness, cycles_5_principled_dielectric_to_mitsuba_ggx::kTargetSpecular,
+     cycles_5_principled_dielectric_to_mitsuba_ggx::kDomainMin.roughness, cycles_5_principled_dielectric_to_mitsuba_ggx::kDomainMax.roughness,
+     cycles_5_principled_dielectric_to_mitsuba_ggx::kDomainMin.specular, cycles_5_principled_dielectric_to_mitsuba_ggx::kDomainMax.specular,
+     cycles_5_principled_dielectric_to_mitsuba_ggx::kAlphaRmsError, cycles_5_principled_dielectric_to_mitsuba_ggx::kSpecularRmsError, cycles_5_principled_dielectric_to_mitsuba_ggx::kImageRmsError,
+     &cycles_5_principled_dielectric_to_mitsuba_ggx::evaluate_batch<1>, &cycles_5_principled_dielectric_to_mitsuba_ggx::evaluate_batch<3>, &cycles_5_principled_dielectric_to_mitsuba_ggx::self_test},
+    {cycles_5_principled_metal_to_mitsuba_ggx::kId, cycles_5_principled_metal_to_mitsuba_ggx::kSourceModel, cycles_5_principled_metal_to_mitsuba_ggx::kSourceRoughness, cycles_5_principled_metal_to_mitsuba_ggx::kSourceSpecular,
+     cycles_5_principled_metal_to_mitsuba_ggx::kTargetModel, cycles_5_principled_metal_to_mitsuba_ggx::kTargetRoughness, cycles_5_principled_metal_to_mitsuba_ggx::kTargetSpecular,
+     cycles_5_principled_metal_to_mitsuba_ggx::kDomainMin.roughness, cycles_5_principled_metal_to_mitsuba_ggx::kDomainMax.roughness,
+     cycles_5_principled_metal_to_mitsuba_ggx::kDomainMin.base_color, cycles_5_principled_metal_to_mitsuba_ggx::kDomainMax.base_color,
+     cycles_5_principled_metal_to_mitsuba_ggx::kAlphaRmsError, cycles_5_principled_metal_to_mitsuba_ggx::kSpecularRmsError, cycles_5_principled_metal_to_mitsuba_ggx::kImageRmsError,
+     &cycles_5_principled_metal_to_mitsuba_ggx::evaluate_batch<1>, &cycles_5_principled_metal_to_mitsuba_ggx::evaluate_batch<3>, &cycles_5_principled_metal_to_mitsuba_ggx::self_test},
     {mitsuba3_beckmann_to_mitsuba_beckmann::kId, mitsuba3_beckmann_to_mitsuba_beckmann::kSourceModel, mitsuba3_beckmann_to_mitsuba_beckmann::kSourceRoughness, mitsuba3_beckmann_to_mitsuba_beckmann::kSourceSpecular,
      mitsuba3_beckmann_to_mitsuba_beckmann::kTargetModel, mitsuba3_beckmann_to_mitsuba_beckmann::kTargetRoughness, mitsuba3_beckmann_to_mitsuba_beckmann::kTargetSpecular,
      mitsuba3_beckmann_to_mitsuba_beckmann::kDomainMin.alpha, mitsuba3_beckmann_to_mitsuba_beckmann::kDomainMax.alpha,
@@ -168,12 +242,42 @@ inline constexpr std::array<ConverterEntry, 68> kConverters = {{
      mitsuba3_ggx_to_mitsuba_ggx::kDomainMin.specular, mitsuba3_ggx_to_mitsuba_ggx::kDomainMax.specular,
      mitsuba3_ggx_to_mitsuba_ggx::kAlphaRmsError, mitsuba3_ggx_to_mitsuba_ggx::kSpecularRmsError, mitsuba3_ggx_to_mitsuba_ggx::kImageRmsError,
      &mitsuba3_ggx_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba3_ggx_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba3_ggx_to_mitsuba_ggx::self_test},
+    {mitsuba3_plastic_to_mitsuba_ggx::kId, mitsuba3_plastic_to_mitsuba_ggx::kSourceModel, mitsuba3_plastic_to_mitsuba_ggx::kSourceRoughness, mitsuba3_plastic_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba3_plastic_to_mitsuba_ggx::kTargetModel, mitsuba3_plastic_to_mitsuba_ggx::kTargetRoughness, mitsuba3_plastic_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba3_plastic_to_mitsuba_ggx::kDomainMin.alpha, mitsuba3_plastic_to_mitsuba_ggx::kDomainMax.alpha,
+     mitsuba3_plastic_to_mitsuba_ggx::kDomainMin.specular, mitsuba3_plastic_to_mitsuba_ggx::kDomainMax.specular,
+     mitsuba3_plastic_to_mitsuba_ggx::kAlphaRmsError, mitsuba3_plastic_to_mitsuba_ggx::kSpecularRmsError, mitsuba3_plastic_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba3_plastic_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba3_plastic_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba3_plastic_to_mitsuba_ggx::self_test},
+    {mitsuba3_principled_dielectric_to_mitsuba_ggx::kId, mitsuba3_principled_dielectric_to_mitsuba_ggx::kSourceModel, mitsuba3_principled_dielectric_to_mitsuba_ggx::kSourceRoughness, mitsuba3_principled_dielectric_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba3_principled_dielectric_to_mitsuba_ggx::kTargetModel, mitsuba3_principled_dielectric_to_mitsuba_ggx::kTargetRoughness, mitsuba3_principled_dielectric_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba3_principled_dielectric_to_mitsuba_ggx::kDomainMin.roughness, mitsuba3_principled_dielectric_to_mitsuba_ggx::kDomainMax.roughness,
+     mitsuba3_principled_dielectric_to_mitsuba_ggx::kDomainMin.specular, mitsuba3_principled_dielectric_to_mitsuba_ggx::kDomainMax.specular,
+     mitsuba3_principled_dielectric_to_mitsuba_ggx::kAlphaRmsError, mitsuba3_principled_dielectric_to_mitsuba_ggx::kSpecularRmsError, mitsuba3_principled_dielectric_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba3_principled_dielectric_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba3_principled_dielectric_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba3_principled_dielectric_to_mitsuba_ggx::self_test},
+    {mitsuba3_principled_metal_to_mitsuba_ggx::kId, mitsuba3_principled_metal_to_mitsuba_ggx::kSourceModel, mitsuba3_principled_metal_to_mitsuba_ggx::kSourceRoughness, mitsuba3_principled_metal_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba3_principled_metal_to_mitsuba_ggx::kTargetModel, mitsuba3_principled_metal_to_mitsuba_ggx::kTargetRoughness, mitsuba3_principled_metal_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba3_principled_metal_to_mitsuba_ggx::kDomainMin.roughness, mitsuba3_principled_metal_to_mitsuba_ggx::kDomainMax.roughness,
+     mitsuba3_principled_metal_to_mitsuba_ggx::kDomainMin.base_color, mitsuba3_principled_metal_to_mitsuba_ggx::kDomainMax.base_color,
+     mitsuba3_principled_metal_to_mitsuba_ggx::kAlphaRmsError, mitsuba3_principled_metal_to_mitsuba_ggx::kSpecularRmsError, mitsuba3_principled_metal_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba3_principled_metal_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba3_principled_metal_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba3_principled_metal_to_mitsuba_ggx::self_test},
     {mitsuba_as_to_cycles_2_7_ggx::kId, mitsuba_as_to_cycles_2_7_ggx::kSourceModel, mitsuba_as_to_cycles_2_7_ggx::kSourceRoughness, mitsuba_as_to_cycles_2_7_ggx::kSourceSpecular,
      mitsuba_as_to_cycles_2_7_ggx::kTargetModel, mitsuba_as_to_cycles_2_7_ggx::kTargetRoughness, mitsuba_as_to_cycles_2_7_ggx::kTargetSpecular,
      mitsuba_as_to_cycles_2_7_ggx::kDomainMin.alpha, mitsuba_as_to_cycles_2_7_ggx::kDomainMax.alpha,
      mitsuba_as_to_cycles_2_7_ggx::kDomainMin.f0, mitsuba_as_to_cycles_2_7_ggx::kDomainMax.f0,
      mitsuba_as_to_cycles_2_7_ggx::kAlphaRmsError, mitsuba_as_to_cycles_2_7_ggx::kSpecularRmsError, mitsuba_as_to_cycles_2_7_ggx::kImageRmsError,
      &mitsuba_as_to_cycles_2_7_ggx::evaluate_batch<1>, &mitsuba_as_to_cycles_2_7_ggx::evaluate_batch<3>, &mitsuba_as_to_cycles_2_7_ggx::self_test},
+    {mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kId, mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kSourceModel, mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kSourceRoughness, mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kSourceSpecular,
+     mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kTargetModel, mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kTargetRoughness, mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kTargetSpecular,
+     mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kDomainMin.alpha, mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kDomainMax.alpha,
+     mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kDomainMin.f0, mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kDomainMax.f0,
+     mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kAlphaRmsError, mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kSpecularRmsError, mitsuba_as_to_cycles_3_4_ashikhmin_shirley::kImageRmsError,
+     &mitsuba_as_to_cycles_3_4_ashikhmin_shirley::evaluate_batch<1>, &mitsuba_as_to_cycles_3_4_ashikhmin_shirley::evaluate_batch<3>, &mitsuba_as_to_cycles_3_4_ashikhmin_shirley::self_test},
+    {mitsuba_as_to_cycles_5_ashikhmin_shirley::kId, mitsuba_as_to_cycles_5_ashikhmin_shirley::kSourceModel, mitsuba_as_to_cycles_5_ashikhmin_shirley::kSourceRoughness, mitsuba_as_to_cycles_5_ashikhmin_shirley::kSourceSpecular,
+     mitsuba_as_to_cycles_5_ashikhmin_shirley::kTargetModel, mitsuba_as_to_cycles_5_ashikhmin_shirley::kTargetRoughness, mitsuba_as_to_cycles_5_ashikhmin_shirley::kTargetSpecular,
+     mitsuba_as_to_cycles_5_ashikhmin_shirley::kDomainMin.alpha, mitsuba_as_to_cycles_5_ashikhmin_shirley::kDomainMax.alpha,
+     mitsuba_as_to_cycles_5_ashikhmin_shirley::kDomainMin.f0, mitsuba_as_to_cycles_5_ashikhmin_shirley::kDomainMax.f0,
+     mitsuba_as_to_cycles_5_ashikhmin_shirley::kAlphaRmsError, mitsuba_as_to_cycles_5_ashikhmin_shirley::kSpecularRmsError, mitsuba_as_to_cycles_5_ashikhmin_shirley::kImageRmsError,
+     &mitsuba_as_to_cycles_5_ashikhmin_shirley::evaluate_batch<1>, &mitsuba_as_to_cycles_5_ashikhmin_shirley::evaluate_batch<3>, &mitsuba_as_to_cycles_5_ashikhmin_shirley::self_test},
     {mitsuba_as_to_mitsuba_beckmann::kId, mitsuba_as_to_mitsuba_beckmann::kSourceModel, mitsuba_as_to_mitsuba_beckmann::kSourceRoughness, mitsuba_as_to_mitsuba_beckmann::kSourceSpecular,
      mitsuba_as_to_mitsuba_beckmann::kTargetModel, mitsuba_as_to_mitsuba_beckmann::kTargetRoughness, mitsuba_as_to_mitsuba_beckmann::kTargetSpecular,
      mitsuba_as_to_mitsuba_beckmann::kDomainMin.alpha, mitsuba_as_to_mitsuba_beckmann::kDomainMax.alpha,
@@ -210,6 +314,18 @@ inline constexpr std::array<ConverterEntry, 68> kConverters = {{
      mitsuba_as_to_mitsuba_ward_duer::kDomainMin.f0, mitsuba_as_to_mitsuba_ward_duer::kDomainMax.f0,
      mitsuba_as_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_as_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_as_to_mitsuba_ward_duer::kImageRmsError,
      &mitsuba_as_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_as_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_as_to_mitsuba_ward_duer::self_test},
+    {mitsuba_as_to_povray_specular::kId, mitsuba_as_to_povray_specular::kSourceModel, mitsuba_as_to_povray_specular::kSourceRoughness, mitsuba_as_to_povray_specular::kSourceSpecular,
+     mitsuba_as_to_povray_specular::kTargetModel, mitsuba_as_to_povray_specular::kTargetRoughness, mitsuba_as_to_povray_specular::kTargetSpecular,
+     mitsuba_as_to_povray_specular::kDomainMin.alpha, mitsuba_as_to_povray_specular::kDomainMax.alpha,
+     mitsuba_as_to_povray_specular::kDomainMin.f0, mitsuba_as_to_povray_specular::kDomainMax.f0,
+     mitsuba_as_to_povray_specular::kAlphaRmsError, mitsuba_as_to_povray_specular::kSpecularRmsError, mitsuba_as_to_povray_specular::kImageRmsError,
+     &mitsuba_as_to_povray_specular::evaluate_batch<1>, &mitsuba_as_to_povray_specular::evaluate_batch<3>, &mitsuba_as_to_povray_specular::self_test},
+    {mitsuba_as_to_threejs_r187_phong::kId, mitsuba_as_to_threejs_r187_phong::kSourceModel, mitsuba_as_to_threejs_r187_phong::kSourceRoughness, mitsuba_as_to_threejs_r187_phong::kSourceSpecular,
+     mitsuba_as_to_threejs_r187_phong::kTargetModel, mitsuba_as_to_threejs_r187_phong::kTargetRoughness, mitsuba_as_to_threejs_r187_phong::kTargetSpecular,
+     mitsuba_as_to_threejs_r187_phong::kDomainMin.alpha, mitsuba_as_to_threejs_r187_phong::kDomainMax.alpha,
+     mitsuba_as_to_threejs_r187_phong::kDomainMin.f0, mitsuba_as_to_threejs_r187_phong::kDomainMax.f0,
+     mitsuba_as_to_threejs_r187_phong::kAlphaRmsError, mitsuba_as_to_threejs_r187_phong::kSpecularRmsError, mitsuba_as_to_threejs_r187_phong::kImageRmsError,
+     &mitsuba_as_to_threejs_r187_phong::evaluate_batch<1>, &mitsuba_as_to_threejs_r187_phong::evaluate_batch<3>, &mitsuba_as_to_threejs_r187_phong::self_test},
     {mitsuba_beckmann_to_cycles_3_4_beckmann::kId, mitsuba_beckmann_to_cycles_3_4_beckmann::kSourceModel, mitsuba_beckmann_to_cycles_3_4_beckmann::kSourceRoughness, mitsuba_beckmann_to_cycles_3_4_beckmann::kSourceSpecular,
      mitsuba_beckmann_to_cycles_3_4_beckmann::kTargetModel, mitsuba_beckmann_to_cycles_3_4_beckmann::kTargetRoughness, mitsuba_beckmann_to_cycles_3_4_beckmann::kTargetSpecular,
      mitsuba_beckmann_to_cycles_3_4_beckmann::kDomainMin.alpha, mitsuba_beckmann_to_cycles_3_4_beckmann::kDomainMax.alpha,
@@ -276,18 +392,66 @@ inline constexpr std::array<ConverterEntry, 68> kConverters = {{
      mitsuba_ggx_to_cycles_3_4_ggx::kDomainMin.f0, mitsuba_ggx_to_cycles_3_4_ggx::kDomainMax.f0,
      mitsuba_ggx_to_cycles_3_4_ggx::kAlphaRmsError, mitsuba_ggx_to_cycles_3_4_ggx::kSpecularRmsError, mitsuba_ggx_to_cycles_3_4_ggx::kImageRmsError,
      &mitsuba_ggx_to_cycles_3_4_ggx::evaluate_batch<1>, &mitsuba_ggx_to_cycles_3_4_ggx::evaluate_batch<3>, &mitsuba_ggx_to_cycles_3_4_ggx::self_test},
+    {mitsuba_ggx_to_cycles_3_4_principled_dielectric::kId, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kSourceModel, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kSourceRoughness, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kSourceSpecular,
+     mitsuba_ggx_to_cycles_3_4_principled_dielectric::kTargetModel, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kTargetRoughness, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kTargetSpecular,
+     mitsuba_ggx_to_cycles_3_4_principled_dielectric::kDomainMin.alpha, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kDomainMax.alpha,
+     mitsuba_ggx_to_cycles_3_4_principled_dielectric::kDomainMin.f0, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kDomainMax.f0,
+     mitsuba_ggx_to_cycles_3_4_principled_dielectric::kAlphaRmsError, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kSpecularRmsError, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kImageRmsError,
+     &mitsuba_ggx_to_cycles_3_4_principled_dielectric::evaluate_batch<1>, &mitsuba_ggx_to_cycles_3_4_principled_dielectric::evaluate_batch<3>, &mitsuba_ggx_to_cycles_3_4_principled_dielectric::self_test},
+    {mitsuba_ggx_to_cycles_3_4_principled_metal::kId, mitsuba_ggx_to_cycles_3_4_principled_metal::kSourceModel, mitsuba_ggx_to_cycles_3_4_principled_metal::kSourceRoughness, mitsuba_ggx_to_cycles_3_4_principled_metal::kSourceSpecular,
+     mitsuba_ggx_to_cycles_3_4_principled_metal::kTargetModel, mitsuba_ggx_to_cycles_3_4_principled_metal::kTargetRoughness, mitsuba_ggx_to_cycles_3_4_principled_metal::kTargetSpecular,
+     mitsuba_ggx_to_cycles_3_4_principled_metal::kDomainMin.alpha, mitsuba_ggx_to_cycles_3_4_principled_metal::kDomainMax.alpha,
+     mitsuba_ggx_to_cycles_3_4_principled_metal::kDomainMin.f0, mitsuba_ggx_to_cycles_3_4_principled_metal::kDomainMax.f0,
+     mitsuba_ggx_to_cycles_3_4_principled_metal::kAlphaRmsError, mitsuba_ggx_to_cycles_3_4_principled_metal::kSpecularRmsError, mitsuba_ggx_to_cycles_3_4_principled_metal::kImageRmsError,
+     &mitsuba_ggx_to_cycles_3_4_principled_metal::evaluate_batch<1>, &mitsuba_ggx_to_cycles_3_4_principled_metal::evaluate_batch<3>, &mitsuba_ggx_to_cycles_3_4_principled_metal::self_test},
     {mitsuba_ggx_to_cycles_5_ggx::kId, mitsuba_ggx_to_cycles_5_ggx::kSourceModel, mitsuba_ggx_to_cycles_5_ggx::kSourceRoughness, mitsuba_ggx_to_cycles_5_ggx::kSourceSpecular,
      mitsuba_ggx_to_cycles_5_ggx::kTargetModel, mitsuba_ggx_to_cycles_5_ggx::kTargetRoughness, mitsuba_ggx_to_cycles_5_ggx::kTargetSpecular,
      mitsuba_ggx_to_cycles_5_ggx::kDomainMin.alpha, mitsuba_ggx_to_cycles_5_ggx::kDomainMax.alpha,
      mitsuba_ggx_to_cycles_5_ggx::kDomainMin.f0, mitsuba_ggx_to_cycles_5_ggx::kDomainMax.f0,
      mitsuba_ggx_to_cycles_5_ggx::kAlphaRmsError, mitsuba_ggx_to_cycles_5_ggx::kSpecularRmsError, mitsuba_ggx_to_cycles_5_ggx::kImageRmsError,
      &mitsuba_ggx_to_cycles_5_ggx::evaluate_batch<1>, &mitsuba_ggx_to_cycles_5_ggx::evaluate_batch<3>, &mitsuba_ggx_to_cycles_5_ggx::self_test},
+    {mitsuba_ggx_to_cycles_5_multiscatter_ggx::kId, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kSourceModel, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kSourceRoughness, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kSourceSpecular,
+     mitsuba_ggx_to_cycles_5_multiscatter_ggx::kTargetModel, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kTargetRoughness, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kTargetSpecular,
+     mitsuba_ggx_to_cycles_5_multiscatter_ggx::kDomainMin.alpha, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kDomainMax.alpha,
+     mitsuba_ggx_to_cycles_5_multiscatter_ggx::kDomainMin.f0, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kDomainMax.f0,
+     mitsuba_ggx_to_cycles_5_multiscatter_ggx::kAlphaRmsError, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kSpecularRmsError, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kImageRmsError,
+     &mitsuba_ggx_to_cycles_5_multiscatter_ggx::evaluate_batch<1>, &mitsuba_ggx_to_cycles_5_multiscatter_ggx::evaluate_batch<3>, &mitsuba_ggx_to_cycles_5_multiscatter_ggx::self_test},
+    {mitsuba_ggx_to_cycles_5_principled_dielectric::kId, mitsuba_ggx_to_cycles_5_principled_dielectric::kSourceModel, mitsuba_ggx_to_cycles_5_principled_dielectric::kSourceRoughness, mitsuba_ggx_to_cycles_5_principled_dielectric::kSourceSpecular,
+     mitsuba_ggx_to_cycles_5_principled_dielectric::kTargetModel, mitsuba_ggx_to_cycles_5_principled_dielectric::kTargetRoughness, mitsuba_ggx_to_cycles_5_principled_dielectric::kTargetSpecular,
+     mitsuba_ggx_to_cycles_5_principled_dielectric::kDomainMin.alpha, mitsuba_ggx_to_cycles_5_principled_dielectric::kDomainMax.alpha,
+     mitsuba_ggx_to_cycles_5_principled_dielectric::kDomainMin.f0, mitsuba_ggx_to_cycles_5_principled_dielectric::kDomainMax.f0,
+     mitsuba_ggx_to_cycles_5_principled_dielectric::kAlphaRmsError, mitsuba_ggx_to_cycles_5_principled_dielectric::kSpecularRmsError, mitsuba_ggx_to_cycles_5_principled_dielectric::kImageRmsError,
+     &mitsuba_ggx_to_cycles_5_principled_dielectric::evaluate_batch<1>, &mitsuba_ggx_to_cycles_5_principled_dielectric::evaluate_batch<3>, &mitsuba_ggx_to_cycles_5_principled_dielectric::self_test},
+    {mitsuba_ggx_to_cycles_5_principled_metal::kId, mitsuba_ggx_to_cycles_5_principled_metal::kSourceModel, mitsuba_ggx_to_cycles_5_principled_metal::kSourceRoughness, mitsuba_ggx_to_cycles_5_principled_metal::kSourceSpecular,
+     mitsuba_ggx_to_cycles_5_principled_metal::kTargetModel, mitsuba_ggx_to_cycles_5_principled_metal::kTargetRoughness, mitsuba_ggx_to_cycles_5_principled_metal::kTargetSpecular,
+     mitsuba_ggx_to_cycles_5_principled_metal::kDomainMin.alpha, mitsuba_ggx_to_cycles_5_principled_metal::kDomainMax.alpha,
+     mitsuba_ggx_to_cycles_5_principled_metal::kDomainMin.f0, mitsuba_ggx_to_cycles_5_principled_metal::kDomainMax.f0,
+     mitsuba_ggx_to_cycles_5_principled_metal::kAlphaRmsError, mitsuba_ggx_to_cycles_5_principled_metal::kSpecularRmsError, mitsuba_ggx_to_cycles_5_principled_metal::kImageRmsError,
+     &mitsuba_ggx_to_cycles_5_principled_metal::evaluate_batch<1>, &mitsuba_ggx_to_cycles_5_principled_metal::evaluate_batch<3>, &mitsuba_ggx_to_cycles_5_principled_metal::self_test},
     {mitsuba_ggx_to_mitsuba3_ggx::kId, mitsuba_ggx_to_mitsuba3_ggx::kSourceModel, mitsuba_ggx_to_mitsuba3_ggx::kSourceRoughness, mitsuba_ggx_to_mitsuba3_ggx::kSourceSpecular,
      mitsuba_ggx_to_mitsuba3_ggx::kTargetModel, mitsuba_ggx_to_mitsuba3_ggx::kTargetRoughness, mitsuba_ggx_to_mitsuba3_ggx::kTargetSpecular,
      mitsuba_ggx_to_mitsuba3_ggx::kDomainMin.alpha, mitsuba_ggx_to_mitsuba3_ggx::kDomainMax.alpha,
      mitsuba_ggx_to_mitsuba3_ggx::kDomainMin.f0, mitsuba_ggx_to_mitsuba3_ggx::kDomainMax.f0,
      mitsuba_ggx_to_mitsuba3_ggx::kAlphaRmsError, mitsuba_ggx_to_mitsuba3_ggx::kSpecularRmsError, mitsuba_ggx_to_mitsuba3_ggx::kImageRmsError,
      &mitsuba_ggx_to_mitsuba3_ggx::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba3_ggx::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba3_ggx::self_test},
+    {mitsuba_ggx_to_mitsuba3_plastic::kId, mitsuba_ggx_to_mitsuba3_plastic::kSourceModel, mitsuba_ggx_to_mitsuba3_plastic::kSourceRoughness, mitsuba_ggx_to_mitsuba3_plastic::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba3_plastic::kTargetModel, mitsuba_ggx_to_mitsuba3_plastic::kTargetRoughness, mitsuba_ggx_to_mitsuba3_plastic::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba3_plastic::kDomainMin.alpha, mitsuba_ggx_to_mitsuba3_plastic::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba3_plastic::kDomainMin.f0, mitsuba_ggx_to_mitsuba3_plastic::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba3_plastic::kAlphaRmsError, mitsuba_ggx_to_mitsuba3_plastic::kSpecularRmsError, mitsuba_ggx_to_mitsuba3_plastic::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba3_plastic::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba3_plastic::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba3_plastic::self_test},
+    {mitsuba_ggx_to_mitsuba3_principled_dielectric::kId, mitsuba_ggx_to_mitsuba3_principled_dielectric::kSourceModel, mitsuba_ggx_to_mitsuba3_principled_dielectric::kSourceRoughness, mitsuba_ggx_to_mitsuba3_principled_dielectric::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba3_principled_dielectric::kTargetModel, mitsuba_ggx_to_mitsuba3_principled_dielectric::kTargetRoughness, mitsuba_ggx_to_mitsuba3_principled_dielectric::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba3_principled_dielectric::kDomainMin.alpha, mitsuba_ggx_to_mitsuba3_principled_dielectric::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba3_principled_dielectric::kDomainMin.f0, mitsuba_ggx_to_mitsuba3_principled_dielectric::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba3_principled_dielectric::kAlphaRmsError, mitsuba_ggx_to_mitsuba3_principled_dielectric::kSpecularRmsError, mitsuba_ggx_to_mitsuba3_principled_dielectric::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba3_principled_dielectric::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba3_principled_dielectric::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba3_principled_dielectric::self_test},
+    {mitsuba_ggx_to_mitsuba3_principled_metal::kId, mitsuba_ggx_to_mitsuba3_principled_metal::kSourceModel, mitsuba_ggx_to_mitsuba3_principled_metal::kSourceRoughness, mitsuba_ggx_to_mitsuba3_principled_metal::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba3_principled_metal::kTargetModel, mitsuba_ggx_to_mitsuba3_principled_metal::kTargetRoughness, mitsuba_ggx_to_mitsuba3_principled_metal::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba3_principled_metal::kDomainMin.alpha, mitsuba_ggx_to_mitsuba3_principled_metal::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba3_principled_metal::kDomainMin.f0, mitsuba_ggx_to_mitsuba3_principled_metal::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba3_principled_metal::kAlphaRmsError, mitsuba_ggx_to_mitsuba3_principled_metal::kSpecularRmsError, mitsuba_ggx_to_mitsuba3_principled_metal::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba3_principled_metal::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba3_principled_metal::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba3_principled_metal::self_test},
     {mitsuba_ggx_to_mitsuba_as::kId, mitsuba_ggx_to_mitsuba_as::kSourceModel, mitsuba_ggx_to_mitsuba_as::kSourceRoughness, mitsuba_ggx_to_mitsuba_as::kSourceSpecular,
      mitsuba_ggx_to_mitsuba_as::kTargetModel, mitsuba_ggx_to_mitsuba_as::kTargetRoughness, mitsuba_ggx_to_mitsuba_as::kTargetSpecular,
      mitsuba_ggx_to_mitsuba_as::kDomainMin.alpha, mitsuba_ggx_to_mitsuba_as::kDomainMax.alpha,
@@ -324,6 +488,24 @@ inline constexpr std::array<ConverterEntry, 68> kConverters = {{
      mitsuba_ggx_to_mitsuba_ward_duer::kDomainMin.f0, mitsuba_ggx_to_mitsuba_ward_duer::kDomainMax.f0,
      mitsuba_ggx_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_ggx_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_ggx_to_mitsuba_ward_duer::kImageRmsError,
      &mitsuba_ggx_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba_ward_duer::self_test},
+    {mitsuba_ggx_to_threejs_r187_physical_dielectric::kId, mitsuba_ggx_to_threejs_r187_physical_dielectric::kSourceModel, mitsuba_ggx_to_threejs_r187_physical_dielectric::kSourceRoughness, mitsuba_ggx_to_threejs_r187_physical_dielectric::kSourceSpecular,
+     mitsuba_ggx_to_threejs_r187_physical_dielectric::kTargetModel, mitsuba_ggx_to_threejs_r187_physical_dielectric::kTargetRoughness, mitsuba_ggx_to_threejs_r187_physical_dielectric::kTargetSpecular,
+     mitsuba_ggx_to_threejs_r187_physical_dielectric::kDomainMin.alpha, mitsuba_ggx_to_threejs_r187_physical_dielectric::kDomainMax.alpha,
+     mitsuba_ggx_to_threejs_r187_physical_dielectric::kDomainMin.f0, mitsuba_ggx_to_threejs_r187_physical_dielectric::kDomainMax.f0,
+     mitsuba_ggx_to_threejs_r187_physical_dielectric::kAlphaRmsError, mitsuba_ggx_to_threejs_r187_physical_dielectric::kSpecularRmsError, mitsuba_ggx_to_threejs_r187_physical_dielectric::kImageRmsError,
+     &mitsuba_ggx_to_threejs_r187_physical_dielectric::evaluate_batch<1>, &mitsuba_ggx_to_threejs_r187_physical_dielectric::evaluate_batch<3>, &mitsuba_ggx_to_threejs_r187_physical_dielectric::self_test},
+    {mitsuba_ggx_to_threejs_r187_standard_metal::kId, mitsuba_ggx_to_threejs_r187_standard_metal::kSourceModel, mitsuba_ggx_to_threejs_r187_standard_metal::kSourceRoughness, mitsuba_ggx_to_threejs_r187_standard_metal::kSourceSpecular,
+     mitsuba_ggx_to_threejs_r187_standard_metal::kTargetModel, mitsuba_ggx_to_threejs_r187_standard_metal::kTargetRoughness, mitsuba_ggx_to_threejs_r187_standard_metal::kTargetSpecular,
+     mitsuba_ggx_to_threejs_r187_standard_metal::kDomainMin.alpha, mitsuba_ggx_to_threejs_r187_standard_metal::kDomainMax.alpha,
+     mitsuba_ggx_to_threejs_r187_standard_metal::kDomainMin.f0, mitsuba_ggx_to_threejs_r187_standard_metal::kDomainMax.f0,
+     mitsuba_ggx_to_threejs_r187_standard_metal::kAlphaRmsError, mitsuba_ggx_to_threejs_r187_standard_metal::kSpecularRmsError, mitsuba_ggx_to_threejs_r187_standard_metal::kImageRmsError,
+     &mitsuba_ggx_to_threejs_r187_standard_metal::evaluate_batch<1>, &mitsuba_ggx_to_threejs_r187_standard_metal::evaluate_batch<3>, &mitsuba_ggx_to_threejs_r187_standard_metal::self_test},
+    {mitsuba_ggx_to_vtk_metal::kId, mitsuba_ggx_to_vtk_metal::kSourceModel, mitsuba_ggx_to_vtk_metal::kSourceRoughness, mitsuba_ggx_to_vtk_metal::kSourceSpecular,
+     mitsuba_ggx_to_vtk_metal::kTargetModel, mitsuba_ggx_to_vtk_metal::kTargetRoughness, mitsuba_ggx_to_vtk_metal::kTargetSpecular,
+     mitsuba_ggx_to_vtk_metal::kDomainMin.alpha, mitsuba_ggx_to_vtk_metal::kDomainMax.alpha,
+     mitsuba_ggx_to_vtk_metal::kDomainMin.f0, mitsuba_ggx_to_vtk_metal::kDomainMax.f0,
+     mitsuba_ggx_to_vtk_metal::kAlphaRmsError, mitsuba_ggx_to_vtk_metal::kSpecularRmsError, mitsuba_ggx_to_vtk_metal::kImageRmsError,
+     &mitsuba_ggx_to_vtk_metal::evaluate_batch<1>, &mitsuba_ggx_to_vtk_metal::evaluate_batch<3>, &mitsuba_ggx_to_vtk_metal::self_test},
     {mitsuba_phong_to_mitsuba_as::kId, mitsuba_phong_to_mitsuba_as::kSourceModel, mitsuba_phong_to_mitsuba_as::kSourceRoughness, mitsuba_phong_to_mitsuba_as::kSourceSpecular,
      mitsuba_phong_to_mitsuba_as::kTargetModel, mitsuba_phong_to_mitsuba_as::kTargetRoughness, mitsuba_phong_to_mitsuba_as::kTargetSpecular,
      mitsuba_phong_to_mitsuba_as::kDomainMin.exponent, mitsuba_phong_to_mitsuba_as::kDomainMax.exponent,
@@ -360,6 +542,12 @@ inline constexpr std::array<ConverterEntry, 68> kConverters = {{
      mitsuba_phong_to_mitsuba_ward_duer::kDomainMin.specular, mitsuba_phong_to_mitsuba_ward_duer::kDomainMax.specular,
      mitsuba_phong_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_phong_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_phong_to_mitsuba_ward_duer::kImageRmsError,
      &mitsuba_phong_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_phong_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_phong_to_mitsuba_ward_duer::self_test},
+    {mitsuba_phong_to_povray_phong::kId, mitsuba_phong_to_povray_phong::kSourceModel, mitsuba_phong_to_povray_phong::kSourceRoughness, mitsuba_phong_to_povray_phong::kSourceSpecular,
+     mitsuba_phong_to_povray_phong::kTargetModel, mitsuba_phong_to_povray_phong::kTargetRoughness, mitsuba_phong_to_povray_phong::kTargetSpecular,
+     mitsuba_phong_to_povray_phong::kDomainMin.exponent, mitsuba_phong_to_povray_phong::kDomainMax.exponent,
+     mitsuba_phong_to_povray_phong::kDomainMin.specular, mitsuba_phong_to_povray_phong::kDomainMax.specular,
+     mitsuba_phong_to_povray_phong::kAlphaRmsError, mitsuba_phong_to_povray_phong::kSpecularRmsError, mitsuba_phong_to_povray_phong::kImageRmsError,
+     &mitsuba_phong_to_povray_phong::evaluate_batch<1>, &mitsuba_phong_to_povray_phong::evaluate_batch<3>, &mitsuba_phong_to_povray_phong::self_test},
     {mitsuba_ward_balanced_to_mitsuba_as::kId, mitsuba_ward_balanced_to_mitsuba_as::kSourceModel, mitsuba_ward_balanced_to_mitsuba_as::kSourceRoughness, mitsuba_ward_balanced_to_mitsuba_as::kSourceSpecular,
      mitsuba_ward_balanced_to_mitsuba_as::kTargetModel, mitsuba_ward_balanced_to_mitsuba_as::kTargetRoughness, mitsuba_ward_balanced_to_mitsuba_as::kTargetSpecular,
      mitsuba_ward_balanced_to_mitsuba_as::kDomainMin.alpha, mitsuba_ward_balanced_to_mitsuba_as::kDomainMax.alpha,
@@ -498,6 +686,18 @@ inline constexpr std::array<ConverterEntry, 68> kConverters = {{
      mitsuba_ward_to_mitsuba_ward_duer::kDomainMin.specular, mitsuba_ward_to_mitsuba_ward_duer::kDomainMax.specular,
      mitsuba_ward_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_ward_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_ward_to_mitsuba_ward_duer::kImageRmsError,
      &mitsuba_ward_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_ward_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_ward_to_mitsuba_ward_duer::self_test},
+    {povray_phong_to_mitsuba_phong::kId, povray_phong_to_mitsuba_phong::kSourceModel, povray_phong_to_mitsuba_phong::kSourceRoughness, povray_phong_to_mitsuba_phong::kSourceSpecular,
+     povray_phong_to_mitsuba_phong::kTargetModel, povray_phong_to_mitsuba_phong::kTargetRoughness, povray_phong_to_mitsuba_phong::kTargetSpecular,
+     povray_phong_to_mitsuba_phong::kDomainMin.exponent, povray_phong_to_mitsuba_phong::kDomainMax.exponent,
+     povray_phong_to_mitsuba_phong::kDomainMin.specular, povray_phong_to_mitsuba_phong::kDomainMax.specular,
+     povray_phong_to_mitsuba_phong::kAlphaRmsError, povray_phong_to_mitsuba_phong::kSpecularRmsError, povray_phong_to_mitsuba_phong::kImageRmsError,
+     &povray_phong_to_mitsuba_phong::evaluate_batch<1>, &povray_phong_to_mitsuba_phong::evaluate_batch<3>, &povray_phong_to_mitsuba_phong::self_test},
+    {povray_specular_to_mitsuba_as::kId, povray_specular_to_mitsuba_as::kSourceModel, povray_specular_to_mitsuba_as::kSourceRoughness, povray_specular_to_mitsuba_as::kSourceSpecular,
+     povray_specular_to_mitsuba_as::kTargetModel, povray_specular_to_mitsuba_as::kTargetRoughness, povray_specular_to_mitsuba_as::kTargetSpecular,
+     povray_specular_to_mitsuba_as::kDomainMin.exponent, povray_specular_to_mitsuba_as::kDomainMax.exponent,
+     povray_specular_to_mitsuba_as::kDomainMin.specular, povray_specular_to_mitsuba_as::kDomainMax.specular,
+     povray_specular_to_mitsuba_as::kAlphaRmsError, povray_specular_to_mitsuba_as::kSpecularRmsError, povray_specular_to_mitsuba_as::kImageRmsError,
+     &povray_specular_to_mitsuba_as::evaluate_batch<1>, &povray_specular_to_mitsuba_as::evaluate_batch<3>, &povray_specular_to_mitsuba_as::self_test},
     {radiance_metal_to_mitsuba_ward_balanced::kId, radiance_metal_to_mitsuba_ward_balanced::kSourceModel, radiance_metal_to_mitsuba_ward_balanced::kSourceRoughness, radiance_metal_to_mitsuba_ward_balanced::kSourceSpecular,
      radiance_metal_to_mitsuba_ward_balanced::kTargetModel, radiance_metal_to_mitsuba_ward_balanced::kTargetRoughness, radiance_metal_to_mitsuba_ward_balanced::kTargetSpecular,
      radiance_metal_to_mitsuba_ward_balanced::kDomainMin.alpha, radiance_metal_to_mitsuba_ward_balanced::kDomainMax.alpha,
@@ -510,6 +710,30 @@ inline constexpr std::array<ConverterEntry, 68> kConverters = {{
      radiance_plastic_to_mitsuba_ward_balanced::kDomainMin.specularity, radiance_plastic_to_mitsuba_ward_balanced::kDomainMax.specularity,
      radiance_plastic_to_mitsuba_ward_balanced::kAlphaRmsError, radiance_plastic_to_mitsuba_ward_balanced::kSpecularRmsError, radiance_plastic_to_mitsuba_ward_balanced::kImageRmsError,
      &radiance_plastic_to_mitsuba_ward_balanced::evaluate_batch<1>, &radiance_plastic_to_mitsuba_ward_balanced::evaluate_batch<3>, &radiance_plastic_to_mitsuba_ward_balanced::self_test},
+    {threejs_r187_phong_to_mitsuba_as::kId, threejs_r187_phong_to_mitsuba_as::kSourceModel, threejs_r187_phong_to_mitsuba_as::kSourceRoughness, threejs_r187_phong_to_mitsuba_as::kSourceSpecular,
+     threejs_r187_phong_to_mitsuba_as::kTargetModel, threejs_r187_phong_to_mitsuba_as::kTargetRoughness, threejs_r187_phong_to_mitsuba_as::kTargetSpecular,
+     threejs_r187_phong_to_mitsuba_as::kDomainMin.exponent, threejs_r187_phong_to_mitsuba_as::kDomainMax.exponent,
+     threejs_r187_phong_to_mitsuba_as::kDomainMin.specular, threejs_r187_phong_to_mitsuba_as::kDomainMax.specular,
+     threejs_r187_phong_to_mitsuba_as::kAlphaRmsError, threejs_r187_phong_to_mitsuba_as::kSpecularRmsError, threejs_r187_phong_to_mitsuba_as::kImageRmsError,
+     &threejs_r187_phong_to_mitsuba_as::evaluate_batch<1>, &threejs_r187_phong_to_mitsuba_as::evaluate_batch<3>, &threejs_r187_phong_to_mitsuba_as::self_test},
+    {threejs_r187_physical_dielectric_to_mitsuba_ggx::kId, threejs_r187_physical_dielectric_to_mitsuba_ggx::kSourceModel, threejs_r187_physical_dielectric_to_mitsuba_ggx::kSourceRoughness, threejs_r187_physical_dielectric_to_mitsuba_ggx::kSourceSpecular,
+     threejs_r187_physical_dielectric_to_mitsuba_ggx::kTargetModel, threejs_r187_physical_dielectric_to_mitsuba_ggx::kTargetRoughness, threejs_r187_physical_dielectric_to_mitsuba_ggx::kTargetSpecular,
+     threejs_r187_physical_dielectric_to_mitsuba_ggx::kDomainMin.roughness, threejs_r187_physical_dielectric_to_mitsuba_ggx::kDomainMax.roughness,
+     threejs_r187_physical_dielectric_to_mitsuba_ggx::kDomainMin.specularIntensity, threejs_r187_physical_dielectric_to_mitsuba_ggx::kDomainMax.specularIntensity,
+     threejs_r187_physical_dielectric_to_mitsuba_ggx::kAlphaRmsError, threejs_r187_physical_dielectric_to_mitsuba_ggx::kSpecularRmsError, threejs_r187_physical_dielectric_to_mitsuba_ggx::kImageRmsError,
+     &threejs_r187_physical_dielectric_to_mitsuba_ggx::evaluate_batch<1>, &threejs_r187_physical_dielectric_to_mitsuba_ggx::evaluate_batch<3>, &threejs_r187_physical_dielectric_to_mitsuba_ggx::self_test},
+    {threejs_r187_standard_metal_to_mitsuba_ggx::kId, threejs_r187_standard_metal_to_mitsuba_ggx::kSourceModel, threejs_r187_standard_metal_to_mitsuba_ggx::kSourceRoughness, threejs_r187_standard_metal_to_mitsuba_ggx::kSourceSpecular,
+     threejs_r187_standard_metal_to_mitsuba_ggx::kTargetModel, threejs_r187_standard_metal_to_mitsuba_ggx::kTargetRoughness, threejs_r187_standard_metal_to_mitsuba_ggx::kTargetSpecular,
+     threejs_r187_standard_metal_to_mitsuba_ggx::kDomainMin.roughness, threejs_r187_standard_metal_to_mitsuba_ggx::kDomainMax.roughness,
+     threejs_r187_standard_metal_to_mitsuba_ggx::kDomainMin.color, threejs_r187_standard_metal_to_mitsuba_ggx::kDomainMax.color,
+     threejs_r187_standard_metal_to_mitsuba_ggx::kAlphaRmsError, threejs_r187_standard_metal_to_mitsuba_ggx::kSpecularRmsError, threejs_r187_standard_metal_to_mitsuba_ggx::kImageRmsError,
+     &threejs_r187_standard_metal_to_mitsuba_ggx::evaluate_batch<1>, &threejs_r187_standard_metal_to_mitsuba_ggx::evaluate_batch<3>, &threejs_r187_standard_metal_to_mitsuba_ggx::self_test},
+    {vtk_metal_to_mitsuba_ggx::kId, vtk_metal_to_mitsuba_ggx::kSourceModel, vtk_metal_to_mitsuba_ggx::kSourceRoughness, vtk_metal_to_mitsuba_ggx::kSourceSpecular,
+     vtk_metal_to_mitsuba_ggx::kTargetModel, vtk_metal_to_mitsuba_ggx::kTargetRoughness, vtk_metal_to_mitsuba_ggx::kTargetSpecular,
+     vtk_metal_to_mitsuba_ggx::kDomainMin.roughness, vtk_metal_to_mitsuba_ggx::kDomainMax.roughness,
+     vtk_metal_to_mitsuba_ggx::kDomainMin.base_color, vtk_metal_to_mitsuba_ggx::kDomainMax.base_color,
+     vtk_metal_to_mitsuba_ggx::kAlphaRmsError, vtk_metal_to_mitsuba_ggx::kSpecularRmsError, vtk_metal_to_mitsuba_ggx::kImageRmsError,
+     &vtk_metal_to_mitsuba_ggx::evaluate_batch<1>, &vtk_metal_to_mitsuba_ggx::evaluate_batch<3>, &vtk_metal_to_mitsuba_ggx::self_test},
 }};
 
 // The same converters as types. Through a type a compiler sees what it calls, which no pointer of the table above lets
@@ -561,6 +785,15 @@ struct cycles_2_7_ggx_to_mitsuba_ggx {
   }
 };
 
+struct cycles_3_4_ashikhmin_shirley_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_3_4_ashikhmin_shirley_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct cycles_3_4_beckmann_to_mitsuba_beckmann {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -576,6 +809,33 @@ struct cycles_3_4_ggx_to_mitsuba_ggx {
                                     const std::array<const float*, Channels>& specular, float* roughness_out,
                                     const std::array<float*, Channels>& specular_out) noexcept {
     return ::remap::cycles_3_4_ggx_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_3_4_principled_dielectric_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_3_4_principled_dielectric_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_3_4_principled_metal_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_3_4_principled_metal_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_5_ashikhmin_shirley_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_5_ashikhmin_shirley_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
   }
 };
 
@@ -597,6 +857,33 @@ struct cycles_5_ggx_to_mitsuba_ggx {
   }
 };
 
+struct cycles_5_multiscatter_ggx_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_5_multiscatter_ggx_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_5_principled_dielectric_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_5_principled_dielectric_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct cycles_5_principled_metal_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_5_principled_metal_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct mitsuba3_beckmann_to_mitsuba_beckmann {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -615,12 +902,57 @@ struct mitsuba3_ggx_to_mitsuba_ggx {
   }
 };
 
+struct mitsuba3_plastic_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba3_plastic_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba3_principled_dielectric_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba3_principled_dielectric_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba3_principled_metal_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba3_principled_metal_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct mitsuba_as_to_cycles_2_7_ggx {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
                                     const std::array<const float*, Channels>& specular, float* roughness_out,
                                     const std::array<float*, Channels>& specular_out) noexcept {
     return ::remap::mitsuba_as_to_cycles_2_7_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_cycles_3_4_ashikhmin_shirley {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_cycles_3_4_ashikhmin_shirley::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_cycles_5_ashikhmin_shirley {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_cycles_5_ashikhmin_shirley::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
   }
 };
 
@@ -675,6 +1007,24 @@ struct mitsuba_as_to_mitsuba_ward_duer {
                                     const std::array<const float*, Channels>& specular, float* roughness_out,
                                     const std::array<float*, Channels>& specular_out) noexcept {
     return ::remap::mitsuba_as_to_mitsuba_ward_duer::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_povray_specular {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_povray_specular::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_as_to_threejs_r187_phong {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_as_to_threejs_r187_phong::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
   }
 };
 
@@ -777,6 +1127,24 @@ struct mitsuba_ggx_to_cycles_3_4_ggx {
   }
 };
 
+struct mitsuba_ggx_to_cycles_3_4_principled_dielectric {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_cycles_3_4_principled_dielectric::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_cycles_3_4_principled_metal {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_cycles_3_4_principled_metal::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct mitsuba_ggx_to_cycles_5_ggx {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -786,12 +1154,66 @@ struct mitsuba_ggx_to_cycles_5_ggx {
   }
 };
 
+struct mitsuba_ggx_to_cycles_5_multiscatter_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_cycles_5_multiscatter_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_cycles_5_principled_dielectric {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_cycles_5_principled_dielectric::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_cycles_5_principled_metal {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_cycles_5_principled_metal::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct mitsuba_ggx_to_mitsuba3_ggx {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
                                     const std::array<const float*, Channels>& specular, float* roughness_out,
                                     const std::array<float*, Channels>& specular_out) noexcept {
     return ::remap::mitsuba_ggx_to_mitsuba3_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba3_plastic {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba3_plastic::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba3_principled_dielectric {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba3_principled_dielectric::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba3_principled_metal {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba3_principled_metal::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
   }
 };
 
@@ -849,6 +1271,33 @@ struct mitsuba_ggx_to_mitsuba_ward_duer {
   }
 };
 
+struct mitsuba_ggx_to_threejs_r187_physical_dielectric {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_threejs_r187_physical_dielectric::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_threejs_r187_standard_metal {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_threejs_r187_standard_metal::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_vtk_metal {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_vtk_metal::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct mitsuba_phong_to_mitsuba_as {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -900,6 +1349,15 @@ struct mitsuba_phong_to_mitsuba_ward_duer {
                                     const std::array<const float*, Channels>& specular, float* roughness_out,
                                     const std::array<float*, Channels>& specular_out) noexcept {
     return ::remap::mitsuba_phong_to_mitsuba_ward_duer::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_phong_to_povray_phong {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_phong_to_povray_phong::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
   }
 };
 
@@ -1110,6 +1568,24 @@ struct mitsuba_ward_to_mitsuba_ward_duer {
   }
 };
 
+struct povray_phong_to_mitsuba_phong {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::povray_phong_to_mitsuba_phong::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct povray_specular_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::povray_specular_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct radiance_metal_to_mitsuba_ward_balanced {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -1128,6 +1604,42 @@ struct radiance_plastic_to_mitsuba_ward_balanced {
   }
 };
 
+struct threejs_r187_phong_to_mitsuba_as {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::threejs_r187_phong_to_mitsuba_as::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct threejs_r187_physical_dielectric_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::threejs_r187_physical_dielectric_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct threejs_r187_standard_metal_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::threejs_r187_standard_metal_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct vtk_metal_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::vtk_metal_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 }  // namespace converters
 
 template <typename... Converters>
@@ -1140,19 +1652,33 @@ using ConverterTypes = ConverterList<
     converters::cycles_2_7_ggx_to_blender_internal_2_7_ward,
     converters::cycles_2_7_ggx_to_mitsuba_as,
     converters::cycles_2_7_ggx_to_mitsuba_ggx,
+    converters::cycles_3_4_ashikhmin_shirley_to_mitsuba_as,
     converters::cycles_3_4_beckmann_to_mitsuba_beckmann,
     converters::cycles_3_4_ggx_to_mitsuba_ggx,
+    converters::cycles_3_4_principled_dielectric_to_mitsuba_ggx,
+    converters::cycles_3_4_principled_metal_to_mitsuba_ggx,
+    converters::cycles_5_ashikhmin_shirley_to_mitsuba_as,
     converters::cycles_5_beckmann_to_mitsuba_beckmann,
     converters::cycles_5_ggx_to_mitsuba_ggx,
+    converters::cycles_5_multiscatter_ggx_to_mitsuba_ggx,
+    converters::cycles_5_principled_dielectric_to_mitsuba_ggx,
+    converters::cycles_5_principled_metal_to_mitsuba_ggx,
     converters::mitsuba3_beckmann_to_mitsuba_beckmann,
     converters::mitsuba3_ggx_to_mitsuba_ggx,
+    converters::mitsuba3_plastic_to_mitsuba_ggx,
+    converters::mitsuba3_principled_dielectric_to_mitsuba_ggx,
+    converters::mitsuba3_principled_metal_to_mitsuba_ggx,
     converters::mitsuba_as_to_cycles_2_7_ggx,
+    converters::mitsuba_as_to_cycles_3_4_ashikhmin_shirley,
+    converters::mitsuba_as_to_cycles_5_ashikhmin_shirley,
     converters::mitsuba_as_to_mitsuba_beckmann,
     converters::mitsuba_as_to_mitsuba_ggx,
     converters::mitsuba_as_to_mitsuba_phong,
     converters::mitsuba_as_to_mitsuba_ward,
     converters::mitsuba_as_to_mitsuba_ward_balanced,
     converters::mitsuba_as_to_mitsuba_ward_duer,
+    converters::mitsuba_as_to_povray_specular,
+    converters::mitsuba_as_to_threejs_r187_phong,
     converters::mitsuba_beckmann_to_cycles_3_4_beckmann,
     converters::mitsuba_beckmann_to_cycles_5_beckmann,
     converters::mitsuba_beckmann_to_mitsuba3_beckmann,
@@ -1164,20 +1690,32 @@ using ConverterTypes = ConverterList<
     converters::mitsuba_beckmann_to_mitsuba_ward_duer,
     converters::mitsuba_ggx_to_cycles_2_7_ggx,
     converters::mitsuba_ggx_to_cycles_3_4_ggx,
+    converters::mitsuba_ggx_to_cycles_3_4_principled_dielectric,
+    converters::mitsuba_ggx_to_cycles_3_4_principled_metal,
     converters::mitsuba_ggx_to_cycles_5_ggx,
+    converters::mitsuba_ggx_to_cycles_5_multiscatter_ggx,
+    converters::mitsuba_ggx_to_cycles_5_principled_dielectric,
+    converters::mitsuba_ggx_to_cycles_5_principled_metal,
     converters::mitsuba_ggx_to_mitsuba3_ggx,
+    converters::mitsuba_ggx_to_mitsuba3_plastic,
+    converters::mitsuba_ggx_to_mitsuba3_principled_dielectric,
+    converters::mitsuba_ggx_to_mitsuba3_principled_metal,
     converters::mitsuba_ggx_to_mitsuba_as,
     converters::mitsuba_ggx_to_mitsuba_beckmann,
     converters::mitsuba_ggx_to_mitsuba_phong,
     converters::mitsuba_ggx_to_mitsuba_ward,
     converters::mitsuba_ggx_to_mitsuba_ward_balanced,
     converters::mitsuba_ggx_to_mitsuba_ward_duer,
+    converters::mitsuba_ggx_to_threejs_r187_physical_dielectric,
+    converters::mitsuba_ggx_to_threejs_r187_standard_metal,
+    converters::mitsuba_ggx_to_vtk_metal,
     converters::mitsuba_phong_to_mitsuba_as,
     converters::mitsuba_phong_to_mitsuba_beckmann,
     converters::mitsuba_phong_to_mitsuba_ggx,
     converters::mitsuba_phong_to_mitsuba_ward,
     converters::mitsuba_phong_to_mitsuba_ward_balanced,
     converters::mitsuba_phong_to_mitsuba_ward_duer,
+    converters::mitsuba_phong_to_povray_phong,
     converters::mitsuba_ward_balanced_to_mitsuba_as,
     converters::mitsuba_ward_balanced_to_mitsuba_beckmann,
     converters::mitsuba_ward_balanced_to_mitsuba_ggx,
@@ -1201,8 +1739,14 @@ using ConverterTypes = ConverterList<
     converters::mitsuba_ward_to_mitsuba_phong,
     converters::mitsuba_ward_to_mitsuba_ward_balanced,
     converters::mitsuba_ward_to_mitsuba_ward_duer,
+    converters::povray_phong_to_mitsuba_phong,
+    converters::povray_specular_to_mitsuba_as,
     converters::radiance_metal_to_mitsuba_ward_balanced,
-    converters::radiance_plastic_to_mitsuba_ward_balanced>;
+    converters::radiance_plastic_to_mitsuba_ward_balanced,
+    converters::threejs_r187_phong_to_mitsuba_as,
+    converters::threejs_r187_physical_dielectric_to_mitsuba_ggx,
+    converters::threejs_r187_standard_metal_to_mitsuba_ggx,
+    converters::vtk_metal_to_mitsuba_ggx>;
 
 }  // namespace remap
 
