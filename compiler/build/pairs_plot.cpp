@@ -70,7 +70,7 @@ std::string pairs_plot(const std::vector<remap::Fit>& fits) {
   };
   std::vector<const remap::Fit*> pairs, spokes;  // within the hub, and to or from it
   for (const remap::Fit& fit : fits) {
-    if (!fit.likeness || fit.likeness->ssim.empty()) continue;
+    if (!is_measured(fit)) continue;
     (hub.contains(fit.source.model) && hub.contains(fit.target.model) ? pairs : spokes).push_back(&fit);
   }
   const std::size_t columns = std::max<std::size_t>(models.size(), 1);

@@ -29,7 +29,6 @@ std::string range_text(const remap::Range& range) {
   return decimals(range.min, 3) + " to " + decimals(range.max, 3);
 }
 
-bool is_measured(const Fit& fit) { return fit.likeness && !fit.likeness->ssim.empty(); }
 bool is_chain(const Fit& fit) { return std::holds_alternative<remap::Chain>(fit.mapping); }
 
 double mean_ssim(const Fit& fit) {
@@ -161,6 +160,8 @@ as out of domain. A domain ends where the target's own parameter would leave its
 )";
 
 }  // namespace
+
+bool is_measured(const Fit& fit) { return fit.likeness && !fit.likeness->ssim.empty(); }
 
 std::set<std::string> hub_models(const std::vector<Fit>& fits) {
   std::map<std::string, std::set<std::string>> neighbours;

@@ -21,6 +21,9 @@ struct ReportFile {
 // the same bytes on every machine.
 std::vector<ReportFile> report(const std::vector<remap::Fit>& fits, const Lock& lock);
 
+// Whether the fit comes from a table that compares spheres.
+bool is_measured(const remap::Fit& fit);
+
 // Models with measured converters to or from more than one other; also two that have but each other. The rest
 // hang on one of these.
 std::set<std::string> hub_models(const std::vector<remap::Fit>& fits);

@@ -1,6 +1,5 @@
 // `remapc sample`: random materials of all parameters of a model, matched, to a table of named columns.
 #include <chrono>
-#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -11,9 +10,9 @@
 #include "commands/pair_selection.hpp"
 #include "commands/parameter_setting.hpp"
 #include "commands/renderer_options.hpp"
+#include "commands/table_summary.hpp"
 #include "error.hpp"
 #include "files.hpp"
-#include "number_text.hpp"
 #include "sweep/random_sweep.hpp"
 
 namespace remapc {
@@ -21,7 +20,6 @@ namespace {
 
 using remap::Error;
 using remap::ErrorKind;
-using remap::number_text;
 
 struct SampleCommand {
   PairSelection pair;
@@ -54,34 +52,17 @@ RandomSweepOptions random_sweep_options(const SampleCommand& command) {
 
 void report(const SampleCommand& command, const NamedTable& table, const PictureCount& pictures,
             double seconds) {
-  std::map<std::string, std::size_t> statuses;
-  double square = 0.0;
-  for (const NamedRow& row : table.rows) {
-    ++statuses[std::string(status_name(row.status))];
-    square += row.error * row.error / static_cast<double>(table.rows.size());
-  }
+  TableSummary summary;
+  for (const NamedRow& row : table.rows) summary.add(row.status, row.error);
   if (command.json) {
-    const nlohmann::ordered_json json = {{"table", command.output.string()},
-                                         {"rows", table.rows.size()},
-                                         {"source_columns", table.source_columns},
-                                         {"target_columns", table.target_columns},
-                                         {"status", statuses},
-                                         {"rms_image_error", std::sqrt(square)},
-                                         {"pictures_rendered", pictures.rendered},
-                                         {"pictures_cached", pictures.cached},
-                                         {"seconds", seconds}};
+    nlohmann::ordered_json json = {{"table", command.output.string()},
+                                   {"source_columns", table.source_columns},
+                                   {"target_columns", table.target_columns}};
+    summary.append_to(&json, pictures, seconds);
     std::cout << json.dump(2) << "\n";
-    return;
+  } else if (!command.quiet) {
+    std::cerr << command.output.string() << ": " << summary.text(pictures, seconds) << "\n";
   }
-  if (command.quiet) return;
-  std::cerr << command.output.string() << ": " << table.rows.size() << " rows (";
-  bool first = true;
-  for (const auto& [status, count] : statuses) {
-    std::cerr << (first ? "" : ", ") << count << " " << status;
-    first = false;
-  }
-  std::cerr << "), image error " << number_text(std::round(1000.0 * std::sqrt(square)) / 10.0) << " % rms, "
-            << number_text(std::round(10.0 * seconds) / 10.0) << " s\n";
 }
 
 void run(const SampleCommand& command) {

@@ -2,7 +2,6 @@
 #include "sweep/sweep.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -12,6 +11,7 @@
 #include "commands/commands.hpp"
 #include "commands/pair_selection.hpp"
 #include "commands/renderer_options.hpp"
+#include "commands/table_summary.hpp"
 #include "error.hpp"
 #include "files.hpp"
 #include "number_text.hpp"
@@ -93,31 +93,14 @@ void warn_of_subpixel(const Table& table, const SweepOptions& options) {
 }
 
 void report(const SweepCommand& command, const Table& table, const PictureCount& pictures, double seconds) {
-  std::map<std::string, std::size_t> statuses;
-  double square = 0.0;
-  for (const TableRow& row : table.rows) {
-    ++statuses[std::string(status_name(row.status))];
-    square += row.error * row.error;
-  }
-  const double error = std::sqrt(square / static_cast<double>(table.rows.size()));
+  TableSummary summary;
+  for (const TableRow& row : table.rows) summary.add(row.status, row.error);
   if (command.json) {
-    const nlohmann::ordered_json json = {{"table", command.output.string()},
-                                         {"rows", table.rows.size()},
-                                         {"status", statuses},
-                                         {"rms_image_error", error},
-                                         {"pictures_rendered", pictures.rendered},
-                                         {"pictures_cached", pictures.cached},
-                                         {"seconds", seconds}};
+    nlohmann::ordered_json json = {{"table", command.output.string()}};
+    summary.append_to(&json, pictures, seconds);
     std::cout << json.dump(2) << "\n";
   } else if (!command.quiet) {
-    std::cerr << command.output.string() << ": " << table.rows.size() << " rows (";
-    bool first = true;
-    for (const auto& [status, count] : statuses) {
-      std::cerr << (first ? "" : ", ") << count << " " << status;
-      first = false;
-    }
-    std::cerr << "), image error " << number_text(std::round(1000.0 * error) / 10.0) << " % rms"
-              << pictures_text(pictures) << ", " << number_text(std::round(10.0 * seconds) / 10.0) << " s\n";
+    std::cerr << command.output.string() << ": " << summary.text(pictures, seconds) << "\n";
   }
 }
 

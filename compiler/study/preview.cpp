@@ -11,7 +11,7 @@
 #include "study/contact_sheet.hpp"
 #include "sweep/casting.hpp"
 #include "sweep/likeness.hpp"
-#include "sweep/photographer.hpp"
+#include "sweep/sweep.hpp"
 
 namespace remapc {
 namespace {
@@ -20,8 +20,6 @@ using remap::Error;
 using remap::ErrorKind;
 
 constexpr float kDifferenceGain = 4.0f;
-// The law of a specular parameter shows in any picture that resolves the highlight.
-constexpr int kProbeResolution = 64;
 
 // One end of the fit, as a renderer takes it.
 struct End {
@@ -40,9 +38,8 @@ End make_end(const Renderer& renderer, const remap::Fit& fit, const std::string&
   const Casting casting = recorded_casting(comment(fit, role + "_roughness_parameter"),
                                            comment(fit, role + "_specular"), comment(fit, role + "_fixed"));
   End end{recast(find_model(renderer, side.model), casting), {SpecularLaw::kAffine}, exposure};
-  if (end.model.parameter(ParameterRole::kSpecular).name == side.specular) return end;
-  const Photographer photographer(renderer, objective_preset("natural"), kProbeResolution, 1);
-  end.response = probe_specular(photographer, end.model, {0.1, end.model.alpha.max});
+  if (end.model.parameter(ParameterRole::kSpecular).name != side.specular)
+    end.response = specular_response(renderer, end.model);
   return end;
 }
 

@@ -76,8 +76,7 @@ std::vector<TableRow> match_each(const SweepSetup& setup, const SampleBlock& blo
       rows.push_back(flat_row(sample, setup.target));
       continue;
     }
-    auto weights =
-        squared_weights(setup.photographer.objective(), picture, setup.photographer.view_cosines());
+    auto weights = setup.photographer.weights(picture);
     if (setup.bank == nullptr) {
       rows.push_back(searched_row(setup, sample, std::move(picture), std::move(weights)));
       continue;
@@ -92,8 +91,7 @@ std::vector<TableRow> match_each(const SweepSetup& setup, const SampleBlock& blo
 // (uniform, or relative to a picture that only scales), one set of inner products serves the whole block.
 std::vector<TableRow> match_together(const SweepSetup& setup, const SampleBlock& block) {
   AffinePictures pictures = take_affine(setup.photographer, setup.source, block.alpha);
-  auto weights =
-      squared_weights(setup.photographer.objective(), pictures.full, setup.photographer.view_cosines());
+  auto weights = setup.photographer.weights(pictures.full);
   const bool proportional = setup.source.response.proportional();
   std::vector<std::vector<float>> basis;
   basis.push_back(std::move(pictures.slope));
@@ -142,7 +140,7 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
     row->status = RowStatus::kFlat;
     return;
   }
-  auto weights = squared_weights(setup.photographer.objective(), picture, setup.photographer.view_cosines());
+  auto weights = setup.photographer.weights(picture);
   const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights),
                              {true, row->diffuse1 > 0.0 || !setup.source.model.has(ParameterRole::kDiffuse)});
   const Sitting apart{row->alpha2, row->specular2, row->diffuse2};

@@ -39,10 +39,7 @@ void fix(ModelDescription* model, const std::string& name, double value, std::se
     throw Error(ErrorKind::kUsage, model->name + ": " + name + " is fixed, but is the " +
                                        std::string(role_word(parameter.role)) +
                                        " of this remap; expected another parameter");
-  if (!parameter.range.contains(value))
-    throw Error(ErrorKind::kUsage, model->name + ": " + name + " = " + remap::number_text(value) +
-                                       "; expected " + remap::number_text(parameter.range.min) + " to " +
-                                       remap::number_text(parameter.range.max));
+  require_value(*model, parameter, value);
   parameter.role = ParameterRole::kOther;
   parameter.standard = value;
   displaced->erase(name);
@@ -51,14 +48,13 @@ void fix(ModelDescription* model, const std::string& name, double value, std::se
 // Canonical widths of the roughness, whose parameter or convention may be another now.
 void measure_widths(ModelDescription* model) {
   const ParameterDescription& roughness = model->parameter(ParameterRole::kRoughness);
-  const double a = remap::to_alpha(model->roughness, roughness.range.min);
-  const double b = remap::to_alpha(model->roughness, roughness.range.max);
-  if (!(std::min(a, b) >= 0.0) || !(std::max(a, b) > 0.0))
+  const remap::Range alphas = canonical_widths(model->roughness, roughness.range);
+  if (!(alphas.min >= 0.0) || !(alphas.max > 0.0))
     throw Error(ErrorKind::kUsage, model->name + ": the range of " + roughness.name +
                                        " is none of widths as " +
                                        std::string(remap::convention_name(model->roughness)) +
                                        "; expected another convention, " + roughness.name + ":CONVENTION");
-  model->alpha = {std::min(a, b), std::max(a, b)};
+  model->alpha = alphas;
 }
 
 }  // namespace

@@ -24,6 +24,11 @@ void require_form(const Image& image, int resolution, const std::string& model) 
                                        std::to_string(resolution) + " squared, 1 or 3");
 }
 
+// In proportion, with pictures of a range from 0: black there, and not rendered.
+bool has_no_base(const Subject& subject) {
+  return subject.response.proportional() && subject.linear_range().min == 0.0;
+}
+
 }  // namespace
 
 Photographer::Photographer(const Renderer& renderer, const Objective& objective, int resolution,
@@ -73,6 +78,10 @@ std::vector<float> Photographer::take(const Material& material) const {
   return std::move(rows[1]);
 }
 
+std::vector<float> Photographer::weights(const std::vector<float>& source) const {
+  return squared_weights(objective_, source, cosines_);
+}
+
 std::vector<float> Photographer::square_picture(const std::vector<float>& row) const {
   const auto side = static_cast<std::size_t>(resolution_);
   std::vector<float> square(side * side, 0.0f);
@@ -114,14 +123,14 @@ remap::Range Subject::diffuse_range() const {
 std::optional<SpecularFamily> Subject::family() const {
   if (!response.affine()) return curve;
   const remap::Range range = linear_range();
-  return affine_family(range, response.proportional() && range.min == 0.0);
+  return affine_family(range, has_no_base(*this));
 }
 
 AffinePictures take_affine(const Photographer& photographer, const Subject& subject, double alpha) {
   const remap::Range range = subject.linear_range();
   AffinePictures pictures;
   pictures.full = photographer.take(subject, {alpha, range.max, 0.0});
-  if (subject.response.proportional() && range.min == 0.0)
+  if (has_no_base(subject))
     pictures.base.resize(pictures.full.size());
   else
     pictures.base = photographer.take(subject, {alpha, range.min, 0.0});
@@ -141,7 +150,7 @@ std::vector<std::vector<float>> take_family(const Photographer& photographer, co
   std::vector<std::vector<float>> pictures;
   if (subject.response.affine()) {
     AffinePictures affine = take_affine(photographer, subject, alpha);
-    if (subject.family()->picture_count() == 2) pictures.push_back(std::move(affine.base));
+    if (!has_no_base(subject)) pictures.push_back(std::move(affine.base));
     pictures.push_back(std::move(affine.slope));
     return pictures;
   }

@@ -68,6 +68,9 @@ class Photographer {
   // The same for each channel of a material: one row where all its parameters are grey, else three.
   std::vector<std::vector<float>> take_channels(const Material& material) const;
 
+  // squared_weights() of the objective for pictures that this took.
+  std::vector<float> weights(const std::vector<float>& source) const;
+
   // The picture under the first light as a square, row 0 at the top, 0 beside the sphere.
   std::vector<float> square_picture(const std::vector<float>& row) const;
 

@@ -63,7 +63,8 @@ void add_noise(const std::string& role, const SteadyRenderer& renderer, const st
   const Noise& noise = renderer.noise(model);
   comments->emplace_back(role + "_noise", number_text(remap::rounded_up(noise.level, 2)));
   if (noise.pictures > 1)
-    comments->emplace_back(role + "_averaged", std::to_string(noise.pictures) + " pictures each");
+    comments->emplace_back(role + "_averaged",
+                           pictures_text(static_cast<std::size_t>(noise.pictures)) + " each");
 }
 
 void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments) {

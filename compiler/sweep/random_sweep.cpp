@@ -27,8 +27,6 @@ using remap::Range;
 
 constexpr int kSampleDigits = 9, kMatchDigits = 9, kErrorDigits = 6;
 constexpr std::array kChannelSuffixes = {"_r", "_g", "_b"};
-// The search reaches this far below the narrowest source width, as in run_sweep.
-constexpr double kNarrowing = 4.0;
 
 // A parameter of the source that varies.
 struct Varied {
@@ -169,7 +167,7 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
   for (std::vector<float>& picture : matching.photographer.take_channels(material)) {
     for (float& value : picture) value = static_cast<float>(value * matching.irradiance_scale);
     brightest = std::max(brightest, *std::max_element(picture.begin(), picture.end()));
-    auto weights = squared_weights(matching.options.objective, picture, matching.photographer.view_cosines());
+    auto weights = matching.photographer.weights(picture);
     channels.push_back({std::move(picture), std::move(weights)});
   }
   const std::size_t channel_count = channels.size();
@@ -193,9 +191,8 @@ Matching make_matching(const RandomSweepOptions& options, const Photographer& ph
   Matching matching{options, photographer, source, std::move(varied), {}, 1.0, nullptr, nullptr};
   require_roleless(target, options.searched);
   const Range own = range_of(options, source, source.parameter(ParameterRole::kRoughness));
-  const double a = remap::to_alpha(source.roughness, own.min), b = remap::to_alpha(source.roughness, own.max);
-  const double narrowest = std::max({target.alpha.min, std::min(a, b), 1e-4});
-  const Range searched{std::max(target.alpha.min, narrowest / kNarrowing), target.alpha.max};
+  const double narrowest = std::max({target.alpha.min, canonical_widths(source.roughness, own).min, 1e-4});
+  const Range searched = searched_widths(target, narrowest);
   matching.target = {target, probe_specular(photographer, target, {narrowest, target.alpha.max})};
   if (options.match_irradiance && light_matched(source, target))
     matching.irradiance_scale = 1.0 / match_diffuse(photographer, source, target).scale;

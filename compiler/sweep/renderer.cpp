@@ -71,6 +71,14 @@ ModelDescription Renderer::model(const std::string& name) const {
                      name + ": is no model of " + version() + remap::suggestion(name, names));
 }
 
+void require_value(const ModelDescription& model, const ParameterDescription& parameter, double value) {
+  if (parameter.range.contains(value)) return;
+  throw remap::Error(remap::ErrorKind::kUsage, model.name + ": " + parameter.name + " = " +
+                                                   remap::number_text(value) + "; expected " +
+                                                   remap::number_text(parameter.range.min) + " to " +
+                                                   remap::number_text(parameter.range.max));
+}
+
 void require_material(const Material& material, const ModelDescription& model) {
   const auto fail = [&](const std::string& what) {
     throw remap::Error(remap::ErrorKind::kUsage, model.name + ": " + what);
@@ -88,10 +96,7 @@ void require_material(const Material& material, const ModelDescription& model) {
     if (values.size() != 1 && (is_one || values.size() != 3))
       fail("parameter " + parameter.name + " has " + std::to_string(values.size()) + " values; expected " +
            (is_one ? "1" : "1 or 3"));
-    for (const double value : values)
-      if (!parameter.range.contains(value))
-        fail(parameter.name + " = " + remap::number_text(value) + "; expected " +
-             remap::number_text(parameter.range.min) + " to " + remap::number_text(parameter.range.max));
+    for (const double value : values) require_value(model, parameter, value);
   }
 }
 
@@ -120,6 +125,11 @@ Material grey_material(const ModelDescription& model, double alpha, double specu
     if (parameter.role == ParameterRole::kOther) material.parameters[parameter.name] = {parameter.standard};
   }
   return material;
+}
+
+remap::Range canonical_widths(remap::RoughnessConvention convention, const remap::Range& own) {
+  const double a = remap::to_alpha(convention, own.min), b = remap::to_alpha(convention, own.max);
+  return {std::min(a, b), std::max(a, b)};
 }
 
 remap::ModelSide model_side(const ModelDescription& model) {

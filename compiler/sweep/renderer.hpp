@@ -79,6 +79,9 @@ class Renderer {
 // The description of `name`. Throws kUsage with the nearest known name.
 ModelDescription find_model(const Renderer& renderer, const std::string& name);
 
+// Throws kUsage for a value that `parameter` of `model` does not take.
+void require_value(const ModelDescription& model, const ParameterDescription& parameter, double value);
+
 // Throws kUsage where `material` lacks a parameter of `model`, has one that the model has not, or a value
 // that it does not take.
 void require_material(const Material& material, const ModelDescription& model);
@@ -86,6 +89,9 @@ void require_material(const Material& material, const ModelDescription& model);
 // A grey material from canonical coordinates: the width as alpha, linear specular and diffuse (of a model
 // that has it); other parameters at their standard values.
 Material grey_material(const ModelDescription& model, double alpha, double specular, double diffuse);
+
+// Canonical widths of a range of a model's own, ascending: some conventions fall as alpha rises.
+remap::Range canonical_widths(remap::RoughnessConvention convention, const remap::Range& own);
 
 // The end of a conversion that `model` stands for.
 remap::ModelSide model_side(const ModelDescription& model);

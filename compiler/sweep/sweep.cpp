@@ -26,8 +26,6 @@ using remap::ErrorKind;
 using remap::number_text;
 using remap::Range;
 
-// The search reaches this far below the narrowest source width; no pair of the hub differs by more than 2.
-constexpr double kNarrowing = 4.0;
 // Samples are numbers that a person can type.
 constexpr int kSampleDigits = 9;
 // Laws show in any picture that resolves the highlight.
@@ -143,7 +141,7 @@ SweepSetup make_setup(const SweepOptions& options, const Photographer& photograp
                       const ModelDescription& source, const ModelDescription& target) {
   const EffectiveWidths source_widths = probe_widths(photographer, source, sampled_alphas(options.samples));
   const Range alphas = source_widths.effective;
-  const Range wanted{std::max(target.alpha.min, alphas.min / kNarrowing), target.alpha.max};
+  const Range wanted = searched_widths(target, alphas.min);
   const EffectiveWidths target_widths = probe_widths(photographer, target, wanted);
   const Range searched = target_widths.effective;
   ModelDescription responsive = target;  // without widths that do nothing
@@ -200,9 +198,13 @@ std::string grid_text(const Range& alphas, std::size_t alpha_count, const Range&
          std::to_string(specular_count) + " specular " + range_text(speculars);
 }
 
-Range canonical_speculars(const Renderer& renderer, const ModelDescription& model) {
+SpecularResponse specular_response(const Renderer& renderer, const ModelDescription& model) {
   const Photographer photographer(renderer, objective_preset("natural"), kProbeResolution, 1);
-  return Subject{model, probe_specular(photographer, model, {0.1, model.alpha.max})}.specular_range();
+  return probe_specular(photographer, model, {0.1, model.alpha.max});
+}
+
+Range canonical_speculars(const Renderer& renderer, const ModelDescription& model) {
+  return Subject{model, specular_response(renderer, model)}.specular_range();
 }
 
 double subpixel_alpha(int resolution, int samples_per_axis) {

@@ -10,6 +10,7 @@
 
 #include "sweep/casting.hpp"
 #include "sweep/objective.hpp"
+#include "sweep/probe.hpp"
 #include "sweep/renderer.hpp"
 #include "table/table.hpp"
 
@@ -56,6 +57,9 @@ std::vector<SamplePoint> grid_samples(const remap::Range& alphas, std::size_t al
 // The same in words, for SweepOptions::sampling.
 std::string grid_text(const remap::Range& alphas, std::size_t alpha_count, const remap::Range& speculars,
                       std::size_t specular_count);
+
+// The law of the specular of `model` (probe_specular), from small pictures of widths from 0.1.
+SpecularResponse specular_response(const Renderer& renderer, const ModelDescription& model);
 
 // Canonical speculars that `model` takes, by the law that a few small pictures show (probe_specular).
 remap::Range canonical_speculars(const Renderer& renderer, const ModelDescription& model);

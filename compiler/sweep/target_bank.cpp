@@ -12,6 +12,8 @@ namespace {
 // by 4^11.
 constexpr double kEdgeRefinement = 4.0;
 
+constexpr double kNarrowing = 4.0;
+
 // From the top down: a window of narrow steps, then full ones, to the first at or below the bottom; to the
 // bottom itself where that one would be below `least`, which is all that the model takes.
 std::vector<double> bank_alphas(const remap::Range& alphas, double ratio, double least) {
@@ -38,6 +40,10 @@ std::vector<double> bank_alphas(const remap::Range& alphas, double ratio, double
 }
 
 }  // namespace
+
+remap::Range searched_widths(const ModelDescription& target, double narrowest) {
+  return {std::max(target.alpha.min, narrowest / kNarrowing), target.alpha.max};
+}
 
 TargetBank::TargetBank(const Photographer& photographer, const Subject& target, const remap::Range& alphas,
                        double ratio)

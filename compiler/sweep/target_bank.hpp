@@ -16,6 +16,10 @@ namespace remapc {
 // alpha.
 inline constexpr double kBankRatio = 1.05;
 
+// Widths of `target` that a search looks at for sources whose narrowest width is `narrowest`: from a quarter
+// of that, since no pair of the hub differs by more than 2.
+remap::Range searched_widths(const ModelDescription& target, double narrowest);
+
 class TargetBank {
  public:
   // A bank for widths in `alphas` and no less than the model takes: neighbours at most `ratio` apart (the

@@ -103,10 +103,8 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
   require_once(model, ParameterRole::kRoughness, true, model.name);
   require_once(model, ParameterRole::kSpecular, true, model.name);
   require_once(model, ParameterRole::kDiffuse, false, model.name);
-  const Range own = model.parameter(ParameterRole::kRoughness).range;
-  const double a = remap::to_alpha(model.roughness, own.min), b = remap::to_alpha(model.roughness, own.max);
-  model.alpha = {std::min(a, b), std::max(a, b)};
-  if (!std::isfinite(a) || !std::isfinite(b) || !(model.alpha.min >= 0.0) || !(model.alpha.max > 0.0))
+  model.alpha = canonical_widths(model.roughness, model.parameter(ParameterRole::kRoughness).range);
+  if (!(model.alpha.min >= 0.0) || !(model.alpha.max > 0.0) || !std::isfinite(model.alpha.max))
     throw Error(ErrorKind::kInput, model.name + ": the range of its roughness is none of widths");
   if (field.json().contains("precision")) {
     model.precision = field["precision"].number();

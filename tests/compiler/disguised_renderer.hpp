@@ -13,79 +13,92 @@
 
 namespace remapc {
 
-// The built-in renderer, and beside it `disguised/metal`: Ward with another name and scale for every
-// parameter, and light of a strength that the sweep does not know.
-class BothRenderers final : public Renderer {
+// The built-in renderer, and beside it one model of a closed one.
+class DisguisedRenderer : public Renderer {
  public:
-  explicit BothRenderers(double light = 0.5) : light_(light) {}
-
-  std::string version() const override { return "both"; }
+  std::string version() const override { return "disguised"; }
   std::vector<ModelDescription> models() const override {
-    auto all = builtin_->models();
-    all.push_back({"disguised/metal",
-                   remap::RoughnessConvention::kGlossiness,
-                   {1e-3, 1.0},
-                   {{"gloss", ParameterRole::kRoughness, {0.0, 1.0}},
-                    {"shine", ParameterRole::kSpecular, {0.0, 4.0}},
-                    {"paint", ParameterRole::kDiffuse, {0.0, 1.0}}}});
+    auto all = builtin().models();
+    all.push_back(disguise());
     return all;
   }
   Image render(const Material& material, const Scene& scene) const override {
-    if (material.model != "disguised/metal") return builtin_->render(material, scene);
+    return material.model == disguise().name ? render_disguise(material, scene)
+                                             : builtin().render(material, scene);
+  }
+
+ protected:
+  virtual ModelDescription disguise() const = 0;
+  virtual Image render_disguise(const Material& material, const Scene& scene) const = 0;
+  const Renderer& builtin() const { return *builtin_; }
+
+ private:
+  std::unique_ptr<Renderer> builtin_ = make_builtin_renderer();
+};
+
+// The built-in renderer, and beside it `disguised/metal`: Ward with another name and scale for every
+// parameter, and light of a strength that the sweep does not know.
+class BothRenderers final : public DisguisedRenderer {
+ public:
+  explicit BothRenderers(double light = 0.5) : light_(light) {}
+
+ private:
+  ModelDescription disguise() const override {
+    return {"disguised/metal",
+            remap::RoughnessConvention::kGlossiness,
+            {1e-3, 1.0},
+            {{"gloss", ParameterRole::kRoughness, {0.0, 1.0}},
+             {"shine", ParameterRole::kSpecular, {0.0, 4.0}},
+             {"paint", ParameterRole::kDiffuse, {0.0, 1.0}}}};
+  }
+  Image render_disguise(const Material& material, const Scene& scene) const override {
     const double alpha =
         remap::to_alpha(remap::RoughnessConvention::kGlossiness, material.parameters.at("gloss")[0]);
     const double shine = material.parameters.at("shine")[0], paint = material.parameters.at("paint")[0];
-    Image image = builtin_->render(
+    Image image = builtin().render(
         {"mitsuba/ward", {{"alpha", {alpha * 0.8}}, {"specular", {shine / 4.0}}, {"diffuse", {paint}}}},
         scene);
     for (float& value : image.values) value = static_cast<float>(value * light_);
     return image;
   }
 
- private:
   double light_;
-  std::unique_ptr<Renderer> builtin_ = make_builtin_renderer();
 };
 
 // The built-in renderer, and beside it `disguised/law`: `inner` with its specular parameter replaced by a
 // function of the one that is given, over `range`.
-class LawRenderer final : public Renderer {
+class LawRenderer final : public DisguisedRenderer {
  public:
   LawRenderer(std::string inner, remap::Range range, std::function<double(double)> law)
       : inner_(std::move(inner)), range_(range), law_(std::move(law)) {}
 
-  std::string version() const override { return "law"; }
-  std::vector<ModelDescription> models() const override {
-    auto all = builtin_->models();
-    ModelDescription changed = find_model(*builtin_, inner_);
+ private:
+  ModelDescription disguise() const override {
+    ModelDescription changed = find_model(builtin(), inner_);
     changed.name = "disguised/law";
     for (ParameterDescription& parameter : changed.parameters)
       if (parameter.role == ParameterRole::kSpecular) parameter = {"level", parameter.role, range_};
-    all.push_back(changed);
-    return all;
+    return changed;
   }
-  Image render(const Material& material, const Scene& scene) const override {
-    if (material.model != "disguised/law") return builtin_->render(material, scene);
-    const ModelDescription model = find_model(*builtin_, inner_);
+  Image render_disguise(const Material& material, const Scene& scene) const override {
+    const ModelDescription model = find_model(builtin(), inner_);
     Material inner = material;
     inner.model = inner_;
     inner.parameters.erase("level");
     inner.parameters[model.parameter(ParameterRole::kSpecular).name] = {
         law_(material.parameters.at("level")[0])};
-    return builtin_->render(inner, scene);
+    return builtin().render(inner, scene);
   }
 
- private:
   std::string inner_;
   remap::Range range_;
   std::function<double(double)> law_;
-  std::unique_ptr<Renderer> builtin_ = make_builtin_renderer();
 };
 
 // `disguised/blend`, alone: the sum of built-in pictures, each of a model and width of its own, times
 // functions of the one specular parameter, so that the shape of the picture and not only its strength depends
 // on it. Refuses widths out of its range, as real renderers do, and counts its pictures.
-class BlendRenderer final : public Renderer {
+class BlendRenderer final : public DisguisedRenderer {
  public:
   struct Term {
     std::string model;  // of the built-in renderer; at full specular, without diffuse
@@ -96,27 +109,25 @@ class BlendRenderer final : public Renderer {
   BlendRenderer(std::vector<Term> terms, remap::Range speculars)
       : terms_(std::move(terms)), speculars_(speculars) {}
 
-  std::string version() const override { return "blend"; }
-  std::vector<ModelDescription> models() const override {
-    auto all = builtin_->models();
-    ModelDescription blend{"disguised/blend",
-                           remap::RoughnessConvention::kAlpha,
-                           {0.05, 0.8},
-                           {{"alpha", ParameterRole::kRoughness, {0.05, 0.8}},
-                            {"level", ParameterRole::kSpecular, speculars_, 0.0, true}}};
-    all.push_back(blend);
-    return all;
+  std::size_t pictures() const { return pictures_; }
+
+ private:
+  ModelDescription disguise() const override {
+    return {"disguised/blend",
+            remap::RoughnessConvention::kAlpha,
+            {0.05, 0.8},
+            {{"alpha", ParameterRole::kRoughness, {0.05, 0.8}},
+             {"level", ParameterRole::kSpecular, speculars_, 0.0, true}}};
   }
-  Image render(const Material& material, const Scene& scene) const override {
-    if (material.model != "disguised/blend") return builtin_->render(material, scene);
-    require_material(material, find_model(*this, material.model));
+  Image render_disguise(const Material& material, const Scene& scene) const override {
+    require_material(material, disguise());
     ++pictures_;
     const double alpha = material.parameters.at("alpha")[0], level = material.parameters.at("level")[0];
     std::vector<double> sums;
     Image image;
     for (const Term& term : terms_) {
-      const ModelDescription model = find_model(*builtin_, term.model);
-      image = builtin_->render(grey_material(model, alpha * term.width, 1.0, 0.0), scene);
+      const ModelDescription model = find_model(builtin(), term.model);
+      image = builtin().render(grey_material(model, alpha * term.width, 1.0, 0.0), scene);
       sums.resize(image.values.size());
       const double weight = term.weight(level);
       for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weight * static_cast<double>(image.values[i]);
@@ -125,13 +136,9 @@ class BlendRenderer final : public Renderer {
     return image;
   }
 
-  std::size_t pictures() const { return pictures_; }
-
- private:
   std::vector<Term> terms_;
   remap::Range speculars_;
   mutable std::atomic<std::size_t> pictures_{0};
-  std::unique_ptr<Renderer> builtin_ = make_builtin_renderer();
 };
 
 }  // namespace remapc

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "compiler/disguised_renderer.hpp"
 #include "compiler/sweep_session.hpp"
 #include "error.hpp"
 #include "sweep/photographer.hpp"
@@ -30,28 +31,25 @@ struct Habits {
 };
 
 // The built-in models, and beside them those of another program: `strange/ggx`, which is mitsuba/ggx-plain.
-class StrangeRenderer final : public Renderer {
+class StrangeRenderer final : public DisguisedRenderer {
  public:
   explicit StrangeRenderer(Habits habits) : habits_(habits) {}
 
-  std::string version() const override { return "strange"; }
-  std::vector<ModelDescription> models() const override {
-    auto all = builtin_->models();
-    ModelDescription model = find_model(*builtin_, "mitsuba/ggx-plain");
+ private:
+  ModelDescription disguise() const override {
+    ModelDescription model = find_model(builtin(), "mitsuba/ggx-plain");
     model.name = "strange/ggx";
     model.is_external = true;
-    all.push_back(model);
-    return all;
+    return model;
   }
-  Image render(const Material& material, const Scene& scene) const override {
-    if (material.model != "strange/ggx") return builtin_->render(material, scene);
+  Image render_disguise(const Material& material, const Scene& scene) const override {
     Material inner = material;
     inner.model = "mitsuba/ggx-plain";
     double& alpha = inner.parameters.at("alpha").front();
     if (alpha <= habits_.mirror) inner.parameters.at("specular") = {0.0};
     alpha = std::clamp(alpha, habits_.least, habits_.most);
     inner.parameters.at("diffuse").front() *= habits_.paint;
-    Image image = builtin_->render(inner, scene);
+    Image image = builtin().render(inner, scene);
     const auto seed = static_cast<std::uint64_t>(scene.seed);
     if (habits_.dark) std::fill(image.values.begin(), image.values.end(), 0.0f);
     for (std::size_t i = 0; i < image.values.size(); ++i)
@@ -59,9 +57,7 @@ class StrangeRenderer final : public Renderer {
     return image;
   }
 
- private:
   Habits habits_;
-  std::unique_ptr<Renderer> builtin_ = make_builtin_renderer();
 };
 
 Table strange_sweep(const Habits& habits, const std::string& source, const std::string& target,
