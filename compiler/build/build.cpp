@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <set>
 
 #include "build/fit_folder.hpp"
 #include "build/lock.hpp"
@@ -14,6 +15,7 @@
 #include "fit/inverse_table.hpp"
 #include "model/chain.hpp"
 #include "model/fit_json.hpp"
+#include "number_text.hpp"
 #include "parallel.hpp"
 #include "sweep/sweep.hpp"
 #include "version.hpp"
@@ -47,8 +49,8 @@ std::string recipe_hash(const ManifestItem& item, const Lock& lock) {
   std::string text = std::string(remap::kVersion) + "\n" + std::to_string(remap::kFitFormatVersion) + "\n" +
                      item.recipe + "\n" + std::to_string(item.seed);
   for (const std::string& input : inputs_of(item)) {
-    const auto found = lock.find(input);
-    text += "\n" + (found == lock.end() ? std::string() : found->second.fit);
+    const auto found = lock.items.find(input);
+    text += "\n" + (found == lock.items.end() ? std::string() : found->second.fit);
   }
   return sha256(text);
 }
@@ -59,8 +61,8 @@ struct Freshness {
   std::string reason;  // of the first that is not
 };
 Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock) {
-  const auto found = lock.find(item.id);
-  if (found == lock.end()) return {false, false, false, "has not been built"};
+  const auto found = lock.items.find(item.id);
+  if (found == lock.items.end()) return {false, false, false, "has not been built"};
   const LockedItem& known = found->second;
   const ItemPaths paths = paths_of(folders, item.id);
   if (known.recipe != recipe_hash(item, lock))
@@ -77,6 +79,35 @@ Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const
   return {true, true, true, ""};
 }
 
+// What the report of a folder is made from: its fits, and the bounds that the lock knows.
+std::string report_hash(const BuildFolders& folders, const Lock& lock) {
+  std::set<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(folders.fits))
+    if (entry.path().extension() == ".json" && entry.path().filename() != kManifestName)
+      paths.insert(entry.path());
+  std::string text = remap::kVersion;
+  for (const fs::path& path : paths) text += "\n" + path.filename().string() + " " + file_sha256(path);
+  for (const auto& [id, item] : lock.items)
+    text += "\n" + id + " " + remap::number_text(item.alpha_bound) + " " +
+            remap::number_text(item.specular_bound);
+  return sha256(text);
+}
+
+bool has_report(const BuildFolders& folders, const Lock& lock) {
+  return lock.report == report_hash(folders, lock) && fs::exists(folders.fits / kReportName) &&
+         fs::exists(folders.fits / kPlotName);
+}
+
+std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders,
+                                        const Lock& lock) {
+  std::set<std::string> ids;
+  for (const ManifestItem& item : manifest.items) ids.insert(item.id);
+  std::vector<std::string> vanished;
+  for (const auto& [id, item] : lock.items)
+    if (!ids.contains(id) && fs::exists(paths_of(folders, id).fit)) vanished.push_back(id);
+  return vanished;
+}
+
 class Builder {
  public:
   Builder(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
@@ -88,8 +119,8 @@ class Builder {
         last_lock_(load_lock(folders.fits)),
         lock_(execution.force ? Lock{} : last_lock_) {}
 
-  std::vector<BuiltItem> run() {
-    forget_others();
+  BuildResult run() {
+    forget_vanished();
     std::vector<const ManifestItem*> waiting;
     for (const ManifestItem& item : manifest_.items) waiting.push_back(&item);
     while (!waiting.empty()) {
@@ -107,18 +138,38 @@ class Builder {
       waiting = later;
     }
     write_registry();
+    write_report();
+    if (lock_ != load_lock(folders_.fits)) save_lock(folders_.fits, lock_);
     std::sort(built_.begin(), built_.end(),
               [](const BuiltItem& a, const BuiltItem& b) { return a.id < b.id; });
-    return std::move(built_);
+    return {std::move(built_), std::move(pruned_)};
   }
 
  private:
-  // Items that the manifest no longer has.
-  void forget_others() {
-    std::erase_if(lock_, [&](const auto& entry) {
-      return std::none_of(manifest_.items.begin(), manifest_.items.end(),
-                          [&](const ManifestItem& item) { return item.id == entry.first; });
-    });
+  // Items that the manifest no longer has: those whose fits are still there are remembered, so that a later
+  // build can remove them.
+  void forget_vanished() {
+    std::set<std::string> kept;
+    for (const ManifestItem& item : manifest_.items) kept.insert(item.id);
+    for (const std::string& id : vanished_items(manifest_, folders_, last_lock_)) {
+      if (execution_.prune && prune(id))
+        pruned_.push_back(id);
+      else
+        kept.insert(id);
+    }
+    std::erase_if(lock_.items, [&](const auto& entry) { return !kept.contains(entry.first); });
+  }
+
+  // Whether all files of a vanished item were as a build left them; they are gone then.
+  bool prune(const std::string& id) const {
+    const LockedItem& known = last_lock_.items.at(id);
+    const ItemPaths paths = paths_of(folders_, id);
+    const std::vector<std::pair<fs::path, std::string>> files = {
+        {paths.table, known.table}, {paths.fit, known.fit}, {paths.header, known.header}};
+    for (const auto& [path, hash] : files)
+      if (fs::exists(path) && file_sha256(path) != hash) return false;
+    for (const auto& [path, hash] : files) fs::remove(path);
+    return true;
   }
 
   void build_item(const ManifestItem& item) {
@@ -130,7 +181,7 @@ class Builder {
     {
       const std::lock_guard lock(mutex_);
       fresh = freshness(item, folders_, lock_);
-      record = lock_[item.id];
+      record = lock_.items[item.id];
       record.recipe = recipe_hash(item, lock_);
     }
     std::string kept_table;
@@ -142,7 +193,7 @@ class Builder {
       throw Error(error.kind(), item.id + ": " + error.what());
     }
     const std::lock_guard lock(mutex_);
-    lock_[item.id] = record;
+    lock_.items[item.id] = record;
     if (!fresh.header) {
       save_lock(folders_.fits, lock_);
       built_.push_back({item.id, !fresh.table && has_table(item), !fresh.fit, true,
@@ -156,8 +207,8 @@ class Builder {
   // Whether the table of the last build serves again, since a renderer that would make it anew is not here.
   bool keeps_table(const ManifestItem& item, LockedItem* record, std::string* reason) const {
     const auto* swept = std::get_if<SweptItem>(&item.kind);
-    const auto last = last_lock_.find(item.id);
-    if (swept == nullptr || last == last_lock_.end() || last->second.recipe != record->recipe ||
+    const auto last = last_lock_.items.find(item.id);
+    if (swept == nullptr || last == last_lock_.items.end() || last->second.recipe != record->recipe ||
         file_sha256(paths_of(folders_, item.id).table) != last->second.table)
       return false;
     try {
@@ -239,14 +290,19 @@ class Builder {
   }
 
   void write_registry() const {
-    const std::vector<remap::Fit> fits = load_fits(folders_.fits);
-    const auto write_changed = [](const fs::path& path, const std::string& text) {
-      if (!fs::exists(path) || remap::read_file(path) != text) remap::write_file(path, text);
-    };
-    write_changed(folders_.generated / "registry.hpp", emit_registry(fits));
-    // The report takes a second to compute.
-    if (!built_.empty() || !fs::exists(folders_.fits / kReportName))
-      for (const ReportFile& file : report(fits, lock_)) write_changed(folders_.fits / file.name, file.text);
+    write_changed(folders_.generated / "registry.hpp", emit_registry(load_fits(folders_.fits)));
+  }
+
+  // Which takes a second to compute.
+  void write_report() {
+    if (has_report(folders_, lock_)) return;
+    for (const ReportFile& file : report(load_fits(folders_.fits), lock_))
+      write_changed(folders_.fits / file.name, file.text);
+    lock_.report = report_hash(folders_, lock_);
+  }
+
+  static void write_changed(const fs::path& path, const std::string& text) {
+    if (!fs::exists(path) || remap::read_file(path) != text) remap::write_file(path, text);
   }
 
   const Renderer& renderer_;
@@ -258,12 +314,13 @@ class Builder {
   std::mutex mutex_;
   std::size_t done_ = 0;
   std::vector<BuiltItem> built_;
+  std::vector<std::string> pruned_;
 };
 
 }  // namespace
 
-std::vector<BuiltItem> build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
-                             const BuildExecution& execution) {
+BuildResult build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
+                  const BuildExecution& execution) {
   return Builder(renderer, manifest, folders, execution).run();
 }
 
@@ -275,6 +332,10 @@ remap::Fit composed_fit(const std::vector<remap::Fit>& steps, const std::string&
   return chain;
 }
 
+std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders) {
+  return vanished_items(manifest, folders, load_lock(folders.fits));
+}
+
 std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& folders) {
   const Lock lock = load_lock(folders.fits);
   std::vector<std::string> reasons;
@@ -282,6 +343,10 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
     const Freshness fresh = freshness(item, folders, lock);
     if (!fresh.header) reasons.push_back(item.id + ": " + fresh.reason);
   }
+  for (const std::string& id : vanished_items(manifest, folders, lock))
+    reasons.push_back(id + ": is no item of the manifest; `remapc build --prune` removes its files");
+  if (!has_report(folders, lock))
+    reasons.push_back((folders.fits / kReportName).string() + ": is not the report of these fits");
   for (const remap::Fit& fit : load_fits(folders.fits)) {
     const fs::path table = folders.fits / "tables" / fit.table.name;
     if (fit.table.name.empty() || !fs::exists(table) || file_sha256(table) == fit.table.sha256) continue;

@@ -22,7 +22,10 @@ Lock load_lock(const std::filesystem::path& fit_folder) {
     const nlohmann::ordered_json json = remap::parse_json(remap::read_file(path), path.string());
     const remap::Field root(json, path.string());
     if (root["version"].count() != kLockVersion) return {};
-    return root["items"].dictionary<LockedItem>(read_item);
+    Lock lock;
+    lock.items = root["items"].dictionary<LockedItem>(read_item);
+    if (root.json().contains("report")) lock.report = root["report"].text();
+    return lock;
   } catch (const remap::Error& error) {
     if (error.kind() != remap::ErrorKind::kInput) throw;
     return {};
@@ -31,14 +34,15 @@ Lock load_lock(const std::filesystem::path& fit_folder) {
 
 void save_lock(const std::filesystem::path& fit_folder, const Lock& lock) {
   nlohmann::ordered_json items = nlohmann::ordered_json::object();
-  for (const auto& [id, item] : lock)
+  for (const auto& [id, item] : lock.items)
     items[id] = {{"recipe", item.recipe},
                  {"table", item.table},
                  {"fit", item.fit},
                  {"header", item.header},
                  {"alpha_bound", item.alpha_bound},
                  {"specular_bound", item.specular_bound}};
-  const nlohmann::ordered_json json = {{"format", "remap-lock"}, {"version", kLockVersion}, {"items", items}};
+  const nlohmann::ordered_json json = {
+      {"format", "remap-lock"}, {"version", kLockVersion}, {"report", lock.report}, {"items", items}};
   remap::write_file(fit_folder / kLockName, json.dump(1) + "\n");
 }
 

@@ -18,9 +18,14 @@ struct LockedItem {
   std::string header;
   double alpha_bound = 0.0;
   double specular_bound = 0.0;
+  bool operator==(const LockedItem&) const = default;
 };
 
-using Lock = std::map<std::string, LockedItem>;  // by id
+struct Lock {
+  std::map<std::string, LockedItem> items;  // by id
+  std::string report;                       // what it was made from: every fit of the folder
+  bool operator==(const Lock&) const = default;
+};
 
 // An empty lock where the folder has none, or one that this version does not read: all is made anew then.
 Lock load_lock(const std::filesystem::path& fit_folder);

@@ -56,6 +56,8 @@ void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
     nlohmann::ordered_json text = group.json();
     text.erase("pairs");
     text["models"] = {source, target};
+    if (text.contains("speculars"))  // that of this source is all that counts
+      text["speculars"] = text["speculars"].contains(source) ? text["speculars"][source] : nullptr;
     items->push_back(
         {remap::converter_id(source, target), SweptItem{source, target, recipe}, text.dump(), seed});
   }

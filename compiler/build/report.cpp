@@ -15,8 +15,6 @@ namespace {
 
 using remap::Fit;
 
-constexpr const char* kPlotName = "pairs.svg";
-
 std::string decimals(double value, int digits) {
   std::array<char, 32> text;
   std::snprintf(text.data(), text.size(), "%.*f", digits, value);
@@ -91,8 +89,8 @@ std::string trip_text(const Fit& fit, const Pairs& pairs) {
 }
 
 std::string bound_text(const Fit& fit, const Lock& lock) {
-  const auto found = lock.find(fit.id);
-  if (found == lock.end()) return "-";
+  const auto found = lock.items.find(fit.id);
+  if (found == lock.items.end()) return "-";
   return error_text(found->second.alpha_bound) + ", " + error_text(found->second.specular_bound);
 }
 

@@ -11,6 +11,7 @@
 namespace remapc {
 
 inline constexpr const char* kReportName = "README.md";
+inline constexpr const char* kPlotName = "pairs.svg";
 
 struct ReportFile {
   std::string name;  // in the folder of fits

@@ -21,7 +21,7 @@ struct BuildCommand {
   BuildFolders folders;
   RendererOptions renderers;
   unsigned jobs = 0;
-  bool force = false, check = false, json = false;
+  bool force = false, prune = false, check = false, json = false;
 };
 
 void run_check(const BuildCommand& command, const Manifest& manifest) {
@@ -34,15 +34,19 @@ void run_check(const BuildCommand& command, const Manifest& manifest) {
   if (!reasons.empty())
     throw remap::Error(remap::ErrorKind::kInput, command.folders.fits.string() + ": " +
                                                      std::to_string(reasons.size()) +
-                                                     " items are not up to date; run `remapc build`");
+                                                     " not up to date; run `remapc build`");
 }
 
-void report(const BuildCommand& command, const Manifest& manifest, const std::vector<BuiltItem>& built,
+void report(const BuildCommand& command, const Manifest& manifest, const BuildResult& result,
             double seconds) {
+  const std::vector<std::string> vanished = vanished_items(manifest, command.folders);
   if (command.json) {
-    nlohmann::ordered_json json = {
-        {"items", manifest.items.size()}, {"seconds", seconds}, {"built", nlohmann::json::array()}};
-    for (const BuiltItem& item : built)
+    nlohmann::ordered_json json = {{"items", manifest.items.size()},
+                                   {"seconds", seconds},
+                                   {"pruned", result.pruned},
+                                   {"vanished", vanished},
+                                   {"built", nlohmann::json::array()}};
+    for (const BuiltItem& item : result.built)
       json["built"].push_back({{"id", item.id},
                                {"table", item.table},
                                {"fit", item.fit},
@@ -52,12 +56,19 @@ void report(const BuildCommand& command, const Manifest& manifest, const std::ve
     std::cout << json.dump(2) << "\n";
     return;
   }
-  for (const BuiltItem& item : built)
+  for (const std::string& id : result.pruned)
+    std::cerr << id << ": is no item of the manifest any more; removed\n";
+  for (const std::string& id : vanished)
+    std::cerr << id << ": is no item of the manifest any more; its files stay"
+              << (command.prune ? ", since they are not as the last build left them"
+                                : ", --prune removes them")
+              << "\n";
+  for (const BuiltItem& item : result.built)
     if (!item.kept_table.empty()) std::cerr << item.id << ": its table is kept; " << item.kept_table << "\n";
-  for (const BuiltItem& item : built)
+  for (const BuiltItem& item : result.built)
     std::cerr << item.id << ": " << (item.table ? "table, " : "") << (item.fit ? "fit, " : "") << "header in "
               << remap::number_text(remap::rounded_up(item.seconds, 2)) << " s\n";
-  std::cerr << manifest.items.size() << " items, " << built.size() << " made anew, "
+  std::cerr << manifest.items.size() << " items, " << result.built.size() << " made anew, "
             << remap::number_text(remap::rounded_up(seconds, 2)) << " s\n";
 }
 
@@ -70,7 +81,7 @@ void run(const BuildCommand& command) {
   }
   remap::watch_interruptions();
   const auto renderer = make_renderers(command.renderers);
-  std::vector<BuiltItem> built;
+  BuildResult result;
   {
     remap::Progress progress("build " + command.folders.fits.string(), manifest.items.size());
     BuildExecution execution;
@@ -78,9 +89,10 @@ void run(const BuildCommand& command) {
     execution.force = command.force;
     execution.cancelled = &remap::interruption();
     execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };
-    built = build(*renderer, manifest, command.folders, execution);
+    execution.prune = command.prune;
+    result = build(*renderer, manifest, command.folders, execution);
   }
-  report(command, manifest, built,
+  report(command, manifest, result,
          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
@@ -102,6 +114,9 @@ void add_build_command(CLI::App& app) {
       ->capture_default_str();
   add_renderer_options(*command, options->renderers);
   command->add_flag("--force", options->force, "Make everything anew");
+  command->add_flag(
+      "--prune", options->prune,
+      "Remove the files of items that the manifest no longer has, where they are as a build left them");
   command->add_flag("--check", options->check, "Write nothing; say what is not up to date, exit code 1 then");
   command->add_flag("--json", options->json, "What was made as JSON on standard output");
   command->footer(

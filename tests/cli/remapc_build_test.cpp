@@ -98,11 +98,46 @@ TEST_CASE("remapc build: a table that is not the one a fit was made of is told")
       R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [], "chains": []})");
   session.write("fits/tables/t.csv", made_table(14, 4));
   REQUIRE(session.remapc(session.fit("fits/tables/t.csv")).exit_code == 0);
+  CHECK(session.remapc(build_of(session, {"--check"})).output.find("is not the report of these fits") !=
+        std::string::npos);
+  CHECK(built_ids(session.remapc(build_of(session))).empty());
   CHECK(session.remapc(build_of(session, {"--check"})).exit_code == 0);
   append(session.path("fits/tables/t.csv"), "0.5,0.5,0.4,0.4,0,ok\n");
   const ProcessResult check = session.remapc(build_of(session, {"--check"}));
   CHECK(check.exit_code == 1);
   CHECK(check.output.find("t.csv is not the table that it was fitted to") != std::string::npos);
+}
+
+TEST_CASE("remapc build: what vanished from the manifest is told, and removed where that is asked for") {
+  const std::string id = "mitsuba_ward_to_a_b", published = "a_b_to_mitsuba_ward";
+  const Session session;
+  auto items = nlohmann::json::parse(manifest());
+  items["sweeps"] = nlohmann::json::array();
+  items["chains"] = nlohmann::json::array();
+  session.write("fits/manifest.json", items.dump());
+  REQUIRE(session.remapc(build_of(session)).exit_code == 0);
+  items["published"] = items["inverses"] = nlohmann::json::array();
+  session.write("fits/manifest.json", items.dump());
+  const ProcessResult check = session.remapc(build_of(session, {"--check"}));
+  CHECK(check.exit_code == 1);
+  CHECK(check.output.find(id + ": is no item of the manifest; `remapc build --prune`") != std::string::npos);
+
+  // Told each time, until they are gone; what was changed by hand stays.
+  for (int i = 0; i < 2; ++i) {
+    const auto told = nlohmann::json::parse(session.remapc(build_of(session)).output);
+    CHECK(told["vanished"].size() == 2);
+    CHECK(told["pruned"].empty());
+  }
+  CHECK(read_file(session.path("fits/README.md")).find(id) != std::string::npos);
+  append(session.path("generated/" + published + ".hpp"), "// mine\n");
+  const auto pruned = nlohmann::json::parse(session.remapc(build_of(session, {"--prune"})).output);
+  CHECK(pruned["pruned"] == std::vector<std::string>{id});
+  CHECK(pruned["vanished"] == std::vector<std::string>{published});
+  for (const std::string& file :
+       {"fits/" + id + ".json", "fits/tables/" + id + ".csv", "generated/" + id + ".hpp"})
+    CHECK_FALSE(std::filesystem::exists(session.path(file)));
+  CHECK(read_file(session.path("fits/README.md")).find(id + ".json") == std::string::npos);
+  CHECK(read_file(session.path("generated/registry.hpp")).find(id + ".hpp") == std::string::npos);
 }
 
 TEST_CASE("remapc build: a manifest that is wrong is refused with the place") {
