@@ -16,14 +16,18 @@
 #include "cycles_3_4_ashikhmin_shirley_to_mitsuba_as.hpp"
 #include "cycles_3_4_beckmann_to_mitsuba_beckmann.hpp"
 #include "cycles_3_4_ggx_to_mitsuba_ggx.hpp"
+#include "cycles_3_4_principled_dielectric_to_mitsuba_ggx.hpp"
 #include "cycles_3_4_principled_metal_to_mitsuba_ggx.hpp"
 #include "cycles_5_ashikhmin_shirley_to_mitsuba_as.hpp"
 #include "cycles_5_beckmann_to_mitsuba_beckmann.hpp"
 #include "cycles_5_ggx_to_mitsuba_ggx.hpp"
 #include "cycles_5_multiscatter_ggx_to_mitsuba_ggx.hpp"
+#include "cycles_5_principled_dielectric_to_mitsuba_ggx.hpp"
 #include "cycles_5_principled_metal_to_mitsuba_ggx.hpp"
 #include "mitsuba3_beckmann_to_mitsuba_beckmann.hpp"
 #include "mitsuba3_ggx_to_mitsuba_ggx.hpp"
+#include "mitsuba3_plastic_to_mitsuba_ggx.hpp"
+#include "mitsuba3_principled_dielectric_to_mitsuba_ggx.hpp"
 #include "mitsuba3_principled_metal_to_mitsuba_ggx.hpp"
 #include "mitsuba_as_to_cycles_2_7_ggx.hpp"
 #include "mitsuba_as_to_cycles_3_4_ashikhmin_shirley.hpp"
@@ -47,11 +51,15 @@
 #include "mitsuba_beckmann_to_mitsuba_ward_duer.hpp"
 #include "mitsuba_ggx_to_cycles_2_7_ggx.hpp"
 #include "mitsuba_ggx_to_cycles_3_4_ggx.hpp"
+#include "mitsuba_ggx_to_cycles_3_4_principled_dielectric.hpp"
 #include "mitsuba_ggx_to_cycles_3_4_principled_metal.hpp"
 #include "mitsuba_ggx_to_cycles_5_ggx.hpp"
 #include "mitsuba_ggx_to_cycles_5_multiscatter_ggx.hpp"
+#include "mitsuba_ggx_to_cycles_5_principled_dielectric.hpp"
 #include "mitsuba_ggx_to_cycles_5_principled_metal.hpp"
 #include "mitsuba_ggx_to_mitsuba3_ggx.hpp"
+#include "mitsuba_ggx_to_mitsuba3_plastic.hpp"
+#include "mitsuba_ggx_to_mitsuba3_principled_dielectric.hpp"
 #include "mitsuba_ggx_to_mitsuba3_principled_metal.hpp"
 #include "mitsuba_ggx_to_mitsuba_as.hpp"
 #include "mitsuba_ggx_to_mitsuba_beckmann.hpp"
@@ -59,6 +67,7 @@
 #include "mitsuba_ggx_to_mitsuba_ward.hpp"
 #include "mitsuba_ggx_to_mitsuba_ward_balanced.hpp"
 #include "mitsuba_ggx_to_mitsuba_ward_duer.hpp"
+#include "mitsuba_ggx_to_threejs_r187_physical_dielectric.hpp"
 #include "mitsuba_ggx_to_threejs_r187_standard_metal.hpp"
 #include "mitsuba_ggx_to_vtk_metal.hpp"
 #include "mitsuba_phong_to_mitsuba_as.hpp"
@@ -96,6 +105,7 @@
 #include "radiance_metal_to_mitsuba_ward_balanced.hpp"
 #include "radiance_plastic_to_mitsuba_ward_balanced.hpp"
 #include "threejs_r187_phong_to_mitsuba_as.hpp"
+#include "threejs_r187_physical_dielectric_to_mitsuba_ggx.hpp"
 #include "threejs_r187_standard_metal_to_mitsuba_ggx.hpp"
 #include "vtk_metal_to_mitsuba_ggx.hpp"
 
@@ -123,7 +133,7 @@ struct ConverterEntry {
   bool (*self_test)() noexcept;
 };
 
-inline constexpr std::array<ConverterEntry, 90> kConverters = {{
+inline constexpr std::array<ConverterEntry, 100> kConverters = {{
     {blender_internal_2_7_ward_to_cycles_2_7_ggx::kId, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceModel, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceRoughness, blender_internal_2_7_ward_to_cycles_2_7_ggx::kSourceSpecular,
      blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetModel, blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetRoughness, blender_internal_2_7_ward_to_cycles_2_7_ggx::kTargetSpecular,
      blender_internal_2_7_ward_to_cycles_2_7_ggx::kDomainMin.alpha, blender_internal_2_7_ward_to_cycles_2_7_ggx::kDomainMax.alpha,
@@ -172,6 +182,12 @@ inline constexpr std::array<ConverterEntry, 90> kConverters = {{
      cycles_3_4_ggx_to_mitsuba_ggx::kDomainMin.color, cycles_3_4_ggx_to_mitsuba_ggx::kDomainMax.color,
      cycles_3_4_ggx_to_mitsuba_ggx::kAlphaRmsError, cycles_3_4_ggx_to_mitsuba_ggx::kSpecularRmsError, cycles_3_4_ggx_to_mitsuba_ggx::kImageRmsError,
      &cycles_3_4_ggx_to_mitsuba_ggx::evaluate_batch<1>, &cycles_3_4_ggx_to_mitsuba_ggx::evaluate_batch<3>, &cycles_3_4_ggx_to_mitsuba_ggx::self_test},
+    {cycles_3_4_principled_dielectric_to_mitsuba_ggx::kId, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kSourceModel, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kSourceRoughness, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kSourceSpecular,
+     cycles_3_4_principled_dielectric_to_mitsuba_ggx::kTargetModel, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kTargetRoughness, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kTargetSpecular,
+     cycles_3_4_principled_dielectric_to_mitsuba_ggx::kDomainMin.roughness, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kDomainMax.roughness,
+     cycles_3_4_principled_dielectric_to_mitsuba_ggx::kDomainMin.specular, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kDomainMax.specular,
+     cycles_3_4_principled_dielectric_to_mitsuba_ggx::kAlphaRmsError, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kSpecularRmsError, cycles_3_4_principled_dielectric_to_mitsuba_ggx::kImageRmsError,
+     &cycles_3_4_principled_dielectric_to_mitsuba_ggx::evaluate_batch<1>, &cycles_3_4_principled_dielectric_to_mitsuba_ggx::evaluate_batch<3>, &cycles_3_4_principled_dielectric_to_mitsuba_ggx::self_test},
     {cycles_3_4_principled_metal_to_mitsuba_ggx::kId, cycles_3_4_principled_metal_to_mitsuba_ggx::kSourceModel, cycles_3_4_principled_metal_to_mitsuba_ggx::kSourceRoughness, cycles_3_4_principled_metal_to_mitsuba_ggx::kSourceSpecular,
      cycles_3_4_principled_metal_to_mitsuba_ggx::kTargetModel, cycles_3_4_principled_metal_to_mitsuba_ggx::kTargetRoughness, cycles_3_4_principled_metal_to_mitsuba_ggx::kTargetSpecular,
      cycles_3_4_principled_metal_to_mitsuba_ggx::kDomainMin.roughness, cycles_3_4_principled_metal_to_mitsuba_ggx::kDomainMax.roughness,
@@ -202,6 +218,12 @@ inline constexpr std::array<ConverterEntry, 90> kConverters = {{
      cycles_5_multiscatter_ggx_to_mitsuba_ggx::kDomainMin.color, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kDomainMax.color,
      cycles_5_multiscatter_ggx_to_mitsuba_ggx::kAlphaRmsError, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kSpecularRmsError, cycles_5_multiscatter_ggx_to_mitsuba_ggx::kImageRmsError,
      &cycles_5_multiscatter_ggx_to_mitsuba_ggx::evaluate_batch<1>, &cycles_5_multiscatter_ggx_to_mitsuba_ggx::evaluate_batch<3>, &cycles_5_multiscatter_ggx_to_mitsuba_ggx::self_test},
+    {cycles_5_principled_dielectric_to_mitsuba_ggx::kId, cycles_5_principled_dielectric_to_mitsuba_ggx::kSourceModel, cycles_5_principled_dielectric_to_mitsuba_ggx::kSourceRoughness, cycles_5_principled_dielectric_to_mitsuba_ggx::kSourceSpecular,
+     cycles_5_principled_dielectric_to_mitsuba_ggx::kTargetModel, cycles_5_principled_dielectric_to_mitsuba_ggx::kTargetRoughness, cycles_5_principled_dielectric_to_mitsuba_ggx::kTargetSpecular,
+     cycles_5_principled_dielectric_to_mitsuba_ggx::kDomainMin.roughness, cycles_5_principled_dielectric_to_mitsuba_ggx::kDomainMax.roughness,
+     cycles_5_principled_dielectric_to_mitsuba_ggx::kDomainMin.specular, cycles_5_principled_dielectric_to_mitsuba_ggx::kDomainMax.specular,
+     cycles_5_principled_dielectric_to_mitsuba_ggx::kAlphaRmsError, cycles_5_principled_dielectric_to_mitsuba_ggx::kSpecularRmsError, cycles_5_principled_dielectric_to_mitsuba_ggx::kImageRmsError,
+     &cycles_5_principled_dielectric_to_mitsuba_ggx::evaluate_batch<1>, &cycles_5_principled_dielectric_to_mitsuba_ggx::evaluate_batch<3>, &cycles_5_principled_dielectric_to_mitsuba_ggx::self_test},
     {cycles_5_principled_metal_to_mitsuba_ggx::kId, cycles_5_principled_metal_to_mitsuba_ggx::kSourceModel, cycles_5_principled_metal_to_mitsuba_ggx::kSourceRoughness, cycles_5_principled_metal_to_mitsuba_ggx::kSourceSpecular,
      cycles_5_principled_metal_to_mitsuba_ggx::kTargetModel, cycles_5_principled_metal_to_mitsuba_ggx::kTargetRoughness, cycles_5_principled_metal_to_mitsuba_ggx::kTargetSpecular,
      cycles_5_principled_metal_to_mitsuba_ggx::kDomainMin.roughness, cycles_5_principled_metal_to_mitsuba_ggx::kDomainMax.roughness,
@@ -220,6 +242,18 @@ inline constexpr std::array<ConverterEntry, 90> kConverters = {{
      mitsuba3_ggx_to_mitsuba_ggx::kDomainMin.specular, mitsuba3_ggx_to_mitsuba_ggx::kDomainMax.specular,
      mitsuba3_ggx_to_mitsuba_ggx::kAlphaRmsError, mitsuba3_ggx_to_mitsuba_ggx::kSpecularRmsError, mitsuba3_ggx_to_mitsuba_ggx::kImageRmsError,
      &mitsuba3_ggx_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba3_ggx_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba3_ggx_to_mitsuba_ggx::self_test},
+    {mitsuba3_plastic_to_mitsuba_ggx::kId, mitsuba3_plastic_to_mitsuba_ggx::kSourceModel, mitsuba3_plastic_to_mitsuba_ggx::kSourceRoughness, mitsuba3_plastic_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba3_plastic_to_mitsuba_ggx::kTargetModel, mitsuba3_plastic_to_mitsuba_ggx::kTargetRoughness, mitsuba3_plastic_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba3_plastic_to_mitsuba_ggx::kDomainMin.alpha, mitsuba3_plastic_to_mitsuba_ggx::kDomainMax.alpha,
+     mitsuba3_plastic_to_mitsuba_ggx::kDomainMin.specular, mitsuba3_plastic_to_mitsuba_ggx::kDomainMax.specular,
+     mitsuba3_plastic_to_mitsuba_ggx::kAlphaRmsError, mitsuba3_plastic_to_mitsuba_ggx::kSpecularRmsError, mitsuba3_plastic_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba3_plastic_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba3_plastic_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba3_plastic_to_mitsuba_ggx::self_test},
+    {mitsuba3_principled_dielectric_to_mitsuba_ggx::kId, mitsuba3_principled_dielectric_to_mitsuba_ggx::kSourceModel, mitsuba3_principled_dielectric_to_mitsuba_ggx::kSourceRoughness, mitsuba3_principled_dielectric_to_mitsuba_ggx::kSourceSpecular,
+     mitsuba3_principled_dielectric_to_mitsuba_ggx::kTargetModel, mitsuba3_principled_dielectric_to_mitsuba_ggx::kTargetRoughness, mitsuba3_principled_dielectric_to_mitsuba_ggx::kTargetSpecular,
+     mitsuba3_principled_dielectric_to_mitsuba_ggx::kDomainMin.roughness, mitsuba3_principled_dielectric_to_mitsuba_ggx::kDomainMax.roughness,
+     mitsuba3_principled_dielectric_to_mitsuba_ggx::kDomainMin.specular, mitsuba3_principled_dielectric_to_mitsuba_ggx::kDomainMax.specular,
+     mitsuba3_principled_dielectric_to_mitsuba_ggx::kAlphaRmsError, mitsuba3_principled_dielectric_to_mitsuba_ggx::kSpecularRmsError, mitsuba3_principled_dielectric_to_mitsuba_ggx::kImageRmsError,
+     &mitsuba3_principled_dielectric_to_mitsuba_ggx::evaluate_batch<1>, &mitsuba3_principled_dielectric_to_mitsuba_ggx::evaluate_batch<3>, &mitsuba3_principled_dielectric_to_mitsuba_ggx::self_test},
     {mitsuba3_principled_metal_to_mitsuba_ggx::kId, mitsuba3_principled_metal_to_mitsuba_ggx::kSourceModel, mitsuba3_principled_metal_to_mitsuba_ggx::kSourceRoughness, mitsuba3_principled_metal_to_mitsuba_ggx::kSourceSpecular,
      mitsuba3_principled_metal_to_mitsuba_ggx::kTargetModel, mitsuba3_principled_metal_to_mitsuba_ggx::kTargetRoughness, mitsuba3_principled_metal_to_mitsuba_ggx::kTargetSpecular,
      mitsuba3_principled_metal_to_mitsuba_ggx::kDomainMin.roughness, mitsuba3_principled_metal_to_mitsuba_ggx::kDomainMax.roughness,
@@ -358,6 +392,12 @@ inline constexpr std::array<ConverterEntry, 90> kConverters = {{
      mitsuba_ggx_to_cycles_3_4_ggx::kDomainMin.f0, mitsuba_ggx_to_cycles_3_4_ggx::kDomainMax.f0,
      mitsuba_ggx_to_cycles_3_4_ggx::kAlphaRmsError, mitsuba_ggx_to_cycles_3_4_ggx::kSpecularRmsError, mitsuba_ggx_to_cycles_3_4_ggx::kImageRmsError,
      &mitsuba_ggx_to_cycles_3_4_ggx::evaluate_batch<1>, &mitsuba_ggx_to_cycles_3_4_ggx::evaluate_batch<3>, &mitsuba_ggx_to_cycles_3_4_ggx::self_test},
+    {mitsuba_ggx_to_cycles_3_4_principled_dielectric::kId, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kSourceModel, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kSourceRoughness, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kSourceSpecular,
+     mitsuba_ggx_to_cycles_3_4_principled_dielectric::kTargetModel, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kTargetRoughness, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kTargetSpecular,
+     mitsuba_ggx_to_cycles_3_4_principled_dielectric::kDomainMin.alpha, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kDomainMax.alpha,
+     mitsuba_ggx_to_cycles_3_4_principled_dielectric::kDomainMin.f0, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kDomainMax.f0,
+     mitsuba_ggx_to_cycles_3_4_principled_dielectric::kAlphaRmsError, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kSpecularRmsError, mitsuba_ggx_to_cycles_3_4_principled_dielectric::kImageRmsError,
+     &mitsuba_ggx_to_cycles_3_4_principled_dielectric::evaluate_batch<1>, &mitsuba_ggx_to_cycles_3_4_principled_dielectric::evaluate_batch<3>, &mitsuba_ggx_to_cycles_3_4_principled_dielectric::self_test},
     {mitsuba_ggx_to_cycles_3_4_principled_metal::kId, mitsuba_ggx_to_cycles_3_4_principled_metal::kSourceModel, mitsuba_ggx_to_cycles_3_4_principled_metal::kSourceRoughness, mitsuba_ggx_to_cycles_3_4_principled_metal::kSourceSpecular,
      mitsuba_ggx_to_cycles_3_4_principled_metal::kTargetModel, mitsuba_ggx_to_cycles_3_4_principled_metal::kTargetRoughness, mitsuba_ggx_to_cycles_3_4_principled_metal::kTargetSpecular,
      mitsuba_ggx_to_cycles_3_4_principled_metal::kDomainMin.alpha, mitsuba_ggx_to_cycles_3_4_principled_metal::kDomainMax.alpha,
@@ -376,6 +416,12 @@ inline constexpr std::array<ConverterEntry, 90> kConverters = {{
      mitsuba_ggx_to_cycles_5_multiscatter_ggx::kDomainMin.f0, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kDomainMax.f0,
      mitsuba_ggx_to_cycles_5_multiscatter_ggx::kAlphaRmsError, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kSpecularRmsError, mitsuba_ggx_to_cycles_5_multiscatter_ggx::kImageRmsError,
      &mitsuba_ggx_to_cycles_5_multiscatter_ggx::evaluate_batch<1>, &mitsuba_ggx_to_cycles_5_multiscatter_ggx::evaluate_batch<3>, &mitsuba_ggx_to_cycles_5_multiscatter_ggx::self_test},
+    {mitsuba_ggx_to_cycles_5_principled_dielectric::kId, mitsuba_ggx_to_cycles_5_principled_dielectric::kSourceModel, mitsuba_ggx_to_cycles_5_principled_dielectric::kSourceRoughness, mitsuba_ggx_to_cycles_5_principled_dielectric::kSourceSpecular,
+     mitsuba_ggx_to_cycles_5_principled_dielectric::kTargetModel, mitsuba_ggx_to_cycles_5_principled_dielectric::kTargetRoughness, mitsuba_ggx_to_cycles_5_principled_dielectric::kTargetSpecular,
+     mitsuba_ggx_to_cycles_5_principled_dielectric::kDomainMin.alpha, mitsuba_ggx_to_cycles_5_principled_dielectric::kDomainMax.alpha,
+     mitsuba_ggx_to_cycles_5_principled_dielectric::kDomainMin.f0, mitsuba_ggx_to_cycles_5_principled_dielectric::kDomainMax.f0,
+     mitsuba_ggx_to_cycles_5_principled_dielectric::kAlphaRmsError, mitsuba_ggx_to_cycles_5_principled_dielectric::kSpecularRmsError, mitsuba_ggx_to_cycles_5_principled_dielectric::kImageRmsError,
+     &mitsuba_ggx_to_cycles_5_principled_dielectric::evaluate_batch<1>, &mitsuba_ggx_to_cycles_5_principled_dielectric::evaluate_batch<3>, &mitsuba_ggx_to_cycles_5_principled_dielectric::self_test},
     {mitsuba_ggx_to_cycles_5_principled_metal::kId, mitsuba_ggx_to_cycles_5_principled_metal::kSourceModel, mitsuba_ggx_to_cycles_5_principled_metal::kSourceRoughness, mitsuba_ggx_to_cycles_5_principled_metal::kSourceSpecular,
      mitsuba_ggx_to_cycles_5_principled_metal::kTargetModel, mitsuba_ggx_to_cycles_5_principled_metal::kTargetRoughness, mitsuba_ggx_to_cycles_5_principled_metal::kTargetSpecular,
      mitsuba_ggx_to_cycles_5_principled_metal::kDomainMin.alpha, mitsuba_ggx_to_cycles_5_principled_metal::kDomainMax.alpha,
@@ -388,6 +434,18 @@ inline constexpr std::array<ConverterEntry, 90> kConverters = {{
      mitsuba_ggx_to_mitsuba3_ggx::kDomainMin.f0, mitsuba_ggx_to_mitsuba3_ggx::kDomainMax.f0,
      mitsuba_ggx_to_mitsuba3_ggx::kAlphaRmsError, mitsuba_ggx_to_mitsuba3_ggx::kSpecularRmsError, mitsuba_ggx_to_mitsuba3_ggx::kImageRmsError,
      &mitsuba_ggx_to_mitsuba3_ggx::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba3_ggx::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba3_ggx::self_test},
+    {mitsuba_ggx_to_mitsuba3_plastic::kId, mitsuba_ggx_to_mitsuba3_plastic::kSourceModel, mitsuba_ggx_to_mitsuba3_plastic::kSourceRoughness, mitsuba_ggx_to_mitsuba3_plastic::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba3_plastic::kTargetModel, mitsuba_ggx_to_mitsuba3_plastic::kTargetRoughness, mitsuba_ggx_to_mitsuba3_plastic::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba3_plastic::kDomainMin.alpha, mitsuba_ggx_to_mitsuba3_plastic::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba3_plastic::kDomainMin.f0, mitsuba_ggx_to_mitsuba3_plastic::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba3_plastic::kAlphaRmsError, mitsuba_ggx_to_mitsuba3_plastic::kSpecularRmsError, mitsuba_ggx_to_mitsuba3_plastic::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba3_plastic::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba3_plastic::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba3_plastic::self_test},
+    {mitsuba_ggx_to_mitsuba3_principled_dielectric::kId, mitsuba_ggx_to_mitsuba3_principled_dielectric::kSourceModel, mitsuba_ggx_to_mitsuba3_principled_dielectric::kSourceRoughness, mitsuba_ggx_to_mitsuba3_principled_dielectric::kSourceSpecular,
+     mitsuba_ggx_to_mitsuba3_principled_dielectric::kTargetModel, mitsuba_ggx_to_mitsuba3_principled_dielectric::kTargetRoughness, mitsuba_ggx_to_mitsuba3_principled_dielectric::kTargetSpecular,
+     mitsuba_ggx_to_mitsuba3_principled_dielectric::kDomainMin.alpha, mitsuba_ggx_to_mitsuba3_principled_dielectric::kDomainMax.alpha,
+     mitsuba_ggx_to_mitsuba3_principled_dielectric::kDomainMin.f0, mitsuba_ggx_to_mitsuba3_principled_dielectric::kDomainMax.f0,
+     mitsuba_ggx_to_mitsuba3_principled_dielectric::kAlphaRmsError, mitsuba_ggx_to_mitsuba3_principled_dielectric::kSpecularRmsError, mitsuba_ggx_to_mitsuba3_principled_dielectric::kImageRmsError,
+     &mitsuba_ggx_to_mitsuba3_principled_dielectric::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba3_principled_dielectric::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba3_principled_dielectric::self_test},
     {mitsuba_ggx_to_mitsuba3_principled_metal::kId, mitsuba_ggx_to_mitsuba3_principled_metal::kSourceModel, mitsuba_ggx_to_mitsuba3_principled_metal::kSourceRoughness, mitsuba_ggx_to_mitsuba3_principled_metal::kSourceSpecular,
      mitsuba_ggx_to_mitsuba3_principled_metal::kTargetModel, mitsuba_ggx_to_mitsuba3_principled_metal::kTargetRoughness, mitsuba_ggx_to_mitsuba3_principled_metal::kTargetSpecular,
      mitsuba_ggx_to_mitsuba3_principled_metal::kDomainMin.alpha, mitsuba_ggx_to_mitsuba3_principled_metal::kDomainMax.alpha,
@@ -430,6 +488,12 @@ inline constexpr std::array<ConverterEntry, 90> kConverters = {{
      mitsuba_ggx_to_mitsuba_ward_duer::kDomainMin.f0, mitsuba_ggx_to_mitsuba_ward_duer::kDomainMax.f0,
      mitsuba_ggx_to_mitsuba_ward_duer::kAlphaRmsError, mitsuba_ggx_to_mitsuba_ward_duer::kSpecularRmsError, mitsuba_ggx_to_mitsuba_ward_duer::kImageRmsError,
      &mitsuba_ggx_to_mitsuba_ward_duer::evaluate_batch<1>, &mitsuba_ggx_to_mitsuba_ward_duer::evaluate_batch<3>, &mitsuba_ggx_to_mitsuba_ward_duer::self_test},
+    {mitsuba_ggx_to_threejs_r187_physical_dielectric::kId, mitsuba_ggx_to_threejs_r187_physical_dielectric::kSourceModel, mitsuba_ggx_to_threejs_r187_physical_dielectric::kSourceRoughness, mitsuba_ggx_to_threejs_r187_physical_dielectric::kSourceSpecular,
+     mitsuba_ggx_to_threejs_r187_physical_dielectric::kTargetModel, mitsuba_ggx_to_threejs_r187_physical_dielectric::kTargetRoughness, mitsuba_ggx_to_threejs_r187_physical_dielectric::kTargetSpecular,
+     mitsuba_ggx_to_threejs_r187_physical_dielectric::kDomainMin.alpha, mitsuba_ggx_to_threejs_r187_physical_dielectric::kDomainMax.alpha,
+     mitsuba_ggx_to_threejs_r187_physical_dielectric::kDomainMin.f0, mitsuba_ggx_to_threejs_r187_physical_dielectric::kDomainMax.f0,
+     mitsuba_ggx_to_threejs_r187_physical_dielectric::kAlphaRmsError, mitsuba_ggx_to_threejs_r187_physical_dielectric::kSpecularRmsError, mitsuba_ggx_to_threejs_r187_physical_dielectric::kImageRmsError,
+     &mitsuba_ggx_to_threejs_r187_physical_dielectric::evaluate_batch<1>, &mitsuba_ggx_to_threejs_r187_physical_dielectric::evaluate_batch<3>, &mitsuba_ggx_to_threejs_r187_physical_dielectric::self_test},
     {mitsuba_ggx_to_threejs_r187_standard_metal::kId, mitsuba_ggx_to_threejs_r187_standard_metal::kSourceModel, mitsuba_ggx_to_threejs_r187_standard_metal::kSourceRoughness, mitsuba_ggx_to_threejs_r187_standard_metal::kSourceSpecular,
      mitsuba_ggx_to_threejs_r187_standard_metal::kTargetModel, mitsuba_ggx_to_threejs_r187_standard_metal::kTargetRoughness, mitsuba_ggx_to_threejs_r187_standard_metal::kTargetSpecular,
      mitsuba_ggx_to_threejs_r187_standard_metal::kDomainMin.alpha, mitsuba_ggx_to_threejs_r187_standard_metal::kDomainMax.alpha,
@@ -652,6 +716,12 @@ inline constexpr std::array<ConverterEntry, 90> kConverters = {{
      threejs_r187_phong_to_mitsuba_as::kDomainMin.specular, threejs_r187_phong_to_mitsuba_as::kDomainMax.specular,
      threejs_r187_phong_to_mitsuba_as::kAlphaRmsError, threejs_r187_phong_to_mitsuba_as::kSpecularRmsError, threejs_r187_phong_to_mitsuba_as::kImageRmsError,
      &threejs_r187_phong_to_mitsuba_as::evaluate_batch<1>, &threejs_r187_phong_to_mitsuba_as::evaluate_batch<3>, &threejs_r187_phong_to_mitsuba_as::self_test},
+    {threejs_r187_physical_dielectric_to_mitsuba_ggx::kId, threejs_r187_physical_dielectric_to_mitsuba_ggx::kSourceModel, threejs_r187_physical_dielectric_to_mitsuba_ggx::kSourceRoughness, threejs_r187_physical_dielectric_to_mitsuba_ggx::kSourceSpecular,
+     threejs_r187_physical_dielectric_to_mitsuba_ggx::kTargetModel, threejs_r187_physical_dielectric_to_mitsuba_ggx::kTargetRoughness, threejs_r187_physical_dielectric_to_mitsuba_ggx::kTargetSpecular,
+     threejs_r187_physical_dielectric_to_mitsuba_ggx::kDomainMin.roughness, threejs_r187_physical_dielectric_to_mitsuba_ggx::kDomainMax.roughness,
+     threejs_r187_physical_dielectric_to_mitsuba_ggx::kDomainMin.specularIntensity, threejs_r187_physical_dielectric_to_mitsuba_ggx::kDomainMax.specularIntensity,
+     threejs_r187_physical_dielectric_to_mitsuba_ggx::kAlphaRmsError, threejs_r187_physical_dielectric_to_mitsuba_ggx::kSpecularRmsError, threejs_r187_physical_dielectric_to_mitsuba_ggx::kImageRmsError,
+     &threejs_r187_physical_dielectric_to_mitsuba_ggx::evaluate_batch<1>, &threejs_r187_physical_dielectric_to_mitsuba_ggx::evaluate_batch<3>, &threejs_r187_physical_dielectric_to_mitsuba_ggx::self_test},
     {threejs_r187_standard_metal_to_mitsuba_ggx::kId, threejs_r187_standard_metal_to_mitsuba_ggx::kSourceModel, threejs_r187_standard_metal_to_mitsuba_ggx::kSourceRoughness, threejs_r187_standard_metal_to_mitsuba_ggx::kSourceSpecular,
      threejs_r187_standard_metal_to_mitsuba_ggx::kTargetModel, threejs_r187_standard_metal_to_mitsuba_ggx::kTargetRoughness, threejs_r187_standard_metal_to_mitsuba_ggx::kTargetSpecular,
      threejs_r187_standard_metal_to_mitsuba_ggx::kDomainMin.roughness, threejs_r187_standard_metal_to_mitsuba_ggx::kDomainMax.roughness,
@@ -742,6 +812,15 @@ struct cycles_3_4_ggx_to_mitsuba_ggx {
   }
 };
 
+struct cycles_3_4_principled_dielectric_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_3_4_principled_dielectric_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct cycles_3_4_principled_metal_to_mitsuba_ggx {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -787,6 +866,15 @@ struct cycles_5_multiscatter_ggx_to_mitsuba_ggx {
   }
 };
 
+struct cycles_5_principled_dielectric_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::cycles_5_principled_dielectric_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct cycles_5_principled_metal_to_mitsuba_ggx {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -811,6 +899,24 @@ struct mitsuba3_ggx_to_mitsuba_ggx {
                                     const std::array<const float*, Channels>& specular, float* roughness_out,
                                     const std::array<float*, Channels>& specular_out) noexcept {
     return ::remap::mitsuba3_ggx_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba3_plastic_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba3_plastic_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba3_principled_dielectric_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba3_principled_dielectric_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
   }
 };
 
@@ -1021,6 +1127,15 @@ struct mitsuba_ggx_to_cycles_3_4_ggx {
   }
 };
 
+struct mitsuba_ggx_to_cycles_3_4_principled_dielectric {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_cycles_3_4_principled_dielectric::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct mitsuba_ggx_to_cycles_3_4_principled_metal {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -1048,6 +1163,15 @@ struct mitsuba_ggx_to_cycles_5_multiscatter_ggx {
   }
 };
 
+struct mitsuba_ggx_to_cycles_5_principled_dielectric {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_cycles_5_principled_dielectric::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct mitsuba_ggx_to_cycles_5_principled_metal {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -1063,6 +1187,24 @@ struct mitsuba_ggx_to_mitsuba3_ggx {
                                     const std::array<const float*, Channels>& specular, float* roughness_out,
                                     const std::array<float*, Channels>& specular_out) noexcept {
     return ::remap::mitsuba_ggx_to_mitsuba3_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba3_plastic {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba3_plastic::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_mitsuba3_principled_dielectric {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_mitsuba3_principled_dielectric::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
   }
 };
 
@@ -1126,6 +1268,15 @@ struct mitsuba_ggx_to_mitsuba_ward_duer {
                                     const std::array<const float*, Channels>& specular, float* roughness_out,
                                     const std::array<float*, Channels>& specular_out) noexcept {
     return ::remap::mitsuba_ggx_to_mitsuba_ward_duer::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
+struct mitsuba_ggx_to_threejs_r187_physical_dielectric {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::mitsuba_ggx_to_threejs_r187_physical_dielectric::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
   }
 };
 
@@ -1462,6 +1613,15 @@ struct threejs_r187_phong_to_mitsuba_as {
   }
 };
 
+struct threejs_r187_physical_dielectric_to_mitsuba_ggx {
+  template <std::size_t Channels>
+  static std::size_t evaluate_batch(std::size_t count, const float* roughness,
+                                    const std::array<const float*, Channels>& specular, float* roughness_out,
+                                    const std::array<float*, Channels>& specular_out) noexcept {
+    return ::remap::threejs_r187_physical_dielectric_to_mitsuba_ggx::evaluate_batch<Channels>(count, roughness, specular, roughness_out, specular_out);
+  }
+};
+
 struct threejs_r187_standard_metal_to_mitsuba_ggx {
   template <std::size_t Channels>
   static std::size_t evaluate_batch(std::size_t count, const float* roughness,
@@ -1495,14 +1655,18 @@ using ConverterTypes = ConverterList<
     converters::cycles_3_4_ashikhmin_shirley_to_mitsuba_as,
     converters::cycles_3_4_beckmann_to_mitsuba_beckmann,
     converters::cycles_3_4_ggx_to_mitsuba_ggx,
+    converters::cycles_3_4_principled_dielectric_to_mitsuba_ggx,
     converters::cycles_3_4_principled_metal_to_mitsuba_ggx,
     converters::cycles_5_ashikhmin_shirley_to_mitsuba_as,
     converters::cycles_5_beckmann_to_mitsuba_beckmann,
     converters::cycles_5_ggx_to_mitsuba_ggx,
     converters::cycles_5_multiscatter_ggx_to_mitsuba_ggx,
+    converters::cycles_5_principled_dielectric_to_mitsuba_ggx,
     converters::cycles_5_principled_metal_to_mitsuba_ggx,
     converters::mitsuba3_beckmann_to_mitsuba_beckmann,
     converters::mitsuba3_ggx_to_mitsuba_ggx,
+    converters::mitsuba3_plastic_to_mitsuba_ggx,
+    converters::mitsuba3_principled_dielectric_to_mitsuba_ggx,
     converters::mitsuba3_principled_metal_to_mitsuba_ggx,
     converters::mitsuba_as_to_cycles_2_7_ggx,
     converters::mitsuba_as_to_cycles_3_4_ashikhmin_shirley,
@@ -1526,11 +1690,15 @@ using ConverterTypes = ConverterList<
     converters::mitsuba_beckmann_to_mitsuba_ward_duer,
     converters::mitsuba_ggx_to_cycles_2_7_ggx,
     converters::mitsuba_ggx_to_cycles_3_4_ggx,
+    converters::mitsuba_ggx_to_cycles_3_4_principled_dielectric,
     converters::mitsuba_ggx_to_cycles_3_4_principled_metal,
     converters::mitsuba_ggx_to_cycles_5_ggx,
     converters::mitsuba_ggx_to_cycles_5_multiscatter_ggx,
+    converters::mitsuba_ggx_to_cycles_5_principled_dielectric,
     converters::mitsuba_ggx_to_cycles_5_principled_metal,
     converters::mitsuba_ggx_to_mitsuba3_ggx,
+    converters::mitsuba_ggx_to_mitsuba3_plastic,
+    converters::mitsuba_ggx_to_mitsuba3_principled_dielectric,
     converters::mitsuba_ggx_to_mitsuba3_principled_metal,
     converters::mitsuba_ggx_to_mitsuba_as,
     converters::mitsuba_ggx_to_mitsuba_beckmann,
@@ -1538,6 +1706,7 @@ using ConverterTypes = ConverterList<
     converters::mitsuba_ggx_to_mitsuba_ward,
     converters::mitsuba_ggx_to_mitsuba_ward_balanced,
     converters::mitsuba_ggx_to_mitsuba_ward_duer,
+    converters::mitsuba_ggx_to_threejs_r187_physical_dielectric,
     converters::mitsuba_ggx_to_threejs_r187_standard_metal,
     converters::mitsuba_ggx_to_vtk_metal,
     converters::mitsuba_phong_to_mitsuba_as,
@@ -1575,6 +1744,7 @@ using ConverterTypes = ConverterList<
     converters::radiance_metal_to_mitsuba_ward_balanced,
     converters::radiance_plastic_to_mitsuba_ward_balanced,
     converters::threejs_r187_phong_to_mitsuba_as,
+    converters::threejs_r187_physical_dielectric_to_mitsuba_ggx,
     converters::threejs_r187_standard_metal_to_mitsuba_ggx,
     converters::vtk_metal_to_mitsuba_ggx>;
 

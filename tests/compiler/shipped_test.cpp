@@ -113,7 +113,9 @@ TEST_CASE("shipped: inside its domain a converter gives parameters that the targ
     over_domain(fit, [&](double alpha, double specular) {
       const remap::MappedTexel texel = evaluate_mapping(fit.mapping, alpha, specular);
       CHECK(texel.alpha > 0.0);
-      CHECK(texel.alpha <= 1.0 + (of_hub(fit) ? 5e-3 : 0.02));  // past the last row, where a corner bends
+      // Past the last row, where a corner bends; and where the samples of dielectrics have not begun.
+      const bool faint = specular < 0.2 * fit.domain.specular.max;
+      CHECK(texel.alpha <= 1.0 + (of_hub(fit) ? 5e-3 : faint ? 0.04 : 0.02));
       CHECK(texel.specular <= 1.0 + specular_slack);
       const remap::MappedTexel wider = evaluate_mapping(fit.mapping, alpha * 1.01, specular);
       CHECK(wider.alpha > texel.alpha);
