@@ -13,6 +13,7 @@
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
 #include "error.hpp"
+#include "number_text.hpp"
 #include "sweep/image_file.hpp"
 #include "sweep/objective.hpp"
 
@@ -22,7 +23,7 @@ namespace {
 struct PreviewCommand {
   std::string fit;
   std::filesystem::path fit_folder = "fits", output;
-  std::vector<double> alphas = {0.1, 0.2, 0.4, 0.7}, specular = {0.5};
+  std::vector<double> alphas, specular;
   std::vector<std::string> shapes = {"sphere", "torus"};
   std::string light = "45";
   double distance = 3.0;
@@ -60,20 +61,22 @@ void print_json(const PreviewCommand& command, const remap::Fit& fit, const Prev
   nlohmann::ordered_json json = {{"fit", fit.id},
                                  {"source", fit.source.model},
                                  {"target", fit.target.model},
-                                 {"specular", command.specular},
+                                 {"specular", preview.specular},
                                  {"figures", figures}};
   if (!command.output.empty()) json["picture"] = command.output.string();
   std::cout << json.dump(2) << "\n";
 }
 
 void print_text(const remap::Fit& fit, const Preview& preview) {
-  std::cout << fit.source.model << " -> " << fit.target.model << "\n"
+  std::cout << fit.source.model << " -> " << fit.target.model << ", specular";
+  for (const double value : preview.specular) std::cout << " " << remap::number_text(value);
+  std::cout << "\n"
             << "shape    alpha   -> alpha   SSIM    RMS, % of the display's range\n";
   for (const PreviewFigure& figure : preview.figures)
     std::cout << std::left << std::setw(9) << shape_name(figure.shape) << std::setw(8) << std::defaultfloat
-              << figure.alpha << std::fixed << std::setprecision(4) << std::setw(11) << figure.target_alpha
-              << std::setw(8) << figure.ssim << std::setprecision(2) << 100.0 * figure.rms
-              << (figure.in_domain ? "" : "   out of domain") << "\n";
+              << std::setprecision(3) << figure.alpha << std::fixed << std::setprecision(4) << std::setw(11)
+              << figure.target_alpha << std::setw(8) << figure.ssim << std::setprecision(2)
+              << 100.0 * figure.rms << (figure.in_domain ? "" : "   out of domain") << "\n";
 }
 
 void run(const PreviewCommand& command) {
@@ -99,12 +102,14 @@ void add_preview_command(CLI::App& app) {
   command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
   command->add_option("-o,--output", options->output,
                       "PNG to write: a column a width; source, conversion, their difference four times");
-  command->add_option("--alpha", options->alphas, "Widths of the source, comma-separated")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--specular", options->specular, "Of the source: one value, or R,G,B")
-      ->delimiter(',')
-      ->capture_default_str();
+  command
+      ->add_option("--alpha", options->alphas,
+                   "Widths of the source, comma-separated; four of its domain without")
+      ->delimiter(',');
+  command
+      ->add_option("--specular", options->specular,
+                   "Of the source: one value, or R,G,B; half of its domain without")
+      ->delimiter(',');
   command->add_option("--shape", options->shapes, "sphere, torus, comma-separated")
       ->delimiter(',')
       ->capture_default_str();

@@ -100,9 +100,9 @@ void convert(const remap::Fit& fit, const std::vector<double>& specular, Preview
 }
 
 void require_options(const PreviewOptions& options) {
-  if (options.alphas.empty() || options.shapes.empty())
-    throw Error(ErrorKind::kUsage, "preview: nothing to show; expected at least one alpha and one shape");
-  if (options.specular.size() != 1 && options.specular.size() != 3)
+  if (options.shapes.empty())
+    throw Error(ErrorKind::kUsage, "preview: nothing to show; expected at least one shape");
+  if (!options.specular.empty() && options.specular.size() != 1 && options.specular.size() != 3)
     throw Error(ErrorKind::kUsage, "preview: specular has " + std::to_string(options.specular.size()) +
                                        " values; expected 1 or 3");
   for (const double alpha : options.alphas)
@@ -110,16 +110,36 @@ void require_options(const PreviewOptions& options) {
       throw Error(ErrorKind::kUsage, "preview: alpha " + remap::number_text(alpha) + "; expected above 0");
 }
 
+// The options with what they leave to the domain of `fit`.
+PreviewOptions filled(PreviewOptions options, const remap::Fit& fit) {
+  if (options.alphas.empty()) options.alphas = preview_alphas(fit.domain);
+  if (options.specular.empty()) options.specular = {0.5 * fit.domain.specular.max};
+  return options;
+}
+
 }  // namespace
 
-Preview make_preview(const Renderer& renderer, const remap::Fit& fit, const PreviewOptions& options) {
-  require_options(options);
+std::vector<double> preview_alphas(const remap::Domain& domain) {
+  constexpr int kCount = 4;
+  constexpr remap::Range kShown{0.1, 0.7};
+  remap::Range shown{std::max(kShown.min, domain.alpha.min), std::min(kShown.max, domain.alpha.max)};
+  if (!(shown.min < shown.max)) shown = domain.alpha;
+  std::vector<double> alphas;
+  for (int i = 0; i < kCount; ++i)
+    alphas.push_back(shown.min * std::pow(shown.max / shown.min, i / (kCount - 1.0)));
+  return alphas;
+}
+
+Preview make_preview(const Renderer& renderer, const remap::Fit& fit, const PreviewOptions& wanted) {
+  require_options(wanted);
+  const PreviewOptions options = filled(wanted, fit);
   const auto scale = remap::parse_number(comment(fit, "irradiance_scale"));
   const End source = make_end(renderer, fit, "source", fit.source, scale.value_or(1.0));
   const End target = make_end(renderer, fit, "target", fit.target, 1.0);
   constexpr std::size_t kRowsAShape = 3;
   const int side = options.resolution;
   Preview preview;
+  preview.specular = options.specular;
   preview.sheet = contact_sheet(kRowsAShape * options.shapes.size(), options.alphas.size(), side);
   for (std::size_t s = 0; s < options.shapes.size(); ++s) {
     const Scene scene{side, options.samples_per_axis, options.light, 0, options.shapes[s]};

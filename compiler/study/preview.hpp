@@ -12,8 +12,9 @@
 namespace remapc {
 
 struct PreviewOptions {
-  std::vector<double> alphas;    // of the source, canonical
-  std::vector<double> specular;  // of the source, in the fit's unit: one value, or red, green, blue
+  std::vector<double> alphas;    // of the source, canonical; none: preview_alphas()
+  std::vector<double> specular;  // of the source, in the fit's unit: one value, or red, green, blue; none:
+                                 // half of what the domain covers
   std::vector<Shape> shapes = {Shape::kSphere, Shape::kTorus};
   Light light{45.0, 3.0};
   int resolution = 256;
@@ -33,13 +34,17 @@ struct PreviewFigure {
 };
 
 struct Preview {
+  std::vector<double> specular;        // of the source, as rendered
   std::vector<PreviewFigure> figures;  // shape by shape, by alpha
   Image sheet;  // a column a width; for each shape a row of the source, the conversion, their difference four
                 // times
 };
 
+// Four widths of the domain, each in the same ratio to the last: those of 0.1 to 0.7 that it covers.
+std::vector<double> preview_alphas(const remap::Domain& domain);
+
 // The source's pictures are multiplied by the factor between the light of the two renderers that the fit's
-// table states. Throws kUsage for models that `renderer` has not, values that they do not take, no alphas.
+// table states. Throws kUsage for models that `renderer` has not, values that they do not take, no shapes.
 Preview make_preview(const Renderer& renderer, const remap::Fit& fit, const PreviewOptions& options);
 
 }  // namespace remapc

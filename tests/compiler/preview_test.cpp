@@ -1,6 +1,8 @@
 // Previews: an identity looks the same, another conversion does not, and figures are those of the pictures.
 #include "study/preview.hpp"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "error.hpp"
@@ -46,6 +48,23 @@ TEST_CASE("preview: the identity looks the same on every shape") {
   CHECK(preview.figures[3].shape == Shape::kTorus);
   CHECK(preview.sheet.width == 2 * 48);
   CHECK(preview.sheet.height == 6 * 48);
+}
+
+TEST_CASE("preview: shows the domain where nothing else is asked for") {
+  remap::Fit fit = scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0);
+  fit.domain = {{0.01, 1.0}, {0.0, 0.08}};
+  PreviewOptions options = small_preview();
+  options.alphas.clear();
+  options.specular.clear();
+  const Preview preview = make_preview(*make_builtin_renderer(), fit, options);
+  CHECK(preview.specular == std::vector<double>{0.04});
+  REQUIRE(preview.figures.size() == 8);
+  CHECK(preview.figures[0].alpha == Approx(0.1));
+  CHECK(preview.figures[1].alpha / preview.figures[0].alpha == Approx(std::cbrt(7.0)));
+  CHECK(preview.figures[3].alpha == Approx(0.7));
+  for (const PreviewFigure& figure : preview.figures) CHECK(figure.in_domain);
+  CHECK(preview_alphas({{0.3, 0.6}, {0.0, 1.0}}).front() == 0.3);
+  CHECK(preview_alphas({{0.8, 0.9}, {0.0, 1.0}}).back() == Approx(0.9));
 }
 
 TEST_CASE("preview: the further a conversion is off, the less alike it looks") {
@@ -100,6 +119,6 @@ TEST_CASE("preview: what cannot be shown is refused") {
   options.specular = {0.1, 0.2};
   refused("mitsuba/ggx", options, "specular has 2 values; expected 1 or 3");
   options = small_preview();
-  options.alphas.clear();
+  options.shapes.clear();
   refused("mitsuba/ggx", options, "nothing to show");
 }
