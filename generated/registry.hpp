@@ -108,6 +108,15 @@
 #include "threejs_r187_physical_dielectric_to_mitsuba_ggx.hpp"
 #include "threejs_r187_standard_metal_to_mitsuba_ggx.hpp"
 #include "vtk_metal_to_mitsuba_ggx.hpp"
+#include "gltf_specgloss_to_gltf.hpp"
+#include "gltf_specgloss_to_gltf_khronos.hpp"
+#include "gltf_to_gltf_specgloss.hpp"
+#include "metallic_to_specular.hpp"
+#include "metallic_to_specular_sztrajman_2019.hpp"
+#include "specular_to_metallic.hpp"
+#include "specular_to_metallic_mean_sztrajman_2019.hpp"
+#include "specular_to_metallic_network_sztrajman_2019.hpp"
+#include "specular_to_metallic_weighted_sztrajman_2019.hpp"
 
 namespace remap {
 
@@ -735,6 +744,25 @@ inline constexpr std::array<ConverterEntry, 100> kConverters = {{
      vtk_metal_to_mitsuba_ggx::kAlphaRmsError, vtk_metal_to_mitsuba_ggx::kSpecularRmsError, vtk_metal_to_mitsuba_ggx::kImageRmsError,
      &vtk_metal_to_mitsuba_ggx::evaluate_batch<1>, &vtk_metal_to_mitsuba_ggx::evaluate_batch<3>, &vtk_metal_to_mitsuba_ggx::self_test},
 }};
+
+// A converter of whole materials between workflows; a row of texels for each channel of its parameters.
+struct MaterialConverterEntry {
+  const char* id;
+  const char* formula;
+  const char* source_model;
+  const char* source_workflow;   // specular: diffuse, specular, width; metallic: base colour, metallic, width
+  const char* source_diffuse;    // plain or scaled
+  const char* source_roughness;  // alpha, roughness or glossiness
+  const char* target_model;
+  const char* target_workflow;
+  const char* target_diffuse;
+  const char* target_roughness;
+  float dielectric_f0;  // of the metallic workflow
+  std::size_t input_rows, output_rows;
+  // evaluate_rows of the header, by pointers to as many rows.
+  std::size_t (*evaluate)(std::size_t count, const float* const* in, float* const* out) noexcept;
+  bool (*self_test)() noexcept;
+};
 
 // The same converters as types. Through a type a compiler sees what it calls, which no pointer of the table above lets
 // it: a program can compile all of them for another instruction set, as texremap does.
@@ -1640,7 +1668,145 @@ struct vtk_metal_to_mitsuba_ggx {
   }
 };
 
+struct gltf_specgloss_to_gltf {
+  static std::size_t evaluate(std::size_t count, const float* const* in, float* const* out) noexcept {
+    std::array<const float*, ::remap::gltf_specgloss_to_gltf::kInputRows> from{};
+    std::array<float*, ::remap::gltf_specgloss_to_gltf::kOutputRows> to{};
+    for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
+    for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
+    return ::remap::gltf_specgloss_to_gltf::evaluate_rows(count, from, to);
+  }
+};
+
+struct gltf_specgloss_to_gltf_khronos {
+  static std::size_t evaluate(std::size_t count, const float* const* in, float* const* out) noexcept {
+    std::array<const float*, ::remap::gltf_specgloss_to_gltf_khronos::kInputRows> from{};
+    std::array<float*, ::remap::gltf_specgloss_to_gltf_khronos::kOutputRows> to{};
+    for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
+    for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
+    return ::remap::gltf_specgloss_to_gltf_khronos::evaluate_rows(count, from, to);
+  }
+};
+
+struct gltf_to_gltf_specgloss {
+  static std::size_t evaluate(std::size_t count, const float* const* in, float* const* out) noexcept {
+    std::array<const float*, ::remap::gltf_to_gltf_specgloss::kInputRows> from{};
+    std::array<float*, ::remap::gltf_to_gltf_specgloss::kOutputRows> to{};
+    for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
+    for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
+    return ::remap::gltf_to_gltf_specgloss::evaluate_rows(count, from, to);
+  }
+};
+
+struct metallic_to_specular {
+  static std::size_t evaluate(std::size_t count, const float* const* in, float* const* out) noexcept {
+    std::array<const float*, ::remap::metallic_to_specular::kInputRows> from{};
+    std::array<float*, ::remap::metallic_to_specular::kOutputRows> to{};
+    for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
+    for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
+    return ::remap::metallic_to_specular::evaluate_rows(count, from, to);
+  }
+};
+
+struct metallic_to_specular_sztrajman_2019 {
+  static std::size_t evaluate(std::size_t count, const float* const* in, float* const* out) noexcept {
+    std::array<const float*, ::remap::metallic_to_specular_sztrajman_2019::kInputRows> from{};
+    std::array<float*, ::remap::metallic_to_specular_sztrajman_2019::kOutputRows> to{};
+    for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
+    for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
+    return ::remap::metallic_to_specular_sztrajman_2019::evaluate_rows(count, from, to);
+  }
+};
+
+struct specular_to_metallic {
+  static std::size_t evaluate(std::size_t count, const float* const* in, float* const* out) noexcept {
+    std::array<const float*, ::remap::specular_to_metallic::kInputRows> from{};
+    std::array<float*, ::remap::specular_to_metallic::kOutputRows> to{};
+    for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
+    for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
+    return ::remap::specular_to_metallic::evaluate_rows(count, from, to);
+  }
+};
+
+struct specular_to_metallic_mean_sztrajman_2019 {
+  static std::size_t evaluate(std::size_t count, const float* const* in, float* const* out) noexcept {
+    std::array<const float*, ::remap::specular_to_metallic_mean_sztrajman_2019::kInputRows> from{};
+    std::array<float*, ::remap::specular_to_metallic_mean_sztrajman_2019::kOutputRows> to{};
+    for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
+    for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
+    return ::remap::specular_to_metallic_mean_sztrajman_2019::evaluate_rows(count, from, to);
+  }
+};
+
+struct specular_to_metallic_network_sztrajman_2019 {
+  static std::size_t evaluate(std::size_t count, const float* const* in, float* const* out) noexcept {
+    std::array<const float*, ::remap::specular_to_metallic_network_sztrajman_2019::kInputRows> from{};
+    std::array<float*, ::remap::specular_to_metallic_network_sztrajman_2019::kOutputRows> to{};
+    for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
+    for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
+    return ::remap::specular_to_metallic_network_sztrajman_2019::evaluate_rows(count, from, to);
+  }
+};
+
+struct specular_to_metallic_weighted_sztrajman_2019 {
+  static std::size_t evaluate(std::size_t count, const float* const* in, float* const* out) noexcept {
+    std::array<const float*, ::remap::specular_to_metallic_weighted_sztrajman_2019::kInputRows> from{};
+    std::array<float*, ::remap::specular_to_metallic_weighted_sztrajman_2019::kOutputRows> to{};
+    for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
+    for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
+    return ::remap::specular_to_metallic_weighted_sztrajman_2019::evaluate_rows(count, from, to);
+  }
+};
+
 }  // namespace converters
+
+inline constexpr std::array<MaterialConverterEntry, 9> kMaterialConverters = {{
+    {gltf_specgloss_to_gltf::kId, gltf_specgloss_to_gltf::kFormula,
+     gltf_specgloss_to_gltf::kSourceModel, gltf_specgloss_to_gltf::kSourceWorkflow, gltf_specgloss_to_gltf::kSourceDiffuse, gltf_specgloss_to_gltf::kSourceRoughness,
+     gltf_specgloss_to_gltf::kTargetModel, gltf_specgloss_to_gltf::kTargetWorkflow, gltf_specgloss_to_gltf::kTargetDiffuse, gltf_specgloss_to_gltf::kTargetRoughness,
+     gltf_specgloss_to_gltf::kDielectricF0, gltf_specgloss_to_gltf::kInputRows, gltf_specgloss_to_gltf::kOutputRows,
+     &converters::gltf_specgloss_to_gltf::evaluate, &gltf_specgloss_to_gltf::self_test},
+    {gltf_specgloss_to_gltf_khronos::kId, gltf_specgloss_to_gltf_khronos::kFormula,
+     gltf_specgloss_to_gltf_khronos::kSourceModel, gltf_specgloss_to_gltf_khronos::kSourceWorkflow, gltf_specgloss_to_gltf_khronos::kSourceDiffuse, gltf_specgloss_to_gltf_khronos::kSourceRoughness,
+     gltf_specgloss_to_gltf_khronos::kTargetModel, gltf_specgloss_to_gltf_khronos::kTargetWorkflow, gltf_specgloss_to_gltf_khronos::kTargetDiffuse, gltf_specgloss_to_gltf_khronos::kTargetRoughness,
+     gltf_specgloss_to_gltf_khronos::kDielectricF0, gltf_specgloss_to_gltf_khronos::kInputRows, gltf_specgloss_to_gltf_khronos::kOutputRows,
+     &converters::gltf_specgloss_to_gltf_khronos::evaluate, &gltf_specgloss_to_gltf_khronos::self_test},
+    {gltf_to_gltf_specgloss::kId, gltf_to_gltf_specgloss::kFormula,
+     gltf_to_gltf_specgloss::kSourceModel, gltf_to_gltf_specgloss::kSourceWorkflow, gltf_to_gltf_specgloss::kSourceDiffuse, gltf_to_gltf_specgloss::kSourceRoughness,
+     gltf_to_gltf_specgloss::kTargetModel, gltf_to_gltf_specgloss::kTargetWorkflow, gltf_to_gltf_specgloss::kTargetDiffuse, gltf_to_gltf_specgloss::kTargetRoughness,
+     gltf_to_gltf_specgloss::kDielectricF0, gltf_to_gltf_specgloss::kInputRows, gltf_to_gltf_specgloss::kOutputRows,
+     &converters::gltf_to_gltf_specgloss::evaluate, &gltf_to_gltf_specgloss::self_test},
+    {metallic_to_specular::kId, metallic_to_specular::kFormula,
+     metallic_to_specular::kSourceModel, metallic_to_specular::kSourceWorkflow, metallic_to_specular::kSourceDiffuse, metallic_to_specular::kSourceRoughness,
+     metallic_to_specular::kTargetModel, metallic_to_specular::kTargetWorkflow, metallic_to_specular::kTargetDiffuse, metallic_to_specular::kTargetRoughness,
+     metallic_to_specular::kDielectricF0, metallic_to_specular::kInputRows, metallic_to_specular::kOutputRows,
+     &converters::metallic_to_specular::evaluate, &metallic_to_specular::self_test},
+    {metallic_to_specular_sztrajman_2019::kId, metallic_to_specular_sztrajman_2019::kFormula,
+     metallic_to_specular_sztrajman_2019::kSourceModel, metallic_to_specular_sztrajman_2019::kSourceWorkflow, metallic_to_specular_sztrajman_2019::kSourceDiffuse, metallic_to_specular_sztrajman_2019::kSourceRoughness,
+     metallic_to_specular_sztrajman_2019::kTargetModel, metallic_to_specular_sztrajman_2019::kTargetWorkflow, metallic_to_specular_sztrajman_2019::kTargetDiffuse, metallic_to_specular_sztrajman_2019::kTargetRoughness,
+     metallic_to_specular_sztrajman_2019::kDielectricF0, metallic_to_specular_sztrajman_2019::kInputRows, metallic_to_specular_sztrajman_2019::kOutputRows,
+     &converters::metallic_to_specular_sztrajman_2019::evaluate, &metallic_to_specular_sztrajman_2019::self_test},
+    {specular_to_metallic::kId, specular_to_metallic::kFormula,
+     specular_to_metallic::kSourceModel, specular_to_metallic::kSourceWorkflow, specular_to_metallic::kSourceDiffuse, specular_to_metallic::kSourceRoughness,
+     specular_to_metallic::kTargetModel, specular_to_metallic::kTargetWorkflow, specular_to_metallic::kTargetDiffuse, specular_to_metallic::kTargetRoughness,
+     specular_to_metallic::kDielectricF0, specular_to_metallic::kInputRows, specular_to_metallic::kOutputRows,
+     &converters::specular_to_metallic::evaluate, &specular_to_metallic::self_test},
+    {specular_to_metallic_mean_sztrajman_2019::kId, specular_to_metallic_mean_sztrajman_2019::kFormula,
+     specular_to_metallic_mean_sztrajman_2019::kSourceModel, specular_to_metallic_mean_sztrajman_2019::kSourceWorkflow, specular_to_metallic_mean_sztrajman_2019::kSourceDiffuse, specular_to_metallic_mean_sztrajman_2019::kSourceRoughness,
+     specular_to_metallic_mean_sztrajman_2019::kTargetModel, specular_to_metallic_mean_sztrajman_2019::kTargetWorkflow, specular_to_metallic_mean_sztrajman_2019::kTargetDiffuse, specular_to_metallic_mean_sztrajman_2019::kTargetRoughness,
+     specular_to_metallic_mean_sztrajman_2019::kDielectricF0, specular_to_metallic_mean_sztrajman_2019::kInputRows, specular_to_metallic_mean_sztrajman_2019::kOutputRows,
+     &converters::specular_to_metallic_mean_sztrajman_2019::evaluate, &specular_to_metallic_mean_sztrajman_2019::self_test},
+    {specular_to_metallic_network_sztrajman_2019::kId, specular_to_metallic_network_sztrajman_2019::kFormula,
+     specular_to_metallic_network_sztrajman_2019::kSourceModel, specular_to_metallic_network_sztrajman_2019::kSourceWorkflow, specular_to_metallic_network_sztrajman_2019::kSourceDiffuse, specular_to_metallic_network_sztrajman_2019::kSourceRoughness,
+     specular_to_metallic_network_sztrajman_2019::kTargetModel, specular_to_metallic_network_sztrajman_2019::kTargetWorkflow, specular_to_metallic_network_sztrajman_2019::kTargetDiffuse, specular_to_metallic_network_sztrajman_2019::kTargetRoughness,
+     specular_to_metallic_network_sztrajman_2019::kDielectricF0, specular_to_metallic_network_sztrajman_2019::kInputRows, specular_to_metallic_network_sztrajman_2019::kOutputRows,
+     &converters::specular_to_metallic_network_sztrajman_2019::evaluate, &specular_to_metallic_network_sztrajman_2019::self_test},
+    {specular_to_metallic_weighted_sztrajman_2019::kId, specular_to_metallic_weighted_sztrajman_2019::kFormula,
+     specular_to_metallic_weighted_sztrajman_2019::kSourceModel, specular_to_metallic_weighted_sztrajman_2019::kSourceWorkflow, specular_to_metallic_weighted_sztrajman_2019::kSourceDiffuse, specular_to_metallic_weighted_sztrajman_2019::kSourceRoughness,
+     specular_to_metallic_weighted_sztrajman_2019::kTargetModel, specular_to_metallic_weighted_sztrajman_2019::kTargetWorkflow, specular_to_metallic_weighted_sztrajman_2019::kTargetDiffuse, specular_to_metallic_weighted_sztrajman_2019::kTargetRoughness,
+     specular_to_metallic_weighted_sztrajman_2019::kDielectricF0, specular_to_metallic_weighted_sztrajman_2019::kInputRows, specular_to_metallic_weighted_sztrajman_2019::kOutputRows,
+     &converters::specular_to_metallic_weighted_sztrajman_2019::evaluate, &specular_to_metallic_weighted_sztrajman_2019::self_test},
+}};
 
 template <typename... Converters>
 struct ConverterList {};
@@ -1747,6 +1913,18 @@ using ConverterTypes = ConverterList<
     converters::threejs_r187_physical_dielectric_to_mitsuba_ggx,
     converters::threejs_r187_standard_metal_to_mitsuba_ggx,
     converters::vtk_metal_to_mitsuba_ggx>;
+
+// In the order of kMaterialConverters.
+using MaterialConverterTypes = ConverterList<
+    converters::gltf_specgloss_to_gltf,
+    converters::gltf_specgloss_to_gltf_khronos,
+    converters::gltf_to_gltf_specgloss,
+    converters::metallic_to_specular,
+    converters::metallic_to_specular_sztrajman_2019,
+    converters::specular_to_metallic,
+    converters::specular_to_metallic_mean_sztrajman_2019,
+    converters::specular_to_metallic_network_sztrajman_2019,
+    converters::specular_to_metallic_weighted_sztrajman_2019>;
 
 }  // namespace remap
 

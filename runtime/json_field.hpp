@@ -51,6 +51,7 @@ class Field {
     return list(fewest, [](const Field& entry) { return entry.number(); });
   }
   const nlohmann::ordered_json& json() const { return value_; }
+  const std::string& place() const { return place_; }
   std::string text() const {
     require(value_.is_string(), "a text");
     const std::string text = value_.get<std::string>();

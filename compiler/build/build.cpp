@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <set>
 
@@ -13,11 +14,12 @@
 #include "files.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/inverse_table.hpp"
+#include "fit/material_network.hpp"
 #include "model/chain.hpp"
 #include "model/fit_json.hpp"
 #include "number_text.hpp"
 #include "parallel.hpp"
-#include "sweep/sweep.hpp"
+#include "sweep/random_sweep.hpp"
 #include "version.hpp"
 
 namespace remapc {
@@ -41,7 +43,8 @@ ItemPaths paths_of(const BuildFolders& folders, const std::string& id) {
 }
 
 bool has_table(const ManifestItem& item) {
-  return std::holds_alternative<SweptItem>(item.kind) || std::holds_alternative<InverseItem>(item.kind);
+  return std::holds_alternative<SweptItem>(item.kind) || std::holds_alternative<InverseItem>(item.kind) ||
+         std::holds_alternative<NetworkItem>(item.kind);
 }
 
 // What an item is made from. `lock` holds its inputs as they are now.
@@ -173,8 +176,7 @@ class Builder {
   }
 
   void build_item(const ManifestItem& item) {
-    if (execution_.cancelled != nullptr && *execution_.cancelled)
-      throw Error(ErrorKind::kInterrupted, "build: interrupted; what is finished is kept, run it again");
+    require_time();
     const auto start = std::chrono::steady_clock::now();
     LockedItem record;
     Freshness fresh;
@@ -225,24 +227,32 @@ class Builder {
   void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record) const {
     const ItemPaths paths = paths_of(folders_, item.id);
     if (has_table(item) && !fresh.table) {
-      const std::string text = table_text(table_of(item));
+      const auto* network = std::get_if<NetworkItem>(&item.kind);
+      const std::string text =
+          network != nullptr ? named_table_text(samples_of(*network, item.seed)) : table_text(table_of(item));
       remap::write_file(paths.table, text);
       record->table = sha256(text);
     }
     if (!fresh.fit) {
-      const std::string text = fit_to_json(fit_of(item, paths));
+      const std::string text =
+          std::visit([](const auto& fit) { return fit_to_json(fit); }, fit_of(item, paths));
       remap::write_file(paths.fit, text);
       record->fit = sha256(text);
     }
     if (fresh.header) return;
-    const remap::Fit fit = remap::load_fit(paths.fit);
-    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
-    const std::string text = emit_lowered_header(fit, lowered);
+    const std::string text =
+        std::visit([&](const auto& fit) { return header_of(fit, record); }, remap::load_any_fit(paths.fit));
     remap::write_file(paths.header, text);
     record->header = sha256(text);
+  }
+
+  static std::string header_of(const remap::Fit& fit, LockedItem* record) {
+    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
     record->alpha_bound = lowered.alpha.bound;
     record->specular_bound = lowered.specular.bound;
+    return emit_lowered_header(fit, lowered);
   }
+  static std::string header_of(const remap::AnalyticFit& fit, LockedItem*) { return emit_header(fit); }
 
   Table table_of(const ManifestItem& item) const {
     if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
@@ -265,21 +275,61 @@ class Builder {
     return run_sweep(renderer_, options, {1, {}, execution_.cancelled});
   }
 
-  remap::Fit fit_of(const ManifestItem& item, const ItemPaths& paths) const {
+  remap::AnyFit fit_of(const ManifestItem& item, const ItemPaths& paths) const {
+    if (const auto* analytic = std::get_if<AnalyticItem>(&item.kind)) return analytic->fit;
     if (const auto* published = std::get_if<PublishedItem>(&item.kind)) return published->fit;
     if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain_of(*chain, item.id);
+    if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item, paths);
     const std::string bytes = remap::read_file(paths.table);
     FitOptions options;
     options.id = item.id;
     options.regression.seed = item.seed;
     options.regression.jobs = 1;
     return fit_table(parse_table(bytes, paths.table.string()), bytes, options,
-                     [&](double) {
-                       if (execution_.cancelled != nullptr && *execution_.cancelled)
-                         throw Error(ErrorKind::kInterrupted,
-                                     "build: interrupted; what is finished is kept, run it again");
-                     })
+                     [&](double) { require_time(); })
         .fit;
+  }
+
+  NamedTable samples_of(const NetworkItem& item, std::uint64_t seed) const {
+    RandomSweepOptions options;
+    options.source = item.metallic;
+    options.target = item.specular;
+    options.source_casting.fixed = item.fixed;
+    options.objective = objective_preset("natural");
+    options.objective_name = "natural";
+    options.resolution = item.resolution;
+    options.count = item.count;
+    options.seed = seed;
+    options.varied = item.varied;
+    return run_random_sweep(renderer_, options, {1, {}, execution_.cancelled});
+  }
+
+  // The item says what the ends mean; F0 must be that of the samples.
+  remap::AnalyticFit network_of(const NetworkItem& network, const ManifestItem& item,
+                                const ItemPaths& paths) const {
+    const std::string bytes = remap::read_file(paths.table);
+    MaterialNetworkOptions options;
+    options.id = item.id;
+    options.hidden = network.hidden;
+    options.activation = network.activation;
+    options.seed = item.seed;
+    options.jobs = 1;
+    remap::AnalyticFit fit = fit_material_network(parse_named_table(bytes, paths.table.string()), bytes,
+                                                  options, [&](double) { require_time(); });
+    const double own = network.fit.conversion.metallic.dielectric_f0,
+                 sampled = fit.conversion.metallic.dielectric_f0;
+    if (std::fabs(own - sampled) > 1e-4)
+      throw Error(ErrorKind::kInput, "F0 of a dielectric is " + remap::number_text(sampled) +
+                                         " in the samples; expected " + remap::number_text(own));
+    fit.conversion.specular = network.fit.conversion.specular;
+    fit.conversion.metallic = network.fit.conversion.metallic;
+    fit.remarks = network.fit.remarks;
+    return fit;
+  }
+
+  void require_time() const {
+    if (execution_.cancelled != nullptr && *execution_.cancelled)
+      throw Error(ErrorKind::kInterrupted, "build: interrupted; what is finished is kept, run it again");
   }
 
   remap::Fit chain_of(const ChainItem& chain, const std::string& id) const {
@@ -290,13 +340,14 @@ class Builder {
   }
 
   void write_registry() const {
-    write_changed(folders_.generated / "registry.hpp", emit_registry(load_fits(folders_.fits)));
+    const FitFolder folder = load_fit_folder(folders_.fits);
+    write_changed(folders_.generated / "registry.hpp", emit_registry(folder.fits, folder.analytic));
   }
 
   // Which takes a second to compute.
   void write_report() {
     if (has_report(folders_, lock_)) return;
-    for (const ReportFile& file : report(load_fits(folders_.fits), lock_))
+    for (const ReportFile& file : report(load_fit_folder(folders_.fits), lock_))
       write_changed(folders_.fits / file.name, file.text);
     lock_.report = report_hash(folders_, lock_);
   }

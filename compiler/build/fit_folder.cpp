@@ -12,30 +12,47 @@ namespace remapc {
 using remap::Error;
 using remap::ErrorKind;
 
-std::vector<remap::Fit> load_fits(const std::filesystem::path& folder) {
+FitFolder load_fit_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder))
     throw Error(ErrorKind::kInput, folder.string() + ": is no folder; expected one with fits (*.json)");
-  std::vector<remap::Fit> fits;
+  FitFolder loaded;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".json" || entry.path().filename() == kManifestName) continue;
-    fits.push_back(remap::load_fit(entry.path()));
-    if (entry.path().stem() != fits.back().id)
-      throw Error(ErrorKind::kInput, entry.path().string() + ": holds the fit " + fits.back().id +
+    remap::AnyFit fit = remap::load_any_fit(entry.path());
+    if (entry.path().stem() != fit_id(fit))
+      throw Error(ErrorKind::kInput, entry.path().string() + ": holds the fit " + fit_id(fit) +
                                          "; expected the file to be named after it");
+    if (auto* analytic = std::get_if<remap::AnalyticFit>(&fit))
+      loaded.analytic.push_back(std::move(*analytic));
+    else
+      loaded.fits.push_back(std::move(std::get<remap::Fit>(fit)));
   }
-  std::sort(fits.begin(), fits.end(), [](const remap::Fit& a, const remap::Fit& b) { return a.id < b.id; });
-  return fits;
+  const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
+  std::sort(loaded.fits.begin(), loaded.fits.end(), by_id);
+  std::sort(loaded.analytic.begin(), loaded.analytic.end(), by_id);
+  return loaded;
+}
+
+std::vector<remap::Fit> load_fits(const std::filesystem::path& folder) {
+  return load_fit_folder(folder).fits;
+}
+
+remap::AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder) {
+  if (std::filesystem::is_regular_file(name)) return remap::load_any_fit(name);
+  if (const auto path = folder / (name + ".json"); std::filesystem::is_regular_file(path))
+    return remap::load_any_fit(path);
+  std::vector<std::string> known;
+  if (std::filesystem::is_directory(folder)) {
+    const FitFolder loaded = load_fit_folder(folder);
+    for (const remap::Fit& fit : loaded.fits) known.push_back(fit.id);
+    for (const remap::AnalyticFit& fit : loaded.analytic) known.push_back(fit.id);
+  }
+  throw Error(ErrorKind::kUsage,
+              name + ": is neither a file nor a fit in " + folder.string() + remap::suggestion(name, known));
 }
 
 remap::Fit find_fit(const std::string& name, const std::filesystem::path& folder) {
-  if (std::filesystem::is_regular_file(name)) return remap::load_fit(name);
-  if (const auto path = folder / (name + ".json"); std::filesystem::is_regular_file(path))
-    return remap::load_fit(path);
-  std::vector<std::string> known;
-  if (std::filesystem::is_directory(folder))
-    for (const remap::Fit& fit : load_fits(folder)) known.push_back(fit.id);
-  throw Error(ErrorKind::kUsage,
-              name + ": is neither a file nor a fit in " + folder.string() + remap::suggestion(name, known));
+  return remap::require_width_and_specular(find_any_fit(name, folder), ErrorKind::kUsage, name);
 }
 
 }  // namespace remapc

@@ -5,6 +5,7 @@
 #include "error.hpp"
 #include "files.hpp"
 #include "json_field.hpp"
+#include "model/analytic_fields.hpp"
 #include "model/fit_fields.hpp"
 #include "nearest_name.hpp"
 #include "version.hpp"
@@ -87,6 +88,40 @@ void read_published(const Field& field, std::vector<ManifestItem>* items) {
   items->push_back({fit.id, PublishedItem{fit}, field.json().dump(), 0});
 }
 
+void read_analytic_item(const Field& field, std::vector<ManifestItem>* items) {
+  remap::AnalyticFit fit{field["id"].text(), remap::read_conversion(field), std::nullopt,
+                         field["remarks"].list(0, [](const Field& remark) { return remark.text(); }),
+                         remap::kVersion};
+  items->push_back({fit.id, AnalyticItem{fit}, field.json().dump(), 0});
+}
+
+remap::Activation read_activation(const Field& field) {
+  const auto activation = remap::activation_from_name(field.text());
+  field.require(activation.has_value(), "relu, tanh or silu");
+  return *activation;
+}
+
+void read_network_item(const Field& field, std::vector<ManifestItem>* items) {
+  NetworkItem item;
+  item.fit.id = field["id"].text();
+  item.fit.conversion.specular = remap::read_specular_workflow(field["source"]);
+  item.fit.conversion.metallic = remap::read_metallic_workflow(field["target"]);
+  item.fit.remarks = field["remarks"].list(0, [](const Field& remark) { return remark.text(); });
+  item.fit.tool_version = remap::kVersion;
+  const Field samples = field["samples"];
+  item.metallic = samples["metallic"].text();
+  item.specular = samples["specular"].text();
+  item.fixed = samples["fixed"].dictionary<double>([](const Field& value) { return value.number(); });
+  item.varied = samples["vary"].list(0, [](const Field& name) { return name.text(); });
+  item.count = static_cast<std::size_t>(samples["count"].count());
+  item.resolution = static_cast<int>(samples["resolution"].count());
+  item.hidden =
+      field["hidden"].list(0, [](const Field& units) { return static_cast<std::size_t>(units.count()); });
+  item.activation = read_activation(field["activation"]);
+  items->push_back(
+      {item.fit.id, item, field.json().dump(), static_cast<std::uint64_t>(field["seed"].count())});
+}
+
 std::string read_id(const Field& field, const std::vector<ManifestItem>& items) {
   std::vector<std::string> known;
   for (const ManifestItem& item : items) known.push_back(item.id);
@@ -138,6 +173,11 @@ Manifest manifest_from_json(std::string_view text, const std::string& place) {
     ChainItem chain{entry["steps"].list(2, [&](const Field& step) { return read_id(step, items); })};
     items.push_back({entry["id"].text(), chain, entry.json().dump(), 0});
   });
+  // Manifests from before there were any have no such sections.
+  if (json.contains("analytic"))
+    each("analytic", [&](const Field& entry) { read_analytic_item(entry, &items); });
+  if (json.contains("networks"))
+    each("networks", [&](const Field& entry) { read_network_item(entry, &items); });
   require_unique(items, place);
   return manifest;
 }

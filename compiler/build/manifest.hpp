@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "model/analytic_fit.hpp"
 
 namespace remapc {
 
@@ -41,11 +41,28 @@ struct ChainItem {  // other items one after another
   std::vector<std::string> steps;
 };
 
+struct AnalyticItem {  // a conversion of whole materials; complete
+  remap::AnalyticFit fit;
+};
+
+// A network from the specular to the metallic workflow, learned from random metallic materials whose pictures
+// are matched by a specular model.
+struct NetworkItem {
+  remap::AnalyticFit fit;               // without what is learned
+  std::string metallic, specular;       // models that are sampled and matched
+  std::map<std::string, double> fixed;  // parameters of the metallic model, by name
+  std::vector<std::string> varied;      // its parameters without role that vary
+  std::size_t count = 20000;
+  int resolution = 32;
+  std::vector<std::size_t> hidden;  // units of each hidden layer
+  remap::Activation activation = remap::Activation::kRelu;
+};
+
 struct ManifestItem {
   std::string id;
-  std::variant<SweptItem, InverseItem, PublishedItem, ChainItem> kind;
+  std::variant<SweptItem, InverseItem, PublishedItem, ChainItem, AnalyticItem, NetworkItem> kind;
   std::string recipe;      // what it is made from, as text: two items of one recipe are the same
-  std::uint64_t seed = 1;  // of its fit
+  std::uint64_t seed = 1;  // of its fit, and of random materials
 };
 
 // Items in an order in which each comes after those that it is made from.

@@ -157,6 +157,33 @@ back is not what went: such pairs carry (!), and their SSIM says why.
 as out of domain. A domain ends where the target's own parameter would leave its range.
 )";
 
+constexpr const char* kAnalyticIntroduction = R"(
+## Between workflows
+
+Whole materials in closed form (kind `analytic`) or by a network (`mlp`): diffuse and specular colour to base colour and metallic, and back. Their
+headers take all rows of a material. Metallic says less than specular: what is lost is the residual of each texel, not of
+the converter.
+
+)";
+
+std::string analytic_lines(const std::vector<remap::AnalyticFit>& fits) {
+  std::string text =
+      "| converter | F0 of a dielectric | diffuse | width | formula | remarks |\n|---|---|---|---|---|---|\n";
+  for (const remap::AnalyticFit& fit : fits) {
+    const remap::WorkflowConversion& conversion = fit.conversion;
+    std::string remarks;
+    for (const std::string& remark : fit.remarks) remarks += (remarks.empty() ? "" : " ") + remark;
+    const std::string from = source_parameters(conversion).back().name,
+                      to = target_parameters(conversion).back().name;
+    text += "| [" + fit.id + "](" + fit.id + ".json) | " +
+            remap::number_text(conversion.metallic.dielectric_f0) + " | " +
+            std::string(diffuse_convention_name(conversion.specular.diffuse)) + " | " +
+            (from == to ? from : from + " to " + to) + " | " + formula_text(conversion.formula) + " | " +
+            remarks + " |\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 bool is_measured(const Fit& fit) { return fit.likeness && !fit.likeness->ssim.empty(); }
@@ -174,7 +201,8 @@ std::set<std::string> hub_models(const std::vector<Fit>& fits) {
   return models;
 }
 
-std::vector<ReportFile> report(const std::vector<Fit>& fits, const Lock& lock) {
+std::vector<ReportFile> report(const FitFolder& folder, const Lock& lock) {
+  const std::vector<Fit>& fits = folder.fits;
   const Pairs pairs = measured_pairs(fits);
   std::string text = kIntroduction;
   const std::set<std::string> hub = hub_models(fits);
@@ -188,6 +216,7 @@ std::vector<ReportFile> report(const std::vector<Fit>& fits, const Lock& lock) {
       "source alpha. Grey: the identity.\n";
   text += "\n## Measured pairs\n\n" + pair_lines(pairs, lock);
   text += "\n## Published formulas, inverses and chains\n\n" + other_lines(fits, lock);
+  if (!folder.analytic.empty()) text += kAnalyticIntroduction + analytic_lines(folder.analytic);
   return {{kReportName, text}, {kPlotName, pairs_plot(fits)}};
 }
 

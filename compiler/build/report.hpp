@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "build/fit_folder.hpp"
 #include "build/lock.hpp"
 #include "model/fit.hpp"
 
@@ -20,7 +21,7 @@ struct ReportFile {
 
 // The page in Markdown and the pictures that it shows. `lock`: for the bounds of lowering. The same fits give
 // the same bytes on every machine.
-std::vector<ReportFile> report(const std::vector<remap::Fit>& fits, const Lock& lock);
+std::vector<ReportFile> report(const FitFolder& folder, const Lock& lock);
 
 // Whether the fit comes from a table that compares spheres.
 bool is_measured(const remap::Fit& fit);

@@ -30,19 +30,31 @@ struct GeneratedFile {
   std::string content;
 };
 
+FitFolder chosen_fits(const EmitCommand& options) {
+  if (options.all) return load_fit_folder(options.fit_folder);
+  FitFolder chosen;
+  for (const std::string& name : options.fits) {
+    const remap::AnyFit fit = find_any_fit(name, options.fit_folder);
+    if (const auto* analytic = std::get_if<remap::AnalyticFit>(&fit))
+      chosen.analytic.push_back(*analytic);
+    else
+      chosen.fits.push_back(std::get<remap::Fit>(fit));
+  }
+  return chosen;
+}
+
 std::vector<GeneratedFile> generate(const EmitCommand& options) {
-  std::vector<remap::Fit> fits;
-  if (options.all)
-    fits = load_fits(options.fit_folder);
-  else
-    for (const std::string& name : options.fits) fits.push_back(find_fit(name, options.fit_folder));
+  const FitFolder chosen = chosen_fits(options);
   EmitOptions code = options.code;
   code.lowering.alpha_tolerance = options.tolerance;
   code.lowering.specular_tolerance = 10.0 * options.tolerance;
   std::vector<GeneratedFile> files;
-  for (const remap::Fit& fit : fits)
+  for (const remap::Fit& fit : chosen.fits)
     files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit, code)});
-  if (options.all) files.push_back({options.output / "registry.hpp", emit_registry(fits)});
+  for (const remap::AnalyticFit& fit : chosen.analytic)
+    files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
+  if (options.all)
+    files.push_back({options.output / "registry.hpp", emit_registry(chosen.fits, chosen.analytic)});
   return files;
 }
 
@@ -114,6 +126,8 @@ void add_emit_command(CLI::App& app) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->footer(
+      "Fits of kind analytic are emitted as they are: --lower, --exact and --table-limit change nothing of "
+      "them.\n\n"
       "Example:\n  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n  remapc emit --all "
       "--check");
   command->callback([options] { run(*options); });

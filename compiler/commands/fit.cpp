@@ -14,8 +14,10 @@
 #include "error.hpp"
 #include "files.hpp"
 #include "fit/fit_table.hpp"
+#include "fit/material_network.hpp"
 #include "fit/parametric_form.hpp"
 #include "fit/plot.hpp"
+#include "fit/split.hpp"
 #include "model/fit_json.hpp"
 #include "table/check.hpp"
 #include "table/domain.hpp"
@@ -91,8 +93,71 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
             << errors_text(fit, "held out") << "\n";
 }
 
+// Of whole materials there is one way back and one kind: equation (2) needs no fit.
+void require_material_options(const FitCommand& command) {
+  if (!command.swap)
+    throw Error(ErrorKind::kUsage, command.table.path +
+                                       ": from metallic to specular equation (2) is exact and needs no fit; "
+                                       "expected --swap, for the way back");
+  if (command.model != "auto" && command.model != "mlp")
+    throw Error(ErrorKind::kUsage,
+                "--model " + command.model + ": whole materials are fitted by a network; expected mlp");
+  if (!command.plot.empty())
+    throw Error(ErrorKind::kUsage, "--plot: draws width and specular; expected a table of these");
+}
+
+MaterialNetworkOptions network_options(const FitCommand& command, const CLI::App& app) {
+  const MlpOptions& mlp = command.options.regression.mlp;
+  MaterialNetworkOptions options;
+  options.id = command.options.id;
+  if (app.count("--layers") != 0) options.hidden = mlp.hidden;
+  if (app.count("--activation") != 0) options.activation = *remap::activation_from_name(command.activation);
+  if (app.count("--starts") != 0) options.starts = mlp.starts;
+  if (app.count("--held-out") != 0) options.held_out_fraction = command.options.held_out_fraction;
+  options.seed = command.options.regression.seed;
+  options.jobs = command.options.regression.jobs;
+  return options;
+}
+
+void run_on_materials(const FitCommand& command, const CLI::App& app, const std::string& bytes) {
+  require_material_options(command);
+  remap::create_parent(command.folder / "fit.json");
+  const NamedTable table = parse_named_table(bytes, command.table.path);
+  constexpr double kUnits = 1000.0;
+  remap::watch_interruptions();
+  remap::AnalyticFit fit;
+  {
+    remap::Progress progress("fit " + command.table.path, static_cast<std::size_t>(kUnits));
+    fit = fit_material_network(table, bytes, network_options(command, app), [&](double share) {
+      if (remap::interruption())
+        throw Error(ErrorKind::kInterrupted, "fit: interrupted; nothing was written");
+      progress.advance_to(static_cast<std::size_t>(kUnits * share));
+    });
+  }
+  const std::filesystem::path path = command.folder / (fit.id + ".json");
+  remap::write_file(path, fit_to_json(fit));
+  if (command.json) {
+    const nlohmann::ordered_json json = {{"fit", path.string()},
+                                         {"id", fit.id},
+                                         {"kind", material_kind(fit)},
+                                         {"method", fit.training->method},
+                                         {"base_color_error", figures_json(fit.training->base_color)},
+                                         {"metallic_error", figures_json(fit.training->metallic)}};
+    std::cout << json.dump(2) << "\n";
+    return;
+  }
+  std::cerr << path.string() << ": " << fit.training->method.at("network") << "; held out: base colour rms "
+            << error_text(fit.training->base_color.rms) << ", metallic rms "
+            << error_text(fit.training->metallic.rms) << "\n";
+}
+
 void run(const FitCommand& command, const CLI::App& app) {
   require_consistent(command, app);
+  if (const std::string text = remap::read_file(command.table.path);
+      is_named_table(text, command.table.path)) {
+    run_on_materials(command, app, text);
+    return;
+  }
   std::string bytes;
   Table table = command.table.read(&bytes);
   if (command.swap) table = swapped(table);
@@ -146,8 +211,10 @@ void add_fit_command(CLI::App& app) {
   auto options = std::make_shared<FitCommand>();
   options->table.add_options(*command);
   add_regression_options(*command, *options);
-  command->add_flag("--swap", options->swap,
-                    "Fit the way back: the table's target becomes the source, and its source the target");
+  command->add_flag(
+      "--swap", options->swap,
+      "Fit the way back: the table's target becomes the source, and its source the target; of a table "
+      "of whole metallic materials (remapc sample) a network from specular to metallic");
   command->add_option("--id", options->options.id, "Name of the converter; default: <source>_to_<target>");
   command
       ->add_option("--held-out", options->options.held_out_fraction, "Share of the rows that judges the fit")

@@ -41,8 +41,10 @@ void list_models(bool json) {
 
 void list_fits(const ListOptions& options) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  const std::vector<remap::Fit> fits = load_fits(options.fit_folder);
-  if (fits.empty()) std::cerr << options.fit_folder.string() << ": holds no fits (*.json)\n";
+  const FitFolder folder = load_fit_folder(options.fit_folder);
+  const std::vector<remap::Fit>& fits = folder.fits;
+  if (fits.empty() && folder.analytic.empty())
+    std::cerr << options.fit_folder.string() << ": holds no fits (*.json)\n";
   for (const remap::Fit& fit : fits) {
     list.push_back({{"id", fit.id},
                     {"source", fit.source.model},
@@ -53,6 +55,17 @@ void list_fits(const ListOptions& options) {
     if (!options.json)
       std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << kind_name(fit.mapping)
                 << errors_text(fit, "held out") << "\n";
+  }
+  for (const remap::AnalyticFit& fit : folder.analytic) {
+    const std::string formula(formula_name(fit.conversion.formula));
+    list.push_back({{"id", fit.id},
+                    {"source", fit.conversion.source_model()},
+                    {"target", fit.conversion.target_model()},
+                    {"kind", remap::material_kind(fit)},
+                    {"formula", formula}});
+    if (!options.json)
+      std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << remap::material_kind(fit)
+                << formula << ", whole materials\n";
   }
   if (options.json) std::cout << list.dump(2) << "\n";
 }

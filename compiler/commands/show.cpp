@@ -175,12 +175,7 @@ void print_trust(const remap::Fit& fit) {
   print_lowering(fit);
 }
 
-void show(const ShowOptions& options) {
-  const remap::Fit fit = find_fit(options.fit, options.fit_folder);
-  if (options.json) {
-    std::cout << fit_to_json(fit);
-    return;
-  }
+void show_card(const remap::Fit& fit, const ShowOptions& options) {
   std::cout << fit.id << "\n"
             << "  from    " << side_text(fit.source) << "\n"
             << "  to      " << side_text(fit.target) << "\n"
@@ -198,11 +193,60 @@ void show(const ShowOptions& options) {
   for (const auto& [key, value] : fit.table.comments) std::cout << "  " << key << ": " << value << "\n";
 }
 
+void print_parameters(const std::string& title, const std::vector<remap::MaterialParameter>& parameters) {
+  std::cout << title << "\n";
+  for (const remap::MaterialParameter& parameter : parameters)
+    std::cout << "  " << std::left << std::setw(11) << parameter.name
+              << (parameter.channel_count == 3 ? "RGB, " : "") << parameter.meaning << ", 0 to 1\n";
+}
+
+void print_training(const remap::NetworkTraining& training) {
+  const auto figures = [](const remap::ErrorFigures& errors) {
+    return "rms " + error_text(errors.rms) + ", p99 " + error_text(errors.p99) + ", max " +
+           error_text(errors.max);
+  };
+  std::cout << "Errors on " << training.split.held_out_rows << " rows that it was not trained on (seed "
+            << training.split.seed << ")\n  base colour  " << figures(training.base_color)
+            << "\n  metallic     " << figures(training.metallic) << "\nTraining\n";
+  for (const auto& [key, value] : training.method) std::cout << "  " << key << ": " << value << "\n";
+  std::cout << "Table " << training.table.name << ", sha256 " << training.table.sha256 << "\n";
+  for (const auto& [key, value] : training.table.comments) std::cout << "  " << key << ": " << value << "\n";
+}
+
+void show_card(const remap::AnalyticFit& fit, const ShowOptions&) {
+  const remap::WorkflowConversion& conversion = fit.conversion;
+  std::cout << fit.id << "\n"
+            << "  from    " << conversion.source_model() << "\n"
+            << "  to      " << conversion.target_model() << "\n"
+            << "  kind    " << remap::material_kind(fit) << ", by remapc " << fit.tool_version << "\n"
+            << "  F0 of a dielectric " << number_text(conversion.metallic.dielectric_f0) << "; diffuse "
+            << diffuse_convention_name(conversion.specular.diffuse) << " in the specular workflow, "
+            << diffuse_convention_name(conversion.metallic.diffuse) << " in the metallic one\n";
+  for (const std::string& remark : fit.remarks) std::cout << "  " << remark << "\n";
+  print_parameters("Takes", source_parameters(conversion));
+  print_parameters("Gives", target_parameters(conversion));
+  std::cout << "Mapping\n  " << formula_text(conversion.formula) << "\n";
+  if (fit.training) print_training(*fit.training);
+}
+
+void show(const ShowOptions& options) {
+  const remap::AnyFit fit = find_any_fit(options.fit, options.fit_folder);
+  std::visit(
+      [&](const auto& any) {
+        if (options.json)
+          std::cout << fit_to_json(any);
+        else
+          show_card(any, options);
+      },
+      fit);
+}
+
 }  // namespace
 
 void add_show_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("show", "Show the card of a fit: models, domain, errors, mapping, table");
+  CLI::App* command = app.add_subcommand("show",
+                                         "Show the card of a fit: models, domain, errors, mapping, table; "
+                                         "parameters and conventions of whole materials");
   auto options = std::make_shared<ShowOptions>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
   command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();

@@ -6,6 +6,7 @@
 namespace remapc {
 
 void add_environments_study(CLI::App& study);
+void add_workflows_study(CLI::App& study);
 void add_conductors_study(CLI::App& study);
 void add_dielectrics_study(CLI::App& study);
 

@@ -10,6 +10,7 @@ void add_study_command(CLI::App& app) {
       "study", "Reproduce a figure of the paper or a figure of this project, as tables, plots and words");
   command->require_subcommand(1);
   add_environments_study(*command);
+  add_workflows_study(*command);
   add_conductors_study(*command);
   add_dielectrics_study(*command);
 }

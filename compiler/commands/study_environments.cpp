@@ -9,6 +9,7 @@
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/studies.hpp"
+#include "commands/study_environment_options.hpp"
 #include "error.hpp"
 #include "files.hpp"
 #include "fit/gnuplot.hpp"
@@ -28,8 +29,7 @@ struct EnvironmentsCommand {
   std::vector<std::string> pairs;  // SOURCE:TARGET; empty: the six of default_pairs()
   bool plain = false;
   EnvironmentsOptions study;
-  std::vector<std::filesystem::path> environments;  // empty: the built-in ones
-  double exposure = 1.0;
+  EnvironmentOptions environments;
   std::filesystem::path fit_folder;  // empty: `fits`, where there is such a folder
   std::filesystem::path output;
   bool pictures = false, json = false, quiet = false;
@@ -57,27 +57,12 @@ std::vector<ModelPair> chosen_pairs(const EnvironmentsCommand& command) {
   return pairs;
 }
 
-// Every environment as bright as the others, so that each shows in the figures and none is all white.
-std::vector<Environment> chosen_environments(const EnvironmentsCommand& command) {
-  if (!(command.exposure > 0.0))
-    throw Error(ErrorKind::kUsage,
-                "--exposure: " + remap::number_text(command.exposure) + "; expected more than 0");
-  std::vector<Environment> environments;
-  for (const auto& path : command.environments) environments.push_back(load_environment(path));
-  if (environments.empty()) environments = builtin_environments();
-  for (Environment& environment : environments) {
-    const double exposure = command.exposure / mean_luminance(environment);
-    environment = exposed(std::move(environment), exposure);
-  }
-  return environments;
-}
-
 EnvironmentsOptions study_options(const EnvironmentsCommand& command) {
   EnvironmentsOptions options = command.study;
   options.pairs = chosen_pairs(command);
   std::sort(options.alphas.begin(), options.alphas.end());
   options.alphas.erase(std::unique(options.alphas.begin(), options.alphas.end()), options.alphas.end());
-  options.environments = chosen_environments(command);
+  options.environments = read_environments(command.environments);
   if (!command.fit_folder.empty() || std::filesystem::is_directory(kDefaultFitFolder))
     options.fits = load_fits(command.fit_folder.empty() ? kDefaultFitFolder : command.fit_folder);
   if (command.pictures && command.output.empty())
@@ -157,13 +142,7 @@ void add_options(CLI::App& app, EnvironmentsCommand& command) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--specular", study.specular, "Of the source, linear")->capture_default_str();
-  app.add_option(
-         "--environment", command.environments,
-         "Map in latitude and longitude (HDR, EXR), repeatable; default: a clear sky, an overcast sky "
-         "and a studio of its own")
-      ->allow_extra_args(false);
-  app.add_option("--exposure", command.exposure, "Mean luminance that every environment is brought to")
-      ->capture_default_str();
+  add_environment_options(app, command.environments);
   app.add_option("--resolution", study.resolution, "Width and height of the pictures")->capture_default_str();
   app.add_option("--samples", study.samples, "Directions a pixel")->capture_default_str();
   app.add_option("--fits", command.fit_folder,

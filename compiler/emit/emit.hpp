@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lower/lower.hpp"
+#include "model/analytic_fit.hpp"
 #include "model/fit.hpp"
 
 namespace remapc {
@@ -23,8 +24,12 @@ std::string emit_header(const remap::Fit& fit, const EmitOptions& options = {});
 // The same from polynomials that fit.mapping was lowered to.
 std::string emit_lowered_header(const remap::Fit& fit, const remap::Lowered& lowered);
 
+// The generated header of an analytic fit: materials in, materials out. Throws kInput for a conversion that
+// require_valid() refuses.
+std::string emit_header(const remap::AnalyticFit& fit);
+
 // `registry.hpp` for headers of these fits, which stand beside it: one entry a converter, in the order of
 // ids.
-std::string emit_registry(std::vector<remap::Fit> fits);
+std::string emit_registry(std::vector<remap::Fit> fits, std::vector<remap::AnalyticFit> analytic);
 
 }  // namespace remapc

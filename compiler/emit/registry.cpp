@@ -49,12 +49,36 @@ inline constexpr std::array<ConverterEntry, @count@> kConverters = {{
     @entries@
 }};
 
+// A converter of whole materials between workflows; a row of texels for each channel of its parameters.
+struct MaterialConverterEntry {
+  const char* id;
+  const char* formula;
+  const char* source_model;
+  const char* source_workflow;   // specular: diffuse, specular, width; metallic: base colour, metallic, width
+  const char* source_diffuse;    // plain or scaled
+  const char* source_roughness;  // alpha, roughness or glossiness
+  const char* target_model;
+  const char* target_workflow;
+  const char* target_diffuse;
+  const char* target_roughness;
+  float dielectric_f0;  // of the metallic workflow
+  std::size_t input_rows, output_rows;
+  // evaluate_rows of the header, by pointers to as many rows.
+  std::size_t (*evaluate)(std::size_t count, const float* const* in, float* const* out) noexcept;
+  bool (*self_test)() noexcept;
+};
+
 // The same converters as types. Through a type a compiler sees what it calls, which no pointer of the table above lets
 // it: a program can compile all of them for another instruction set, as texremap does.
 namespace converters {
 
 @types@
+@material_types@
 }  // namespace converters
+
+inline constexpr std::array<MaterialConverterEntry, @material_count@> kMaterialConverters = {{
+    @material_entries@
+}};
 
 template <typename... Converters>
 struct ConverterList {};
@@ -62,6 +86,10 @@ struct ConverterList {};
 // In the order of kConverters.
 using ConverterTypes = ConverterList<
     @names@>;
+
+// In the order of kMaterialConverters.
+using MaterialConverterTypes = ConverterList<
+    @material_names@>;
 
 }  // namespace remap
 
@@ -89,26 +117,68 @@ constexpr std::string_view kType =
 
 )";
 
+constexpr std::string_view kMaterialEntry =
+    R"({@id@::kId, @id@::kFormula,
+ @id@::kSourceModel, @id@::kSourceWorkflow, @id@::kSourceDiffuse, @id@::kSourceRoughness,
+ @id@::kTargetModel, @id@::kTargetWorkflow, @id@::kTargetDiffuse, @id@::kTargetRoughness,
+ @id@::kDielectricF0, @id@::kInputRows, @id@::kOutputRows,
+ &converters::@id@::evaluate, &@id@::self_test},
+)";
+
+constexpr std::string_view kMaterialType =
+    R"(struct @id@ {
+  static std::size_t evaluate(std::size_t count, const float* const* in, float* const* out) noexcept {
+    std::array<const float*, ::remap::@id@::kInputRows> from{};
+    std::array<float*, ::remap::@id@::kOutputRows> to{};
+    for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];
+    for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];
+    return ::remap::@id@::evaluate_rows(count, from, to);
+  }
+};
+
+)";
+
+template <typename AnyFits>
+void sort_by_id(AnyFits& fits) {
+  std::sort(fits.begin(), fits.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+}
+
+// What the registry holds of one list of fits.
+struct Listing {
+  std::string includes, entries, types, names;
+};
+
+void add_to(Listing* listing, const std::string& id, const std::string& entry, std::string_view type) {
+  listing->includes += "#include \"" + id + ".hpp\"\n";
+  listing->entries += entry;
+  listing->types += fill_template(type, {{"id", id}});
+  listing->names += (listing->names.empty() ? "converters::" : ",\nconverters::") + id;
+}
+
 }  // namespace
 
-std::string emit_registry(std::vector<remap::Fit> fits) {
-  std::sort(fits.begin(), fits.end(), [](const remap::Fit& a, const remap::Fit& b) { return a.id < b.id; });
-  std::string includes, entries, types, names;
-  for (const remap::Fit& fit : fits) {
-    includes += "#include \"" + fit.id + ".hpp\"\n";
-    entries +=
-        fill_template(kEntry, {{"id", fit.id},
-                               {"roughness", std::string(remap::convention_name(fit.source.roughness))},
-                               {"specular", fit.source.specular}});
-    types += fill_template(kType, {{"id", fit.id}});
-    names += (names.empty() ? "converters::" : ",\nconverters::") + fit.id;
-  }
+std::string emit_registry(std::vector<remap::Fit> fits, std::vector<remap::AnalyticFit> analytic) {
+  sort_by_id(fits);
+  sort_by_id(analytic);
+  Listing converters, materials;
+  for (const remap::Fit& fit : fits)
+    add_to(&converters, fit.id,
+           fill_template(kEntry, {{"id", fit.id},
+                                  {"roughness", std::string(remap::convention_name(fit.source.roughness))},
+                                  {"specular", fit.source.specular}}),
+           kType);
+  for (const remap::AnalyticFit& fit : analytic)
+    add_to(&materials, fit.id, fill_template(kMaterialEntry, {{"id", fit.id}}), kMaterialType);
   return fill_template(kRegistry, {{"version", remap::kVersion},
-                                   {"includes", includes},
+                                   {"includes", converters.includes + materials.includes},
                                    {"count", std::to_string(fits.size())},
-                                   {"entries", entries},
-                                   {"types", types},
-                                   {"names", names}});
+                                   {"entries", converters.entries},
+                                   {"types", converters.types},
+                                   {"names", converters.names},
+                                   {"material_count", std::to_string(analytic.size())},
+                                   {"material_entries", materials.entries},
+                                   {"material_types", materials.types},
+                                   {"material_names", materials.names}});
 }
 
 }  // namespace remapc

@@ -12,6 +12,7 @@
 #include "study/colour.hpp"
 #include "study/contact_sheet.hpp"
 #include "study/conversions.hpp"
+#include "study/displayed_sphere.hpp"
 #include "study/floor.hpp"
 #include "study/lit_sphere.hpp"
 #include "sweep/likeness.hpp"
@@ -25,52 +26,25 @@ using remap::ErrorKind;
 
 constexpr std::size_t kMethodCount = 4;  // of Method, without kBest
 
-// What the display shows of a picture of linear RGB, and its luma on a black square.
-struct Shown {
-  std::vector<float> colours;  // RGB of the pixels that show the sphere
-  std::vector<float> luma;     // of the whole picture
-};
-
-std::vector<float> displayed(const std::vector<float>& radiance) {
-  std::vector<float> values;
-  values.reserve(radiance.size());
-  for (const float value : radiance) values.push_back(display_value(static_cast<double>(value)));
-  return values;
-}
-
-Shown shown(const SpherePictures& pictures, const std::vector<float>& radiance) {
-  const auto side = static_cast<std::size_t>(pictures.resolution());
-  Shown picture{displayed(radiance), std::vector<float>(side * side, 0.0f)};
-  for (std::size_t i = 0; i < pictures.pixels().size(); ++i)
-    picture.luma[pictures.pixels()[i]] = static_cast<float>(luminance(&picture.colours[3 * i]));
-  return picture;
-}
-
 double mean_radiance(const std::vector<float>& radiance) {
   double sum = 0.0;
   for (std::size_t i = 0; i < radiance.size(); i += 3) sum += luminance(&radiance[i]);
   return sum / (static_cast<double>(radiance.size()) / 3.0);
 }
 
-double sphere_similarity(const SpherePictures& pictures, const Shown& a, const Shown& b) {
-  const std::vector<float> map = similarity_map(a.luma, b.luma, pictures.resolution(), pictures.resolution());
-  double sum = 0.0;
-  for (const std::uint32_t pixel : pictures.pixels()) sum += static_cast<double>(map[pixel]);
-  return sum / static_cast<double>(pictures.pixels().size());
-}
-
 // A picture of one material under one environment, with what comparisons need of it.
 struct Picture {
-  Shown display;
+  DisplayedSphere display;
   double mean = 0.0;                           // linear luminance
   std::array<std::vector<float>, 2> halves{};  // display colours by each half of the directions
 };
 
 Picture picture_of(const SpherePictures& pictures, std::size_t material, std::size_t environment) {
   const std::vector<float> radiance = pictures.radiance(material, environment);
-  Picture picture{shown(pictures, radiance), mean_radiance(radiance), {}};
+  Picture picture{
+      displayed_sphere(radiance, pictures.pixels(), pictures.resolution()), mean_radiance(radiance), {}};
   for (std::size_t half = 0; half < picture.halves.size(); ++half)
-    picture.halves[half] = displayed(pictures.half_radiance(material, environment, half));
+    picture.halves[half] = display_values(pictures.half_radiance(material, environment, half));
   return picture;
 }
 
@@ -148,7 +122,8 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
           sittings[i].conversion,
           e,
           {100.0 * rms_difference(source.display.colours, target.display.colours),
-           sphere_similarity(pictures, source.display, target.display), target.mean / source.mean - 1.0},
+           sphere_similarity(source.display, target.display, pictures.pixels(), pictures.resolution()),
+           target.mean / source.mean - 1.0},
           squared_noise(source, target)};
     }
   });

@@ -163,7 +163,7 @@ struct Rendering {
 // Radiance towards the camera for light of radiance 1 from a solid angle of 1.
 double reflected(const SphereMaterial& material, const LocalGeometry& geometry) {
   const Lobe lobe = evaluate_lobe(material.model.brdf, material.model.fresnel, material.alpha, geometry);
-  return (lobe.base + material.specular * lobe.slope) * geometry.cos_light;
+  return (lobe.base + material.specular * lobe.slope + material.diffuse / pi) * geometry.cos_light;
 }
 
 void add_lamps(const Rendering& rendering, const PixelSampler& sampler, std::size_t pixel,

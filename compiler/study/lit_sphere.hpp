@@ -12,11 +12,13 @@
 
 namespace remapc {
 
-// A model of the built-in renderer with its parameters. Specular is linear: a scale, or F0.
+// A model of the built-in renderer with its parameters. Specular is linear: a scale, or F0. Diffuse is the
+// reflectance of a Lambertian lobe beside it.
 struct SphereMaterial {
   BrdfModel model;
   double alpha = 0.0;
   double specular = 0.0;
+  double diffuse = 0.0;
   bool operator==(const SphereMaterial&) const = default;
 };
 

@@ -85,6 +85,10 @@ float display_value(double linear) {
                                                 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
 }
 
+double linear_of_display(double display) {
+  return display <= 0.04045 ? display / 12.92 : std::pow((display + 0.055) / 1.055, 2.4);
+}
+
 double rms_difference(std::span<const float> a, std::span<const float> b) {
   require_same_size(a.size(), b.size(), a.size());
   double sum = 0.0;

@@ -11,6 +11,9 @@ namespace remapc {
 // (IEC 61966-2-1). NaN is shown as 0.
 float display_value(double linear);
 
+// The linear value, 0 to 1, that a display value in [0, 1] stands for.
+double linear_of_display(double display);
+
 // Root mean square of a - b over all values of two pictures. 0 where they are empty.
 double rms_difference(std::span<const float> a, std::span<const float> b);
 

@@ -3,6 +3,7 @@
 
 #include "json_field.hpp"
 #include "model/fit.hpp"
+#include "model/fit_json.hpp"
 
 namespace remap {
 
@@ -24,6 +25,18 @@ inline ModelSide read_side(const Field& field) {
   const std::string model = field["model"].text();
   field["model"].require(is_valid_model(model), "letters, digits and _ - . /");
   return {model, *convention, specular};
+}
+
+// Whether the root of a fit file is that of a fit of whole materials: its ends name their workflows.
+inline bool is_of_materials(const Field& root) { return root["source"].json().contains("workflow"); }
+
+// Throws kInput where the root of a file is not that of a fit of kFitFormatVersion.
+inline void require_fit_format(const Field& root) {
+  if (root["format"].text() != "remap-fit") root.fail("is no fit file; expected \"format\": \"remap-fit\"");
+  const std::int64_t version = root["version"].count();
+  if (version != kFitFormatVersion)
+    root.fail("has format version " + std::to_string(version) + "; this program reads version " +
+              std::to_string(kFitFormatVersion));
 }
 
 }  // namespace remap

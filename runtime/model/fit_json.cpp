@@ -8,6 +8,7 @@
 #include "files.hpp"
 #include "json_field.hpp"
 #include "model/fit_fields.hpp"
+#include "model/network_json.hpp"
 
 namespace remap {
 namespace {
@@ -15,12 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kLargestPower = 4;  // of specular, in a parametric form
-
-double finite(double value) {
-  if (!std::isfinite(value))
-    throw Error(ErrorKind::kNumeric, "fit: a number is not finite; a fit file holds finite numbers only");
-  return value;
-}
 
 Json to_json(const Range& range) { return Json::array({finite(range.min), finite(range.max)}); }
 
@@ -30,19 +25,9 @@ Json to_json(const ModelSide& side) {
           {"specular", side.specular}};
 }
 
-Json to_json(const ErrorFigures& figures) {
-  return {{"rms", finite(figures.rms)}, {"p99", finite(figures.p99)}, {"max", finite(figures.max)}};
-}
-
-Json to_json(const std::vector<double>& numbers) {
-  Json list = Json::array();
-  for (const double number : numbers) list.push_back(finite(number));
-  return list;
-}
-
 Json to_json(const Parametric& form) {
   Json roughness = Json::array(), specular = Json::array();
-  for (const auto& row : form.roughness) roughness.push_back(to_json(row));
+  for (const auto& row : form.roughness) roughness.push_back(numbers_json(row));
   for (const auto& [power, curve] : form.specular)
     specular.push_back({{"power", power},
                         {"start", finite(curve.start)},
@@ -54,32 +39,15 @@ Json to_json(const Parametric& form) {
   return {{"roughness", roughness}, {"specular", specular}};
 }
 
-Json to_json(const std::vector<Scaling>& scalings) {
-  Json list = Json::array();
-  for (const auto& [offset, scale, pole] : scalings)
-    list.push_back({{"offset", finite(offset)}, {"scale", finite(scale)}, {"pole", finite(pole)}});
-  return list;
-}
-
 Json to_json(const KernelExpansion& expansion) {
-  return {{"inputs", to_json(expansion.inputs)},   {"output", to_json(std::vector{expansion.output})[0]},
-          {"gamma", finite(expansion.gamma)},      {"bias", finite(expansion.bias)},
-          {"vectors", to_json(expansion.vectors)}, {"weights", to_json(expansion.weights)}};
+  return {{"inputs", scalings_json(expansion.inputs)},  {"output", scalings_json({expansion.output})[0]},
+          {"gamma", finite(expansion.gamma)},           {"bias", finite(expansion.bias)},
+          {"vectors", numbers_json(expansion.vectors)}, {"weights", numbers_json(expansion.weights)}};
 }
 
-Json to_json(const Network& network) {
-  Json layers = Json::array();
-  for (const Layer& layer : network.layers)
-    layers.push_back({{"weights", to_json(layer.weights)}, {"biases", to_json(layer.biases)}});
-  return {{"activation", std::string(activation_name(network.activation))},
-          {"inputs", to_json(network.inputs)},
-          {"outputs", to_json(network.outputs)},
-          {"layers", layers}};
-}
-
-template <typename Regressors>  // Svr or Mlp
-Json to_json(const Regressors& kind) {
-  return {{"alpha", to_json(kind.alpha)}, {"specular", to_json(kind.specular)}};
+Json to_json(const Svr& svr) { return {{"alpha", to_json(svr.alpha)}, {"specular", to_json(svr.specular)}}; }
+Json to_json(const Mlp& mlp) {
+  return {{"alpha", network_json(mlp.alpha)}, {"specular", network_json(mlp.specular)}};
 }
 
 // A mapping with its kind.
@@ -101,9 +69,9 @@ Json mapping_json(const MappingKind& mapping) {
 Json to_json(const Candidate& candidate) {
   return {{"name", candidate.name},
           {"number_count", candidate.number_count},
-          {"alpha", to_json(candidate.alpha)},
+          {"alpha", figures_json(candidate.alpha)},
           {"alpha_standard_error", finite(candidate.alpha_standard_error)},
-          {"specular", to_json(candidate.specular)},
+          {"specular", figures_json(candidate.specular)},
           {"specular_standard_error", finite(candidate.specular_standard_error)},
           {"edge_alpha_rms", finite(candidate.edge_alpha_rms)},
           {"edge_specular_rms", finite(candidate.edge_specular_rms)},
@@ -118,11 +86,7 @@ Json to_json(const std::optional<Likeness>& likeness) {
   Json spheres = Json::array();
   for (const auto& [alpha, ssim] : likeness->ssim)
     spheres.push_back({{"alpha", finite(alpha)}, {"ssim", finite(ssim)}});
-  return {{"image_error", to_json(likeness->image_error)}, {"spheres", spheres}};
-}
-
-ErrorFigures read_figures(const Field& field) {
-  return {field["rms"].number(), field["p99"].number(), field["max"].number()};
+  return {{"image_error", figures_json(likeness->image_error)}, {"spheres", spheres}};
 }
 
 double read_rate(const Field& field) {
@@ -149,18 +113,6 @@ Parametric read_parametric(const Field& field) {
   return form;
 }
 
-Scaling read_scaling(const Field& field) {
-  field["scale"].require(field["scale"].number() != 0.0, "a scale that is not 0");
-  field["pole"].require(field["pole"].number() >= 0.0, "a pole from 0");
-  return {field["offset"].number(), field["scale"].number(), field["pole"].number()};
-}
-
-Scaling read_output(const Field& field) {
-  const Scaling scaling = read_scaling(field);
-  field["pole"].require(scaling.pole == 0.0, "0 for an output");
-  return scaling;
-}
-
 // Inputs of a regressor over one texel: alpha, or alpha and specular.
 std::vector<Scaling> read_inputs(const Field& field) {
   const auto inputs = field.list(1, read_scaling);
@@ -171,7 +123,7 @@ std::vector<Scaling> read_inputs(const Field& field) {
 KernelExpansion read_expansion(const Field& field) {
   KernelExpansion expansion;
   expansion.inputs = read_inputs(field["inputs"]);
-  expansion.output = read_output(field["output"]);
+  expansion.output = read_output_scaling(field["output"]);
   expansion.gamma = field["gamma"].number();
   field["gamma"].require(expansion.gamma > 0.0, "a gamma above 0");
   expansion.bias = field["bias"].number();
@@ -182,29 +134,9 @@ KernelExpansion read_expansion(const Field& field) {
   return expansion;
 }
 
-Layer read_layer(const Field& field, std::size_t input_count) {
-  Layer layer{input_count, field["weights"].numbers(1), field["biases"].numbers(1)};
-  field["weights"].require(layer.weights.size() == layer.biases.size() * input_count,
-                           "a number for each bias and each of " + std::to_string(input_count) + " inputs");
-  return layer;
-}
-
-Network read_network(const Field& field) {
-  Network network;
-  const auto activation = activation_from_name(field["activation"].text());
-  field["activation"].require(activation.has_value(), "relu, tanh or silu");
-  network.activation = *activation;
-  network.inputs = read_inputs(field["inputs"]);
-  network.outputs = field["outputs"].list(1, read_output);
-  field["outputs"].require(network.outputs.size() == 1, "one output");
-  std::size_t width = network.inputs.size();
-  network.layers = field["layers"].list(1, [&](const Field& entry) {
-    const Layer layer = read_layer(entry, width);
-    width = layer.output_count();
-    return layer;
-  });
-  field["layers"].require(width == 1, "a last layer of one output");
-  return network;
+Network read_texel_network(const Field& field) {
+  read_inputs(field["inputs"]);
+  return read_network(field, 1);
 }
 
 RegressedKind read_regressed(const Field& field) {
@@ -212,7 +144,7 @@ RegressedKind read_regressed(const Field& field) {
   if (kind == "parametric") return read_parametric(field);
   if (kind == "svr") return Svr{read_expansion(field["alpha"]), read_expansion(field["specular"])};
   if (kind == "mlp") {
-    const Mlp mlp{read_network(field["alpha"]), read_network(field["specular"])};
+    const Mlp mlp{read_texel_network(field["alpha"]), read_texel_network(field["specular"])};
     field["specular"]["activation"].require(mlp.alpha.activation == mlp.specular.activation,
                                             "the activation of the other network");
     return mlp;
@@ -252,17 +184,6 @@ std::optional<Likeness> read_likeness(const Field& field) {
                   })};
 }
 
-Split read_split(const Field& field) {
-  Split split;
-  split.seed = static_cast<std::uint64_t>(field["seed"].count());
-  split.held_out_fraction = field["held_out_fraction"].number();
-  split.trained_rows = field["trained_rows"].count();
-  split.held_out_rows = field["held_out_rows"].count();
-  split.left_out =
-      field["left_out"].dictionary<std::int64_t>([](const Field& entry) { return entry.count(); });
-  return split;
-}
-
 }  // namespace
 
 std::string fit_to_json(const Fit& fit) {
@@ -279,16 +200,11 @@ std::string fit_to_json(const Fit& fit) {
       {"method", fit.method},
       {"candidates", candidates},
       {"error_on_held_out_rows",
-       {{"alpha", to_json(fit.roughness_error)}, {"specular", to_json(fit.specular_error)}}},
+       {{"alpha", figures_json(fit.roughness_error)}, {"specular", figures_json(fit.specular_error)}}},
       {"likeness", to_json(fit.likeness)},
       {"remarks", fit.remarks},
-      {"split",
-       {{"seed", fit.split.seed},
-        {"held_out_fraction", finite(fit.split.held_out_fraction)},
-        {"trained_rows", fit.split.trained_rows},
-        {"held_out_rows", fit.split.held_out_rows},
-        {"left_out", fit.split.left_out}}},
-      {"table", {{"name", fit.table.name}, {"sha256", fit.table.sha256}, {"comments", fit.table.comments}}},
+      {"split", split_json(fit.split)},
+      {"table", table_record_json(fit.table)},
       {"tool", "remapc " + fit.tool_version},
   };
   return json.dump(2) + "\n";
@@ -297,11 +213,8 @@ std::string fit_to_json(const Fit& fit) {
 Fit fit_from_json(std::string_view text, const std::string& place) {
   const Json json = parse_json(text, place);
   const Field root(json, place);
-  if (root["format"].text() != "remap-fit") root.fail("is no fit file; expected \"format\": \"remap-fit\"");
-  const std::int64_t version = root["version"].count();
-  if (version != kFitFormatVersion)
-    root.fail("has format version " + std::to_string(version) + "; this program reads version " +
-              std::to_string(kFitFormatVersion));
+  require_fit_format(root);
+  if (is_of_materials(root)) require_width_and_specular(AnyFit{AnalyticFit{}}, ErrorKind::kInput, place);
 
   Fit fit;
   fit.id = root["id"].text();
@@ -319,11 +232,7 @@ Fit fit_from_json(std::string_view text, const std::string& place) {
   fit.likeness = read_likeness(root["likeness"]);
   fit.remarks = root["remarks"].list(0, [](const Field& entry) { return entry.text(); });
   fit.split = read_split(root["split"]);
-  const Field table = root["table"];
-  fit.table.name = table["name"].text();
-  fit.table.sha256 = table["sha256"].text();
-  fit.table.comments =
-      table["comments"].dictionary<std::string>([](const Field& entry) { return entry.text(); });
+  fit.table = read_table_record(root["table"]);
   const std::string tool = root["tool"].text();
   root["tool"].require(tool.starts_with("remapc "), "remapc and its version");
   fit.tool_version = tool.substr(7);

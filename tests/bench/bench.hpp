@@ -43,6 +43,10 @@ Section network_section(const Medians& medians);
 void add_compilations();
 Section header_section(const Medians& medians);
 
+void add_workflows();
+Section workflow_section(const Medians& medians);
+Section workflow_error_section(const Medians& medians);
+
 void add_fits();
 Section fit_section(const Medians& medians);
 

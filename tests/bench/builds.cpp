@@ -5,11 +5,13 @@ namespace remap_bench {
 #define REMAP_PASS(name, code, flags)                                                     \
   std::size_t name(std::size_t, const float*, const std::array<const float*, 3>&, float*, \
                    const std::array<float*, 3>&);
+#define REMAP_MATERIAL(name, code, flags) std::size_t name(std::size_t, const float* const*, float* const*);
 #define REMAP_NETWORK(name, code, flags) void name(std::size_t, const float*, float*);
 #define REMAP_PRODUCTS(name, code, flags) \
   void name(const NetworkProducts&, std::size_t, const float*, float*);
 #include "builds.inc"
 #undef REMAP_PASS
+#undef REMAP_MATERIAL
 #undef REMAP_NETWORK
 #undef REMAP_PRODUCTS
 
@@ -38,10 +40,26 @@ std::vector<Build<Function>> runnable(const std::vector<Build<Function>>& builds
 std::vector<Build<Pass>> pass_builds() {
   return runnable<Pass>({
 #define REMAP_PASS(name, code, flags) {#code, #flags, name},
+#define REMAP_MATERIAL(name, code, flags)
 #define REMAP_NETWORK(name, code, flags)
 #define REMAP_PRODUCTS(name, code, flags)
 #include "builds.inc"
 #undef REMAP_PASS
+#undef REMAP_MATERIAL
+#undef REMAP_NETWORK
+#undef REMAP_PRODUCTS
+  });
+}
+
+std::vector<Build<MaterialPass>> material_builds() {
+  return runnable<MaterialPass>({
+#define REMAP_PASS(name, code, flags)
+#define REMAP_MATERIAL(name, code, flags) {#code, #flags, name},
+#define REMAP_NETWORK(name, code, flags)
+#define REMAP_PRODUCTS(name, code, flags)
+#include "builds.inc"
+#undef REMAP_PASS
+#undef REMAP_MATERIAL
 #undef REMAP_NETWORK
 #undef REMAP_PRODUCTS
   });
@@ -50,10 +68,12 @@ std::vector<Build<Pass>> pass_builds() {
 std::vector<Build<NetworkPass>> network_builds() {
   return runnable<NetworkPass>({
 #define REMAP_PASS(name, code, flags)
+#define REMAP_MATERIAL(name, code, flags)
 #define REMAP_NETWORK(name, code, flags) {#code, #flags, name},
 #define REMAP_PRODUCTS(name, code, flags)
 #include "builds.inc"
 #undef REMAP_PASS
+#undef REMAP_MATERIAL
 #undef REMAP_NETWORK
 #undef REMAP_PRODUCTS
   });
@@ -62,10 +82,12 @@ std::vector<Build<NetworkPass>> network_builds() {
 std::vector<Build<ProductsPass>> products_builds() {
   return runnable<ProductsPass>({
 #define REMAP_PASS(name, code, flags)
+#define REMAP_MATERIAL(name, code, flags)
 #define REMAP_NETWORK(name, code, flags)
 #define REMAP_PRODUCTS(name, code, flags) {#code, #flags, name},
 #include "builds.inc"
 #undef REMAP_PASS
+#undef REMAP_MATERIAL
 #undef REMAP_NETWORK
 #undef REMAP_PRODUCTS
   });

@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   add_chains();
   add_rivals();
   add_networks();
+  add_workflows();
   add_compilations();
   add_fits();
   Medians medians;
@@ -40,6 +41,8 @@ int main(int argc, char** argv) {
       rival_section(medians),
       network_section(medians),
       other_pass_section(medians),
+      workflow_section(medians),
+      workflow_error_section(medians),
       header_section(medians),
       fit_section(medians)};
   if (json)

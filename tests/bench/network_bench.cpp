@@ -79,6 +79,19 @@ Section network_section(const Medians& medians) {
     if (build.flags != "o3") row.goal = 0.8;
     section.rows.push_back(row);
   }
+  for (const Build<MaterialPass>& build : material_builds()) {
+    if (build.code != kNetworkHeader || build.flags == "o2") continue;
+    const std::string name = build.code + "_" + build.flags + "/small",
+                      rival = best_products(medians, build.flags);
+    Row row;
+    row.what = "the header of whole materials at " + flags_text(build.flags);
+    row.value = mega_items(medians, name);
+    row.unit = "Mtexel/s";
+    row.ratio = speed_ratio(medians, name, rival);
+    row.rival = "Eigen, batches of " + rival.substr(rival.find('/') + 1);
+    if (build.flags != "o3") row.goal = 0.8;
+    section.rows.push_back(row);
+  }
   return section;
 }
 

@@ -11,14 +11,13 @@ namespace remap_bench {
 inline remapc::Table sweep_table(const std::string& objective, const std::string& source,
                                  const std::string& target) {
   const auto renderer = remapc::make_builtin_renderer();
-  const remapc::SweepOptions options{source,
-                                     target,
-                                     remapc::objective_preset(objective),
-                                     objective,
-                                     512,
-                                     1,
-                                     "bench",
-                                     remapc::grid_samples({0.01, 1.0}, 30, {0.0, 1.0}, 30)};
+  remapc::SweepOptions options;
+  options.source = source;
+  options.target = target;
+  options.objective = remapc::objective_preset(objective);
+  options.objective_name = objective;
+  options.sampling = "bench";
+  options.samples = remapc::grid_samples({0.01, 1.0}, 30, {0.0, 1.0}, 30);
   const auto journal = std::filesystem::temp_directory_path() / "remap-bench.journal";
   remapc::Table table = remapc::run_sweep(*renderer, options, {}, journal, false);
   std::filesystem::remove(journal);

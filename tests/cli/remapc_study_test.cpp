@@ -81,3 +81,32 @@ TEST_CASE("remapc study environments: has help with an example") {
   CHECK(result.exit_code == 0);
   CHECK(result.output.find("Example:\n  remapc study environments") != std::string::npos);
 }
+
+TEST_CASE("remapc study workflows: writes tables, pictures and words, and says what was left out") {
+  const Session session;
+  const std::vector<std::string> small = {
+      "study", "workflows",    "--count", "2",      "--alphas",           "0.2,0.5",        "--samples",
+      "64",    "--resolution", "16",      "--fits", session.path("none"), "--family-count", "50"};
+  session.write("none/remark.txt", "");
+  std::vector<std::string> full = small;
+  full.insert(full.end(), {"-o", session.path("study"), "--pictures"});
+  const ProcessResult result = session.remapc(full);
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.output.find("6 materials at alpha 0.2, 0.5 under 3 environments") == 0);
+  CHECK(result.output.find("Left out: no materials of the group ngan") != std::string::npos);
+  CHECK(result.output.find("Left out: no network among the fits") != std::string::npos);
+  // 5 comments, the header; 6 materials by 7 methods plain and 5 of glTF.
+  CHECK(line_count(read_file(session.path("study/workflows.csv"))) == 6 + 6 * (7 + 5));
+  CHECK(line_count(read_file(session.path("study/workflows_summary.csv"))) == 6 + (7 + 5) * 4);
+  CHECK((result.errors.find("workflows.svg is not drawn") != std::string::npos ||
+         read_file(session.path("study/workflows.svg")).find("</svg>") != std::string::npos));
+  CHECK(read_file(session.path("study/workflows_sky.png")).size() > 1000);
+  std::vector<std::string> json = small;
+  json.emplace_back("--json");
+  const std::string figures = session.remapc(json).output;
+  for (const std::string key :
+       {"\"gltf\": {", "\"projection\": {", "\"worst_ssim\": ", "\"uniform, 8-bit\": {"})
+    CHECK(figures.find(key) != std::string::npos);
+  check_failure(session.remapc({"study", "workflows", "--pictures"}), 2, "expected -o FOLDER");
+}

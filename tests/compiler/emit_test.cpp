@@ -63,6 +63,6 @@ TEST_CASE("emit: the registry lists converters in the order of their ids") {
   remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
   remap::Fit other = fit;
   other.id = "a_to_b";
-  CHECK(emit_registry({fit, other}) == emit_registry({other, fit}));
-  CHECK(emit_registry({fit, other}).find("std::array<ConverterEntry, 2>") != std::string::npos);
+  CHECK(emit_registry({fit, other}, {}) == emit_registry({other, fit}, {}));
+  CHECK(emit_registry({fit, other}, {}).find("std::array<ConverterEntry, 2>") != std::string::npos);
 }

@@ -337,7 +337,7 @@ TEST_CASE("generated header: compiles alone, twice, beside another and in two fi
     write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit, subject.options));
     includes += "#include \"" + fit.id + ".hpp\"\n#include \"" + fit.id + ".hpp\"\n";
   }
-  write_file(folder.path() / "registry.hpp", remapc::emit_registry(all));
+  write_file(folder.path() / "registry.hpp", remapc::emit_registry(all, {}));
   write_file(folder.path() / "one.cpp",
              includes + "bool test_one() { return remap::" + all[0].id + "::self_test(); }\n");
   write_file(folder.path() / "two.cpp",

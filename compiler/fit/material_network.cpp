@@ -1,0 +1,216 @@
+#include "fit/material_network.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "error.hpp"
+#include "fit/fit_table.hpp"
+#include "fit/network_training.hpp"
+#include "fit/split.hpp"
+#include "model/evaluate.hpp"
+#include "number_text.hpp"
+#include "version.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+constexpr double kLargestDeviation = 1e-3;
+
+// A row as the network takes and gives it.
+struct MaterialRow {
+  std::array<double, 6> specular{};  // diffuse, F0
+  std::array<double, 4> metallic{};  // base colour, metallic
+};
+
+std::size_t place_of(const NamedTable& table, const std::vector<std::string>& columns,
+                     const std::string& name) {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found == columns.end())
+    throw Error(ErrorKind::kInput,
+                table.name + ": has no column " + name +
+                    "; expected a table of remapc sample from a metallic model to a specular one");
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::vector<MaterialRow> material_rows(const NamedTable& table) {
+  std::array<std::size_t, 6> specular{};
+  std::array<std::size_t, 4> metallic{};
+  const std::array<std::string, 3> channels = {"_r", "_g", "_b"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    specular[c] = place_of(table, table.target_columns, "diffuse" + channels[c] + "2");
+    specular[3 + c] = place_of(table, table.target_columns, "f0" + channels[c] + "2");
+    metallic[c] = place_of(table, table.source_columns, "base_color" + channels[c] + "1");
+  }
+  metallic[3] = place_of(table, table.source_columns, "metallic1");
+  std::vector<MaterialRow> rows;
+  for (const NamedRow& row : table.rows) {
+    if (row.status != RowStatus::kOk) continue;
+    MaterialRow material;
+    for (std::size_t i = 0; i < specular.size(); ++i) material.specular[i] = row.target[specular[i]];
+    for (std::size_t i = 0; i < metallic.size(); ++i) material.metallic[i] = row.source[metallic[i]];
+    rows.push_back(material);
+  }
+  if (rows.empty())
+    throw Error(ErrorKind::kInput, table.name + ": has no row of status ok; expected some thousand");
+  return rows;
+}
+
+FamilyDeviation deviation_of(const std::vector<MaterialRow>& rows) {
+  double products = 0.0, squares = 0.0;
+  for (const MaterialRow& row : rows)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double metal = row.metallic[3];
+      products += (1.0 - metal) * (row.specular[3 + c] - row.metallic[c] * metal);
+      squares += (1.0 - metal) * (1.0 - metal);
+    }
+  FamilyDeviation deviation;
+  deviation.dielectric_f0 = squares > 0.0 ? remap::rounded(products / squares, 6) : 0.0;
+  for (const MaterialRow& row : rows)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double metal = row.metallic[3], base = row.metallic[c];
+      const double f0 = deviation.dielectric_f0 * (1.0 - metal) + base * metal,
+                   diffuse = base * (1.0 - metal);
+      deviation.f0 += std::pow(row.specular[3 + c] - f0, 2);
+      deviation.diffuse += std::pow(row.specular[c] - diffuse, 2);
+    }
+  const double count = 3.0 * static_cast<double>(rows.size());
+  deviation.f0 = std::sqrt(deviation.f0 / count);
+  deviation.diffuse = std::sqrt(deviation.diffuse / count);
+  return deviation;
+}
+
+std::string comment_of(const NamedTable& table, const std::string& key) {
+  for (const auto& [name, value] : table.comments)
+    if (name == key) return value;
+  throw Error(ErrorKind::kInput,
+              table.name + ": has no comment " + key + "; expected one, as remapc sample writes it");
+}
+
+remap::RoughnessConvention width_of(const NamedTable& table, const std::string& key) {
+  const std::string name = comment_of(table, key);
+  const auto convention = remap::convention_from_name(name);
+  if (!convention)
+    throw Error(ErrorKind::kInput, table.name + ": " + key + " is " + name + "; expected a convention");
+  return *convention;
+}
+
+remap::WorkflowConversion conversion_of(const NamedTable& table, double dielectric_f0) {
+  remap::WorkflowConversion conversion;
+  conversion.specular.model = comment_of(table, "target");
+  conversion.specular.width = width_of(table, "target_roughness");
+  conversion.metallic.model = comment_of(table, "source");
+  conversion.metallic.width = width_of(table, "source_roughness");
+  conversion.metallic.dielectric_f0 = dielectric_f0;
+  return conversion;
+}
+
+// Which rows judge: the first of a seeded order.
+std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed) {
+  std::vector<std::size_t> order(count);
+  for (std::size_t i = 0; i < count; ++i) order[i] = i;
+  std::mt19937_64 random(seed);
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+  return order;
+}
+
+struct MaterialSplit {
+  Samples training;
+  std::vector<MaterialRow> held_out;
+  remap::Split record;
+};
+
+MaterialSplit split_materials(const NamedTable& table, const std::vector<MaterialRow>& rows,
+                              const MaterialNetworkOptions& options) {
+  if (!(options.held_out_fraction >= 0.0 && options.held_out_fraction <= 0.9))
+    throw Error(ErrorKind::kUsage,
+                "held-out share: " + remap::number_text(options.held_out_fraction) + "; expected 0 to 0.9");
+  MaterialSplit split;
+  split.training.input_count = 6;
+  split.training.output_count = 4;
+  const auto judges =
+      static_cast<std::size_t>(std::lround(options.held_out_fraction * static_cast<double>(rows.size())));
+  const std::vector<std::size_t> order = seeded_order(rows.size(), options.seed);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const MaterialRow& row = rows[order[i]];
+    if (i < judges) {
+      split.held_out.push_back(row);
+      continue;
+    }
+    split.training.inputs.insert(split.training.inputs.end(), row.specular.begin(), row.specular.end());
+    split.training.outputs.insert(split.training.outputs.end(), row.metallic.begin(), row.metallic.end());
+  }
+  split.record.seed = options.seed;
+  split.record.held_out_fraction = options.held_out_fraction;
+  split.record.held_out_rows = static_cast<std::int64_t>(judges);
+  split.record.trained_rows = static_cast<std::int64_t>(rows.size() - judges);
+  for (const NamedRow& row : table.rows)
+    if (row.status != RowStatus::kOk) ++split.record.left_out[std::string(status_name(row.status))];
+  return split;
+}
+
+// Errors of what the converter gives: outputs held in 0 to 1.
+void judge(const remap::Network& network, const std::vector<MaterialRow>& rows,
+           remap::NetworkTraining* training) {
+  std::vector<double> colours, metals;
+  for (const MaterialRow& row : rows) {
+    const std::vector<double> outputs =
+        remap::network_outputs(network, std::vector<double>(row.specular.begin(), row.specular.end()));
+    for (std::size_t i = 0; i < 4; ++i)
+      (i < 3 ? colours : metals).push_back(std::clamp(outputs[i], 0.0, 1.0) - row.metallic[i]);
+  }
+  training->base_color = error_figures(std::move(colours));
+  training->metallic = error_figures(std::move(metals));
+}
+
+}  // namespace
+
+FamilyDeviation family_deviation(const NamedTable& table) { return deviation_of(material_rows(table)); }
+
+remap::AnalyticFit fit_material_network(const NamedTable& table, std::string_view bytes,
+                                        const MaterialNetworkOptions& options, const FitProgress& progress) {
+  const std::vector<MaterialRow> rows = material_rows(table);
+  const FamilyDeviation deviation = deviation_of(rows);
+  if (deviation.f0 > kLargestDeviation || deviation.diffuse > kLargestDeviation)
+    throw Error(ErrorKind::kInput, table.name + ": rows differ from equation (2) by " +
+                                       remap::number_text(std::max(deviation.f0, deviation.diffuse)) +
+                                       " rms; expected no more than " +
+                                       remap::number_text(kLargestDeviation) +
+                                       ", models of one BRDF and plain diffuse");
+  remap::AnalyticFit fit;
+  fit.conversion = conversion_of(table, deviation.dielectric_f0);
+  fit.id = options.id.empty()
+               ? remap::converter_id(fit.conversion.specular.model, fit.conversion.metallic.model)
+               : options.id;
+  if (!remap::is_valid_id(fit.id))
+    throw Error(ErrorKind::kUsage,
+                "id: \"" + fit.id + "\"; expected a C++ identifier without leading or doubled underscore");
+  const MaterialSplit split = split_materials(table, rows, options);
+  TrainingOptions training;
+  training.hidden = options.hidden;
+  training.activation = options.activation;
+  training.seed = options.seed;
+  training.starts = options.starts;
+  training.jobs = options.jobs;
+  const TrainedNetwork trained = train_network(split.training, training, progress);
+  fit.conversion.formula = remap::LearnedNetwork{trained.network};
+  fit.training.emplace();
+  fit.training->method["network"] = trained.method;
+  fit.training->method["table_against_equation_2"] =
+      "rms of f0 " + error_text(deviation.f0) + ", of diffuse " + error_text(deviation.diffuse);
+  judge(trained.network, split.held_out, &*fit.training);
+  fit.training->split = split.record;
+  fit.training->table.name = std::filesystem::path(table.name).filename().string();
+  fit.training->table.sha256 = sha256(bytes);
+  for (const auto& [key, value] : table.comments) fit.training->table.comments[key] = value;
+  fit.tool_version = remap::kVersion;
+  require_valid(fit.conversion, fit.id);
+  return fit;
+}
+
+}  // namespace remapc

@@ -1,0 +1,217 @@
+#include "study/workflows_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <sstream>
+
+#include "number_text.hpp"
+#include "version.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+std::string fixed(double value, int decimals, int width) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%*.*f", width, decimals, value);
+  return text.data();
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size(), width), ' ');
+  return text;
+}
+
+std::string right(const std::string& text, std::size_t width) {
+  return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
+}
+
+std::string listed(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + number_text(value);
+  return text;
+}
+
+std::size_t name_width(const WorkflowsResult& result) {
+  std::size_t width = 0;
+  for (const WorkflowComparison& comparison : result.comparisons)
+    for (const std::string& method : comparison.methods) width = std::max(width, method.size() + 2);
+  return width;
+}
+
+std::string comparison_text(const WorkflowsOptions& options, const WorkflowComparison& comparison,
+                            std::size_t width) {
+  std::string text = padded(comparison.convention == "gltf" ? "diffuse as in glTF" : "diffuse plain", width) +
+                     "   RMSE    SSIM   worst   headlight        RMSE of";
+  for (const MaterialGroup group : groups_of(options)) text += right(group_name(group), 9);
+  text += "\n";
+  for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
+    const WorkflowFigures all = figures_of(options, comparison, m);
+    text += padded(comparison.methods[m], width) + fixed(all.rmse, 2, 7) + fixed(all.ssim, 4, 8) +
+            fixed(all.worst_ssim, 3, 8) + fixed(all.headlight_rmse, 2, 7) + fixed(all.headlight_ssim, 4, 8) +
+            std::string(9, ' ');
+    for (const MaterialGroup group : groups_of(options))
+      text += fixed(figures_of(options, comparison, m, group).rmse, 2, 9);
+    text += "\n";
+  }
+  return text;
+}
+
+// How far above the floor the projection is, in words.
+std::string verdict(const WorkflowsOptions& options, const WorkflowComparison& comparison) {
+  const auto found = std::find(comparison.methods.begin(), comparison.methods.end(), "projection");
+  const auto place = static_cast<std::size_t>(found - comparison.methods.begin());
+  const double own = figures_of(options, comparison, place).rmse;
+  const double floor = figures_of(options, comparison, comparison.methods.size() - 1).rmse;
+  return "The projection is" + fixed(100.0 * (own / floor - 1.0), 1, 4) +
+         " % above what any base colour and metallic can do under these lights.\n";
+}
+
+std::string family_text(const std::vector<FamilyLine>& family, std::size_t width) {
+  std::string text = padded("there and back, rms", width);
+  for (std::size_t kind = 0; kind < kFamilyKinds; ++kind)
+    text += right(family_name(static_cast<FamilyKind>(kind)), 20);
+  text += "\n" + padded("", width);
+  for (std::size_t kind = 0; kind < kFamilyKinds; ++kind) text += "   metallic    base";
+  text += "\n";
+  for (const FamilyLine& line : family) {
+    text += padded(line.method, width);
+    for (const FamilyErrors& errors : line.errors)
+      text += fixed(errors.metallic, 4, 12) + fixed(errors.base_color, 4, 8);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string comments_of(const WorkflowsOptions& options) {
+  std::string environments;
+  for (const Environment& environment : options.environments)
+    environments += (environments.empty() ? "" : ", ") + environment.name;
+  return std::string("# tool: remapc ") + remap::kVersion +
+         "\n# resolution: " + std::to_string(options.resolution) +
+         "\n# samples: " + std::to_string(options.samples) + "\n# environments: " + environments +
+         "\n# alphas: " + listed(options.alphas) + "\n";
+}
+
+// A name that has commas, as CSV quotes it.
+std::string cell(const std::string& text) {
+  return text.find(',') == std::string::npos ? text : "\"" + text + "\"";
+}
+
+std::string rgb_cells(const Rgb& rgb) {
+  return number_text(rgb[0]) + "," + number_text(rgb[1]) + "," + number_text(rgb[2]);
+}
+
+double mean_of_environments(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) sum += values[i];
+  return sum / static_cast<double>(values.size() - 1);
+}
+
+}  // namespace
+
+std::vector<MaterialGroup> groups_of(const WorkflowsOptions& options) {
+  std::vector<MaterialGroup> groups;
+  for (std::size_t g = 0; g < kMaterialGroups; ++g)
+    if (std::any_of(options.materials.begin(), options.materials.end(), [&](const StudyMaterial& material) {
+          return material.group == static_cast<MaterialGroup>(g);
+        }))
+      groups.push_back(static_cast<MaterialGroup>(g));
+  return groups;
+}
+
+std::string workflows_text(const WorkflowsOptions& options, const WorkflowsResult& result,
+                           const std::vector<FamilyLine>& family) {
+  std::size_t width = name_width(result);
+  for (const FamilyLine& line : family) width = std::max(width, line.method.size() + 2);
+  std::string text = std::to_string(options.materials.size()) + " materials at alpha " +
+                     listed(options.alphas) + " under " + std::to_string(options.environments.size()) +
+                     " environments, " + std::to_string(options.resolution) + " x " +
+                     std::to_string(options.resolution) +
+                     " pixels\nRMSE in % of the display's range, SSIM of luma; worst: the 5 % least alike\n";
+  for (const WorkflowComparison& comparison : result.comparisons)
+    text += "\n" + comparison_text(options, comparison, width) + verdict(options, comparison);
+  return text + "\n" + family_text(family, width);
+}
+
+std::string workflow_materials_csv(const WorkflowsOptions& options, const WorkflowsResult& result) {
+  std::string text =
+      comments_of(options) +
+      "convention,material,group,alpha,diffuse_r,diffuse_g,diffuse_b,f0_r,f0_g,f0_b,method,"
+      "base_color_r,base_color_g,base_color_b,metallic,rmse_percent,ssim,headlight_rmse_percent,"
+      "headlight_ssim\n";
+  for (const WorkflowComparison& comparison : result.comparisons)
+    for (std::size_t i = 0; i < options.materials.size(); ++i)
+      for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
+        const StudyMaterial& material = options.materials[i];
+        const WorkflowPictures& pictures = comparison.pictures[m][i];
+        text += comparison.convention + "," + cell(material.name) + "," + group_name(material.group) + "," +
+                number_text(options.alphas[material.alpha]) + "," + rgb_cells(material.surface.diffuse) +
+                "," + rgb_cells(material.surface.f0) + "," + cell(comparison.methods[m]) + "," +
+                rgb_cells(pictures.surface.base_color) + "," + number_text(pictures.surface.metallic) + "," +
+                number_text(mean_of_environments(pictures.rmse)) + "," +
+                number_text(mean_of_environments(pictures.ssim)) + "," + number_text(pictures.rmse.back()) +
+                "," + number_text(pictures.ssim.back()) + "\n";
+      }
+  return text;
+}
+
+std::string workflow_summary_csv(const WorkflowsOptions& options, const WorkflowsResult& result) {
+  std::string text = comments_of(options) +
+                     "convention,method,group,rmse_percent,ssim,worst_ssim,headlight_rmse_percent,"
+                     "headlight_ssim\n";
+  for (const WorkflowComparison& comparison : result.comparisons)
+    for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
+      const auto add = [&](const std::string& group, const WorkflowFigures& figures) {
+        text += comparison.convention + "," + cell(comparison.methods[m]) + "," + group + "," +
+                number_text(figures.rmse) + "," + number_text(figures.ssim) + "," +
+                number_text(figures.worst_ssim) + "," + number_text(figures.headlight_rmse) + "," +
+                number_text(figures.headlight_ssim) + "\n";
+      };
+      add("all", figures_of(options, comparison, m));
+      for (const MaterialGroup group : groups_of(options))
+        add(group_name(group), figures_of(options, comparison, m, group));
+    }
+  return text;
+}
+
+std::string workflows_plot_script(const WorkflowsOptions& options, const WorkflowsResult& result) {
+  // Colours that differ for colour-blind eyes too (Okabe and Ito 2008), again from the first.
+  static constexpr std::array<const char*, 8> kColours = {"#000000", "#999999", "#CC79A7", "#E69F00",
+                                                          "#D55E00", "#56B4E9", "#0072B2", "#009E73"};
+  const WorkflowComparison& comparison = result.comparisons.front();
+  std::ostringstream out;
+  std::array<std::string, 2> bars;
+  out << "$figures << EOD\n";
+  const auto line = [&](const std::string& name, std::optional<MaterialGroup> group) {
+    out << name;
+    for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
+      const WorkflowFigures figures = figures_of(options, comparison, m, group);
+      out << ' ' << number_text(figures.rmse) << ' ' << number_text(1.0 - figures.ssim);
+    }
+    out << '\n';
+  };
+  line("all", {});
+  for (const MaterialGroup group : groups_of(options)) line(group_name(group), group);
+  out << "EOD\n";
+  for (std::size_t m = 0; m < comparison.methods.size(); ++m)
+    for (std::size_t panel = 0; panel < bars.size(); ++panel)
+      bars[panel] += (bars[panel].empty() ? "plot " : ", ") + std::string("$figures using ") +
+                     std::to_string(2 + 2 * m + panel) + ":xtic(1) linecolor rgb '" +
+                     kColours[m % kColours.size()] + "' title \"" + comparison.methods[m] + "\"";
+  out << "set terminal svg size 1400,520 enhanced font 'Helvetica,13' background rgb 'white'\n"
+      << "set multiplot layout 1,2 margins 0.05,0.99,0.09,0.84 spacing 0.07,0.1 title 'Specular to metallic, "
+      << options.materials.size() << " materials under " << options.environments.size()
+      << " environments' font ',16'\n"
+      << "set style data histograms\nset style histogram clustered gap 1\nset style fill solid border -1\n"
+      << "set grid ytics linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
+      << "set tics textcolor rgb 'black'\nset yrange [0:*]\n"
+      << "set title 'RMSE, % of the display''s range (less is more alike)'\nset key off\n"
+      << bars[0] << "\nset title '1 - SSIM of luma (0 is equal)'\nset key top left reverse Left noenhanced\n"
+      << bars[1] << "\nunset multiplot\n";
+  return out.str();
+}
+
+}  // namespace remapc
