@@ -28,18 +28,21 @@ int main() try {
   maps.width = kWidth;
   maps.height = kHeight;
   for (std::size_t c = 0; c < 3; ++c) {
-    maps.specular.channels.push_back(channel(c));
-    maps.specular_out.channels.push_back(channel(c));
+    maps.sources[remap::Parameter::kSpecular].channels.push_back(channel(c));
+    maps.targets[remap::Parameter::kSpecular].channels.push_back(channel(c));
   }
-  maps.specular.transfer = maps.specular_out.transfer = remap::Transfer::kSrgb;
-  maps.roughness.channels = {channel(3)};
-  maps.roughness_out.channels = {channel(3)};
+  maps.sources[remap::Parameter::kSpecular].transfer = maps.targets[remap::Parameter::kSpecular].transfer =
+      remap::Transfer::kSrgb;
+  maps.sources[remap::Parameter::kWidth].channels = {channel(3)};
+  maps.targets[remap::Parameter::kWidth].channels = {channel(3)};
   maps.source_convention = maps.target_convention = remap::RoughnessConvention::kGlossiness;
+
+  maps.value_statistics = true;
 
   const remap::MapStatistics done = remap::convert_maps(*converter, maps, 2);
   std::printf("%zu texels, %zu out of domain, specular %.3f to %.3f\n", done.texel_count,
-              done.out_of_domain_count, static_cast<double>(done.specular_out.min),
-              static_cast<double>(done.specular_out.max));
+              done.out_of_domain_count, static_cast<double>(done.targets.at(remap::Parameter::kSpecular).min),
+              static_cast<double>(done.targets.at(remap::Parameter::kSpecular).max));
   return 0;
 } catch (const remap::Error& error) {
   std::fprintf(stderr, "convert_buffers: %s\n", error.what());

@@ -407,10 +407,19 @@ struct ErrorCurve {
   return held(n - float_from_bits(bits(length) | (bits(step) & 0x80000000u)));
 }
 
-// From 0, so that order() compares it.
+// From 0, so that order() compares it. All bits of `no_metal`: the prior is one on metallic, not on what lies
+// between.
 [[gnu::always_inline]] inline float penalised_error(const Texel& texel, const Conventions& use,
-                                                    const ErrorCurve& curve, float n) noexcept {
-  return from_zero(error_of(texel, use, n) + curve.prior * n * (1.0f - n));
+                                                    const ErrorCurve& curve, std::uint32_t no_metal,
+                                                    float n) noexcept {
+  return from_zero(error_of(texel, use, n) + curve.prior * chosen(no_metal, 1.0f, n) * (1.0f - n));
+}
+
+// All bits where no channel has more F0 than a dielectric: no metal is as dark as that, so of answers that
+// look alike the one with less of it is meant.
+[[gnu::always_inline]] inline std::uint32_t no_metal_mask(const Texel& texel,
+                                                          const Conventions& use) noexcept {
+  return less_mask(larger(larger(texel.red.f0, texel.green.f0), texel.blue.f0), use.dielectric_f0);
 }
 
 // The share of least error and prior: Newton's method from both roots of the sum of all q, which one equation
@@ -423,11 +432,25 @@ struct ErrorCurve {
   const float upper = improved(curve, held(both / (2.0f * curve.r2 + 1e-20f)));
   const float lower = improved(curve, held(2.0f * curve.r0 / (both + 1e-20f)));
   const float metal = improved(curve, 0.0f);
-  const float of_upper = penalised_error(texel, use, curve, upper);
-  const float of_lower = penalised_error(texel, use, curve, lower);
-  const float of_metal = penalised_error(texel, use, curve, metal);
+  const std::uint32_t no_metal = no_metal_mask(texel, use);
+  const float of_upper = penalised_error(texel, use, curve, 0, upper);
+  const float of_lower = penalised_error(texel, use, curve, 0, lower);
+  const float of_metal = penalised_error(texel, use, curve, no_metal, metal);
   const float root = chosen(less_mask(of_lower, of_upper), lower, upper);
   return chosen(less_mask(of_metal, smaller(of_lower, of_upper)), metal, root);
+}
+
+// F0 that is a dielectric's in every channel, as 8 bits in sRGB round it (0.04 to 0.0395): then metallic 0 is
+// exact, and what else is exact is a metal as dark as that, which there is none of. Rounded maps of dark
+// dielectrics would become such metals.
+inline constexpr float kSameF0 = 0.0005f;
+
+[[gnu::always_inline]] inline std::uint32_t dielectric_mask(const Texel& texel,
+                                                            const Conventions& use) noexcept {
+  const float f0 = use.dielectric_f0;
+  const float difference = larger(larger(magnitude(texel.red.f0 - f0), magnitude(texel.green.f0 - f0)),
+                                  magnitude(texel.blue.f0 - f0));
+  return less_mask(difference, kSameF0);
 }
 
 // A loop of its own: what a lambda calls need not be inlined. Conventions of the width would be branches in
@@ -441,8 +464,10 @@ inline void find_shares(const Conventions& use, float prior, const SpecularTexel
 #elif defined(_MSC_VER)
 #pragma loop(ivdep)
 #endif
-  for (std::size_t i = 0; i < kMetallicBlock; ++i)
-    share[i] = best_share(texel_of(texels, alpha[i], i), use, prior);
+  for (std::size_t i = 0; i < kMetallicBlock; ++i) {
+    const Texel texel = texel_of(texels, alpha[i], i);
+    share[i] = chosen(dielectric_mask(texel, use), 1.0f, best_share(texel, use, prior));
+  }
 }
 
 // Diffuse (three rows), specular (three rows), width to base colour (three rows), metallic, width.

@@ -47,8 +47,7 @@ std::vector<fs::path*> files_of(ConversionJob& job) {
   const auto add = [&](ParameterRequest& parameter) {
     if (auto* map = std::get_if<MapName>(&parameter.source)) files.push_back(&map->file);
   };
-  add(job.request.roughness);
-  add(job.request.specular);
+  for (auto& [parameter, asked] : job.request.parameters) add(asked);
   for (CarriedRequest& carried : job.request.carried) add(carried.parameter);
   for (CopiedFile& copy : job.copies) files.push_back(&copy.source);
   return files;
@@ -57,20 +56,23 @@ std::vector<fs::path*> files_of(ConversionJob& job) {
 // The folder of sets turned into jobs.
 class TreeJobs {
  public:
-  TreeJobs(const ConvertOptions& options, const TextureSetRequest& stand_ins)
-      : options_(options), stand_ins_(stand_ins), root_(options.folder) {}
+  TreeJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& stand_ins)
+      : options_(options), workflow_(workflow), stand_ins_(stand_ins), root_(options.folder) {}
 
   JobList list();
 
  private:
   void add(const FoundSet& set);
   void add_tile(const FoundSet& set, int tile);
+  bool find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
+                   ConversionJob& job);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
   void copy_others(const FoundSet& set, int tile, ConversionJob& job) const;
   void require_no_collisions(const Discovery& found) const;
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
 
   const ConvertOptions& options_;
+  const WorkflowChoice& workflow_;
   const TextureSetRequest& stand_ins_;  // for what sets do not have, and factors for all
   fs::path root_;
   JobList jobs_;
@@ -102,13 +104,88 @@ JobList TreeJobs::list() {
   return std::move(jobs_);
 }
 
+// Whether a request names a map or numbers, rather than nothing yet.
+bool is_given(const ParameterRequest& request) {
+  const auto* map = std::get_if<MapName>(&request.source);
+  return map == nullptr || !map->file.empty();
+}
+
+// A map of a set, a bystander or not, and the channels that hold a role.
+struct FoundRole {
+  const FoundMap* map;
+  ChannelMeaning meaning;
+};
+
+std::vector<FoundRole> maps_of_role(const FoundSet& set, Role role) {
+  std::vector<FoundRole> found;
+  for (const std::vector<FoundMap>* maps : {&set.maps, &set.bystanders})
+    for (const FoundMap& map : *maps)
+      for (const ChannelMeaning& entry : map.meaning)
+        if (entry.role == role) found.push_back({&map, entry});
+  return found;
+}
+
+// The roles that can be a parameter, the best first: many a set calls its base colour diffuse, or its diffuse
+// colour albedo.
+std::vector<Role> roles_of(Parameter parameter) {
+  switch (parameter) {
+    case Parameter::kWidth:
+      return {Role::kRoughness, Role::kGlossiness, Role::kAlphaWidth};
+    case Parameter::kSpecular:
+      return {Role::kSpecular};
+    case Parameter::kDiffuse:
+      return {Role::kDiffuse, Role::kBaseColor};
+    case Parameter::kBaseColor:
+      return {Role::kBaseColor, Role::kDiffuse};
+    case Parameter::kMetallic:
+      return {Role::kMetallic};
+    default:
+      return {};
+  }
+}
+
 void TreeJobs::add(const FoundSet& set) {
-  if (!set.specular && options_.specular.empty()) {
-    jobs_.left_out.push_back(
-        {place(set) + ": has no specular map; expected one, or --specular VALUE for such sets", true});
+  for (const Parameter parameter : workflow_.sources()) {
+    std::vector<FoundRole> found;
+    for (const Role role : roles_of(parameter))
+      if (found.empty()) found = maps_of_role(set, role);
+    const std::string name(parameter_name(parameter));
+    if (found.size() > 1) {
+      jobs_.left_out.push_back({place(set) + ": has " + std::to_string(found.size()) + " maps for " + name +
+                                    ", " + shown(found[0].map->path.filename()) + " and " +
+                                    shown(found[1].map->path.filename()) + "; expected one",
+                                true});
+      return;
+    }
+    if (!found.empty() || is_given(stand_ins_.parameters.at(parameter))) continue;
+    jobs_.left_out.push_back({place(set) + ": has no " + name + " map; expected one, or " +
+                                  parameter_option(parameter) + " VALUE for such sets",
+                              true});
     return;
   }
   for (const int tile : tiles_of(set)) add_tile(set, tile);
+}
+
+// Puts the map of a parameter into the job; false, with a message, where the set lacks the tile.
+bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
+                           ConversionJob& job) {
+  for (const Role role : roles_of(parameter))
+    for (const FoundRole& found : maps_of_role(set, role)) {
+      const std::optional<fs::path> file = file_of(*found.map, tile);
+      if (!file) {
+        jobs_.left_out.push_back({job.name + (number.empty() ? "" : ", tile " + number) + ": has no " +
+                                      std::string(role_name(role)) + " map; expected a tile " +
+                                      shown(found.map->path.filename()),
+                                  true});
+        return false;
+      }
+      job.request.parameters[parameter].source =
+          MapName{root_ / *file, channel_names(found.meaning.channels)};
+      if (parameter == Parameter::kWidth && options_.encoding.empty() && convention_of(role))
+        job.request.convention = convention_of(role);
+      return true;
+    }
+  return true;
 }
 
 void TreeJobs::add_tile(const FoundSet& set, int tile) {
@@ -119,27 +196,10 @@ void TreeJobs::add_tile(const FoundSet& set, int tile) {
                     fs::path(options_.output) / set.folder,
                     {set.name + "_", tile == 0 ? "" : "." + number},
                     {}};
-  const auto source = [&](const MapUse& use) -> std::optional<MapName> {
-    const std::optional<fs::path> file = file_of(set.maps[use.map], tile);
-    if (!file) {
-      jobs_.left_out.push_back({job.name + (number.empty() ? "" : ", tile " + number) + ": has no " +
-                                    std::string(role_name(use.role)) + " map; expected a tile " +
-                                    shown(set.maps[use.map].path.filename()),
-                                true});
-      return std::nullopt;
-    }
-    return MapName{root_ / *file, channel_names(use.channels)};
-  };
-  const std::optional<MapName> width = source(*set.width);
-  if (!width) return;
-  job.request.roughness.source = *width;
-  if (!job.request.convention) job.request.convention = convention_of(set.width->role);
-  if (set.specular) {
-    const std::optional<MapName> specular = source(*set.specular);
-    if (!specular) return;
-    job.request.specular.source = *specular;
-  }
-  if (options_.layout != layout_name(Layout::kAsInputs)) carry(set, tile, job.request);
+  for (const Parameter parameter : workflow_.sources())
+    if (!find_source(set, parameter, number, tile, job)) return;
+  if (!options_.layout.empty() && options_.layout != layout_name(Layout::kAsInputs))
+    carry(set, tile, job.request);
   if (options_.copy_others) copy_others(set, tile, job);
   jobs_.jobs.push_back(std::move(job));
 }
@@ -149,7 +209,8 @@ void TreeJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) 
   for (const std::vector<FoundMap>* maps : {&set.maps, &set.bystanders})
     for (const FoundMap& map : *maps)
       for (const ChannelMeaning& entry : map.meaning) {
-        if (entry.role != Role::kOcclusion && entry.role != Role::kMetallic) continue;
+        const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();
+        if (entry.role != Role::kOcclusion && !carries_metallic) continue;
         const std::string name(role_name(entry.role));
         const std::optional<fs::path> file = file_of(map, tile);
         const bool is_named =
@@ -255,9 +316,10 @@ JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& 
 
 }  // namespace
 
-JobList conversion_jobs(const ConvertOptions& options, const TextureSetRequest& request) {
-  if (!options.folder.empty()) return TreeJobs(options, request).list();
-  ConversionJob job{"", "", request, options.output, {}, copied_files(options)};
+JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
+                        const TextureSetRequest& request) {
+  if (!options.folder.empty()) return TreeJobs(options, workflow, request).list();
+  ConversionJob job{"", "", request, options.output, {}, copied_files(options, workflow)};
   if (const std::vector<TiledFile> tiled = tiled_files(job); !tiled.empty()) return tile_jobs(job, tiled);
   JobList list;
   list.jobs.push_back(std::move(job));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands/convert_options.hpp"
+#include "commands/workflow_choice.hpp"
 #include "texture/texture_set.hpp"
 
 namespace remap {
@@ -37,6 +38,7 @@ struct JobList {
 
 // `request`: what the options say of one set, or of all sets of a folder. Throws kUsage for a folder without
 // sets and where two sets would write one file; kInput where the folder or a naming file cannot be read.
-JobList conversion_jobs(const ConvertOptions& options, const TextureSetRequest& request);
+JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
+                        const TextureSetRequest& request);
 
 }  // namespace remap

@@ -15,6 +15,7 @@
 #include "commands/convert_report.hpp"
 #include "commands/converter_text.hpp"
 #include "commands/job_run.hpp"
+#include "commands/workflow_choice.hpp"
 #include "convert/chained_converter.hpp"
 #include "error.hpp"
 #include "model/fit_json.hpp"
@@ -35,10 +36,11 @@ void warn(const ConvertOptions& options, const std::string& message) {
 }
 
 // A fit that cannot be lowered is still converted: as it is, slowly.
-std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, InstructionSet set) {
+std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const WorkflowChoice& workflow,
+                                            InstructionSet set) {
   Fit fit = load_fit(options.fit);
-  require_agreement("--from", options.from, options.fit, fit.source.model);
-  require_agreement("--to", options.to, options.fit, fit.target.model);
+  require_agreement("--from", workflow.source_brdf, options.fit, fit.source.model);
+  require_agreement("--to", workflow.target_brdf, options.fit, fit.target.model);
   try {
     return make_lowered_converter(fit, set);
   } catch (const Error& error) {
@@ -48,57 +50,83 @@ std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, Instr
   return make_interpreted_converter(std::move(fit));
 }
 
-ChosenConverter choose_converter(const ConvertOptions& options) {
-  ChosenConverter chosen;
-  const InstructionSet set = chosen_instructions(options);
+// The converter of width and specular; none where both workflows stand on one BRDF.
+void choose_brdf(const ConvertOptions& options, InstructionSet set, ChosenConverter& chosen) {
+  const WorkflowChoice& workflow = chosen.workflow;
   if (!options.fit.empty()) {
-    chosen.owned = converter_of_fit(options, set);
+    chosen.owned = converter_of_fit(options, workflow, set);
     chosen.path = {{chosen.owned.get()}, expected_error(chosen.owned->info())};
   } else {
     if (options.from.empty() || options.to.empty())
       throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") +
                                          ": is missing; expected --from and --to, or --fit");
-    chosen.path = compiled_graph(set).find_paths({options.from, options.to, options.via}).front();
+    if (workflow.is_material() && workflow.source_brdf == workflow.target_brdf && options.via.empty()) return;
+    chosen.path =
+        compiled_graph(set).find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
     if (chosen.path.steps.size() > 1) chosen.owned = make_chained_converter(chosen.path.steps);
   }
-  chosen.converter = chosen.owned ? chosen.owned.get() : chosen.path.steps.front();
-  if (!chosen.converter->self_test())
+  chosen.brdf = chosen.owned ? chosen.owned.get() : chosen.path.steps.front();
+  if (!chosen.brdf->self_test())
     throw Error(ErrorKind::kNumeric,
-                chosen.converter->info().id + ": fails its self-test; expected the values it was made with");
+                chosen.brdf->info().id + ": fails its self-test; expected the values it was made with");
+}
+
+ChosenConverter choose_converter(const ConvertOptions& options, WorkflowChoice workflow) {
+  ChosenConverter chosen;
+  const InstructionSet set = chosen_instructions(options);
+  chosen.workflow = std::move(workflow);
+  choose_brdf(options, set, chosen);
+  chosen.material = chosen.workflow.is_material() ? make_workflow_converter(stages_of(chosen), set)
+                                                  : make_material_converter(*chosen.brdf);
   return chosen;
 }
 
-bool is_constant(const ParameterRequest& request) {
-  return std::holds_alternative<ConstantValues>(request.source);
+bool are_constants(const TextureSetRequest& request) {
+  return std::all_of(request.parameters.begin(), request.parameters.end(), [](const auto& entry) {
+    return std::holds_alternative<ConstantValues>(entry.second.source);
+  });
+}
+
+// The name of a target: widths by what they hold.
+std::string name_of_target(const ChosenConverter& chosen, Parameter parameter, RoughnessConvention width) {
+  if (parameter == Parameter::kWidth) return std::string(convention_name(width));
+  if (!chosen.workflow.is_material()) return chosen.info().target.specular;
+  return std::string(parameter_name(parameter));
 }
 
 // Numbers alone: no map is read or written.
 void convert_values(const ConvertOptions& options, const ChosenConverter& chosen,
                     const TextureSetRequest& request) {
   const PassOptions pass = pass_options(options);
+  const ConverterInfo& info = chosen.info();
   MapConversion maps;
   maps.width = maps.height = 1;
-  const auto source = [](const ParameterRequest& parameter, const std::string& name) {
-    SourceParameter result;
-    result.constants = std::get<ConstantValues>(parameter.source);
-    result.factors = parameter.factors;
-    result.name = name;
-    return result;
-  };
-  maps.roughness = source(request.roughness, "--roughness");
-  maps.specular = source(request.specular, "--specular");
+  for (const auto& [parameter, asked] : request.parameters) {
+    SourceParameter& source = maps.sources[parameter];
+    source.constants = std::get<ConstantValues>(asked.source);
+    source.factors = asked.factors;
+    source.name = parameter_option(parameter);
+  }
   maps.source_convention = request.convention;
   maps.target_convention = pass.target_convention;
+  if (!maps.target_convention && chosen.workflow.is_material())
+    maps.target_convention = width_of(*chosen.workflow.target);
   maps.bad_texels = pass.bad_texels;
+  const RoughnessConvention width = maps.target_convention.value_or(info.target.roughness);
+  const auto specular = maps.sources.find(Parameter::kSpecular);
   ConvertedValues values;
-  values.specular.resize(maps.specular.constants.size());
-  maps.roughness_out.channels = {float_channel(&values.roughness, 1)};
-  for (float& value : values.specular) maps.specular_out.channels.push_back(float_channel(&value, 1));
-  values.in_domain = convert_maps(*chosen.converter, maps).out_of_domain_count == 0;
-  const ConverterInfo& info = chosen.converter->info();
-  if (!values.in_domain) warn(options, "the values are outside " + domain_text(info));
-  print_values(chosen, std::string(convention_name(pass.target_convention.value_or(info.target.roughness))),
-               values, options.json);
+  for (const Parameter parameter : chosen.material->targets()) {
+    if (parameter == Parameter::kDoubts) continue;
+    const std::size_t channels = chosen.material->target_channels(
+        parameter, specular == maps.sources.end() ? 3 : specular->second.constants.size());
+    values.values.push_back(
+        {name_of_target(chosen, parameter, width), std::vector<float>(channels), !is_color(parameter)});
+    for (float& value : values.values.back().channels)
+      maps.targets[parameter].channels.push_back(float_channel(&value, 1));
+  }
+  values.in_domain = convert_maps(*chosen.material, maps).out_of_domain_count == 0;
+  if (!values.in_domain) warn(options, "the values are outside " + domain_text(chosen.brdf->info()));
+  print_values(chosen, values, options.json);
 }
 
 // What a folder's roughness maps are taken for, where that is not what most tools write.
@@ -119,8 +147,8 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
   const auto start = std::chrono::steady_clock::now();
   if (options.output.empty())
     throw Error(ErrorKind::kUsage, "--output: is missing; expected a folder for the results");
-  const JobList list = conversion_jobs(options, request);
-  warn_of_encoding(options, list, chosen.converter->info().source);
+  const JobList list = conversion_jobs(options, chosen.workflow, request);
+  warn_of_encoding(options, list, chosen.info().source);
   Outcome outcome{chosen, list, run_jobs(list, chosen, options), options.dry_run, 0.0, {}};
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.used = resource_use();
@@ -137,11 +165,13 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
 }
 
 void convert(const ConvertOptions& options) {
+  WorkflowChoice workflow = workflow_choice(options);
   (void)pass_options(options);  // wrong words before anything is looked at
-  (void)target_choice(options);
-  const TextureSetRequest request = set_request(options);
-  const ChosenConverter chosen = choose_converter(options);
-  if (options.folder.empty() && is_constant(request.roughness) && is_constant(request.specular))
+  (void)target_choice(options, workflow);
+  const TextureSetRequest request = set_request(options, workflow);
+  const ChosenConverter chosen = choose_converter(options, std::move(workflow));
+  for (const std::string& assumption : chosen.workflow.assumptions) warn(options, assumption);
+  if (options.folder.empty() && are_constants(request))
     convert_values(options, chosen, request);
   else
     convert_maps_of(options, chosen, request);
@@ -151,7 +181,8 @@ void convert(const ConvertOptions& options) {
 
 void add_convert_command(CLI::App& app) {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App* command = app.add_subcommand("convert", "Convert the roughness and specular maps of a material");
+  CLI::App* command = app.add_subcommand(
+      "convert", "Convert the maps of a material: width and specular, or all of a workflow");
   add_convert_options(*command, *options);
   command->footer(
       "Results have the names of the inputs. A packed map keeps its other channels bit for bit. <UDIM>, "
@@ -169,7 +200,11 @@ void add_convert_command(CLI::App& app) {
       "    roughness --specular 0.04 --only roughness -o out\n"
       "  texremap convert assets --recursive --from mitsuba/ward --to mitsuba/ggx --specular 0.04 -o "
       "converted\n"
-      "  texremap convert --from mitsuba/ward --to mitsuba/ggx --roughness 0.3 --specular 0.04");
+      "  texremap convert --from mitsuba/ward --to mitsuba/ggx --roughness 0.3 --specular 0.04\n"
+      "  texremap convert --from gltf-specgloss --to gltf --diffuse d.png --specular sg.png --glossiness "
+      "sg.png:A "
+      "\\\n"
+      "    --layout orm -o out");
   command->callback([options] { convert(*options); });
 }
 

@@ -25,6 +25,12 @@ struct ConvertOptions {
   bool resample = false;
   std::string from;
   std::string to;
+  std::string from_workflow;
+  std::string to_workflow;
+  std::string dielectric_f0;
+  std::string diffuse_convention;
+  std::string formula;
+  std::string prior;
   std::vector<std::string> via;
   std::string fit;
   std::string roughness;
@@ -34,7 +40,8 @@ struct ConvertOptions {
   std::string metallic;
   std::string diffuse;
   std::string base_color;
-  std::string layout = "as-inputs";
+  std::string metal_mask;
+  std::string layout;
   std::string roughness_factor;
   std::string specular_factor;
   std::string encoding;
@@ -43,6 +50,8 @@ struct ConvertOptions {
   std::string only;
   std::string bad_texels = "keep";
   std::string mask;
+  std::string residual;
+  std::string metallic_width;
   std::string output;
   std::string format;
   std::string type;
@@ -56,11 +65,13 @@ struct ConvertOptions {
 
 void add_convert_options(CLI::App& command, ConvertOptions& options);
 
+struct WorkflowChoice;  // workflow_choice.hpp
+
 // Each throws kUsage, naming the option, for what there is not.
-TextureSetRequest set_request(const ConvertOptions& options);
+TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow);
 // Of the one set that the options name.
-std::vector<CopiedFile> copied_files(const ConvertOptions& options);
-TargetChoice target_choice(const ConvertOptions& options);
+std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
+TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
 PassOptions pass_options(const ConvertOptions& options);
 // The options that results depend on, as one text.
 std::string result_options_text(const ConvertOptions& options);

@@ -11,22 +11,34 @@
 #include "command_line/resource_use.hpp"
 #include "commands/conversion_jobs.hpp"
 #include "convert/path.hpp"
+#include "texture/material_survey.hpp"
 #include "texture/texture_pass.hpp"
 
 namespace remap {
 
-// A converter that is compiled in, or one that was made for this run: of a fit, or of the steps of a path.
+// What a run converts with: converters that are compiled in or were made for it, of a fit or of the steps of
+// a path, and the workflows around them.
 struct ChosenConverter {
   std::unique_ptr<Converter> owned;
-  const Converter* converter = nullptr;
-  ConverterPath path;
+  const Converter* brdf = nullptr;  // of width and specular; null where both ends have one BRDF
+  ConverterPath path;               // its steps
+  WorkflowChoice workflow;
+  std::unique_ptr<MaterialConverter> material;  // all of it
+
+  const ConverterInfo& info() const noexcept { return material->info(); }
 };
+
+// The stages of a conversion between workflows.
+WorkflowStages stages_of(const ChosenConverter& chosen);
+// What results say that they were made by: the ids of the steps, and the formula of a workflow.
+std::string converter_ids(const ChosenConverter& chosen);
 
 // What came of one set, of all its tiles.
 struct JobReport {
   struct Result {
     std::filesystem::path path;
-    bool roughness = false, specular = false, mask = false;  // what it holds
+    std::vector<Parameter> parameters;  // what it holds
+    bool mask = false;
   };
   std::string name;                // empty for the one set of a command line
   std::vector<std::string> tiles;  // those that were converted; empty where the set has none
@@ -34,6 +46,7 @@ struct JobReport {
   std::vector<Result> results;                // those that would be, in a dry run and after a failure
   std::vector<std::filesystem::path> copies;  // the same, of files that are carried along
   Transfer specular_transfer = Transfer::kLinear;
+  std::optional<DielectricF0> estimated_f0;  // of maps of the specular workflow, on their way to metallic
   std::vector<std::string> warnings;
   std::optional<std::string> failure;
   bool was_done = false;  // by an earlier run, which this one resumes
@@ -66,12 +79,14 @@ void print_json(const Outcome& outcome);
 
 // Of a conversion without maps.
 struct ConvertedValues {
-  float roughness = 0.0f;
-  std::vector<float> specular;
+  struct Value {
+    std::string name;
+    std::vector<float> channels;
+    bool is_scalar = false;  // a number rather than a list in JSON
+  };
+  std::vector<Value> values;
   bool in_domain = true;
 };
-// `roughness_name`: what the width that was asked for is called.
-void print_values(const ChosenConverter& chosen, const std::string& roughness_name,
-                  const ConvertedValues& values, bool json);
+void print_values(const ChosenConverter& chosen, const ConvertedValues& values, bool json);
 
 }  // namespace remap

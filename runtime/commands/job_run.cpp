@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <memory>
 #include <mutex>
 
 #include "command_line/interruption.hpp"
@@ -45,6 +47,7 @@ std::string hash_of(const std::vector<std::filesystem::path>& files, const Chose
   ContentHash hash;
   for (const std::filesystem::path& file : files) hash.add_file(file);
   for (const Converter* step : chosen.path.steps) hash.add(step->info().id);
+  if (chosen.workflow.is_material()) hash.add(converter_ids(chosen));
   if (!options.fit.empty()) hash.add_file(options.fit);
   hash.add(result_options_text(options));
   hash.add(kVersion);
@@ -52,10 +55,8 @@ std::string hash_of(const std::vector<std::filesystem::path>& files, const Chose
 }
 
 Metadata metadata_of(const ChosenConverter& chosen, const std::string& hash) {
-  const ConverterInfo& info = chosen.converter->info();
-  std::string ids;
-  for (const Converter* step : chosen.path.steps) ids += (ids.empty() ? "" : " ") + step->info().id;
-  return {{"remap:converter", ids},
+  const ConverterInfo& info = chosen.info();
+  return {{"remap:converter", converter_ids(chosen)},
           {"remap:source", info.source.model},
           {"remap:target", info.target.model},
           {"remap:version", kVersion},
@@ -115,11 +116,10 @@ bool all_done(const TargetPlan& plan, const std::string& hash, bool force) {
 
 JobReport::Result result_of(const PlannedMap& planned) {
   using Content = TargetChannel::Content;
-  JobReport::Result result{planned.path};
+  JobReport::Result result{planned.path, {}, false};
   for (const PlannedPart& part : planned.parts)
     for (const TargetChannel& channel : part.channels) {
-      result.roughness |= channel.content == Content::kRoughness;
-      result.specular |= channel.content == Content::kSpecular;
+      if (channel.content == Content::kParameter) result.parameters.push_back(channel.parameter);
       result.mask |= channel.content == Content::kMask;
     }
   return result;
@@ -128,7 +128,10 @@ JobReport::Result result_of(const PlannedMap& planned) {
 class JobRunner {
  public:
   JobRunner(const ChosenConverter& chosen, const ConvertOptions& options, int threads_a_job)
-      : chosen_(chosen), options_(options), choice_(target_choice(options)), pass_(pass_options(options)) {
+      : chosen_(chosen),
+        options_(options),
+        choice_(target_choice(options, chosen.workflow)),
+        pass_(pass_options(options)) {
     pass_.thread_count = threads_a_job;
     pass_.cancelled = &interruption();
   }
@@ -137,6 +140,7 @@ class JobRunner {
   void run(const ConversionJob& job, const std::function<void(double)>& progress, JobReport& report) const;
 
  private:
+  std::unique_ptr<MaterialConverter> survey(TextureSet& set, JobReport& report) const;
   void note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) const;
 
   const ChosenConverter& chosen_;
@@ -145,9 +149,31 @@ class JobRunner {
   PassOptions pass_;
 };
 
+// Looks at the maps of a workflow. Returns a converter of the set's own where the F0 of its dielectrics is to
+// be that of the maps.
+std::unique_ptr<MaterialConverter> JobRunner::survey(TextureSet& set, JobReport& report) const {
+  const WorkflowChoice& workflow = chosen_.workflow;
+  if (!workflow.is_material()) return nullptr;
+  const MaterialSample sample = sample_materials(set);
+  report.warnings = doubts_about(sample, set);
+  if (!workflow.is_to_metallic() || kind_of(*workflow.source) != WorkflowKind::kSpecular) return nullptr;
+  WorkflowStages stages = stages_of(chosen_);
+  const RoughnessConvention width = set.convention.value_or(chosen_.info().source.roughness);
+  if (!workflow.f0_given) report.estimated_f0 = estimated_f0(sample, stages, width);
+  if (!workflow.estimates_f0) return nullptr;
+  if (!report.estimated_f0 || !report.estimated_f0->is_certain) {
+    report.warnings.push_back(report.inputs.front().string() +
+                              ": hardly any texel tells the F0 of a dielectric; the default is used, or "
+                              "--dielectric-f0 VALUE");
+    return nullptr;
+  }
+  std::get<MetallicWorkflow>(stages.target).dielectric_f0 = std::round(report.estimated_f0->f0 * 1e4) / 1e4;
+  return make_workflow_converter(stages, chosen_.info().instructions);
+}
+
 void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets,
                             JobReport& report) const {
-  report.warnings = remarks(set);
+  for (const std::string& remark : remarks(set)) report.warnings.push_back(remark);
   if (choice_.layout == Layout::kOrm || choice_.layout == Layout::kArm) {
     const auto note = [&](const std::string& name, const std::string& value) {
       const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };
@@ -156,7 +182,7 @@ void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>&
                                   name + " is " + value);
     };
     note("occlusion", "1");
-    note("metallic", "0");
+    if (!chosen_.workflow.is_to_metallic()) note("metallic", "0");
   }
   for (const TargetMap& target : targets) {
     if (const std::string& lossy = target.writer.layout().lossy_compression; !lossy.empty())
@@ -170,8 +196,9 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   const auto start = std::chrono::steady_clock::now();
   TextureSet set = open_texture_set(job.request);
   report.inputs = files_of(set);
-  report.specular_transfer = set.specular.transfer;
-  require_not_converted(set, chosen_.converter->info().source.model, options_.force);
+  if (const SetParameter* specular = set.map_of(Parameter::kSpecular))
+    report.specular_transfer = specular->transfer;
+  require_not_converted(set, chosen_.info().source.model, options_.force);
 
   TargetChoice choice = choice_;
   choice.folder = job.folder;
@@ -190,14 +217,17 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   }
   if (options_.dry_run) return;
 
+  const std::unique_ptr<MaterialConverter> own = survey(set, report);
   std::vector<TargetMap> targets = open_targets(set, plan, choice);
   note_doubts(set, targets, report);
   PassOptions pass = pass_;
-  // Results hold what the inputs hold, where that was named.
+  // Results hold what the inputs hold, where that was named; those of a workflow what its model says.
   if (choice.layout == Layout::kSpecGloss) pass.target_convention = RoughnessConvention::kGlossiness;
-  if (!pass.target_convention) pass.target_convention = job.request.convention;
+  if (!pass.target_convention)
+    pass.target_convention =
+        chosen_.workflow.is_material() ? width_of(*chosen_.workflow.target) : job.request.convention;
   pass.progress = progress;
-  report.statistics = run_texture_pass(set, targets, *chosen_.converter, pass);
+  report.statistics = run_texture_pass(set, targets, own ? *own : *chosen_.material, pass);
   for (const PlannedCopy& copy : plan.copies) copy_whole_file(copy.source, copy.path);
   report.bytes_read = size_of(report.inputs);
   for (const JobReport::Result& result : report.results) report.bytes_written += size_of({result.path});
@@ -251,7 +281,7 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
       static_cast<int>(std::clamp<std::size_t>(list.jobs.size(), 1, static_cast<std::size_t>(threads)));
   const JobRunner runner(chosen, options, threads / at_once);
   set_image_thread_count(threads / at_once);
-  JobProgress line(list, chosen.converter->info().id, !options.quiet);
+  JobProgress line(list, chosen.info().id, !options.quiet);
   std::vector<JobReport> reports(list.jobs.size());
   run_parallel(list.jobs.size(), static_cast<unsigned>(at_once), [&](std::size_t i) {
     reports[i].name = list.jobs[i].name;

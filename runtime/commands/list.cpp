@@ -11,12 +11,14 @@
 #include "commands/converter_text.hpp"
 #include "convert/path.hpp"
 #include "error.hpp"
+#include "workflow/workflow_models.hpp"
 
 namespace remap {
 namespace {
 
 struct ListOptions {
   bool models = false;
+  bool workflows = false;
   bool json = false;
 };
 
@@ -91,15 +93,60 @@ void list_models(const ListOptions& options) {
   if (options.json) std::cout << all.dump(2) << '\n';
 }
 
+Json workflow_json(const WorkflowModel& model) {
+  Json json = {{"model", model_of(model.end)},
+               {"workflow", workflow_kind_name(kind_of(model.end))},
+               {"diffuse", diffuse_convention_name(diffuse_of(model.end))},
+               {"dielectric_f0", Json()},
+               {"width", convention_name(width_of(model.end))},
+               {"brdf", model.brdf},
+               {"conventions_known", model.conventions_known},
+               {"reason", model.reason}};
+  if (const auto* metallic = std::get_if<MetallicWorkflow>(&model.end))
+    json["dielectric_f0"] = metallic->dielectric_f0;
+  return json;
+}
+
+void print_workflow(const WorkflowModel& model) {
+  const auto* metallic = std::get_if<MetallicWorkflow>(&model.end);
+  std::cout << model_of(model.end) << '\n'
+            << "  takes    "
+            << (metallic != nullptr ? "base colour, metallic and " : "diffuse, specular and ")
+            << convention_name(width_of(model.end)) << '\n'
+            << "  diffuse  " << diffuse_convention_name(diffuse_of(model.end));
+  if (metallic != nullptr) std::cout << ", F0 of a dielectric " << metallic->dielectric_f0;
+  std::cout << (model.conventions_known ? "" : ", unless you say otherwise") << '\n'
+            << "  over     " << model.brdf << '\n'
+            << "  because  " << model.reason << '\n';
+}
+
+void list_workflows(const ListOptions& options) {
+  Json all = Json::array();
+  for (const WorkflowModel& model : workflow_models()) {
+    if (options.json)
+      all.push_back(workflow_json(model));
+    else
+      print_workflow(model);
+  }
+  if (options.json) std::cout << all.dump(2) << '\n';
+}
+
 }  // namespace
 
 void add_list_command(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
   CLI::App* command = app.add_subcommand("list", "List the converters that are compiled in, or their models");
   command->add_flag("--models", options->models, "The models instead, and which others each one reaches");
+  command->add_flag(
+      "--workflows", options->workflows,
+      "The workflows that have a name instead, with their conventions; every model of --models is "
+      "one, too, by --from-workflow and --to-workflow");
   command->add_flag("--json", options->json, "Machine-readable result on standard output");
-  command->footer("Example:\n  texremap list --json");
-  command->callback([options] { options->models ? list_models(*options) : list_converters(*options); });
+  command->footer("Example:\n  texremap list --json\n  texremap list --workflows");
+  command->callback([options] {
+    if (options->workflows) return list_workflows(*options);
+    options->models ? list_models(*options) : list_converters(*options);
+  });
 }
 
 }  // namespace remap

@@ -11,6 +11,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/converter_text.hpp"
+#include "commands/workflow_choice.hpp"
 #include "convert/chained_converter.hpp"
 
 namespace remap {
@@ -70,30 +71,66 @@ Json step_json(const ConverterInfo& info) {
           {"expected_error", expected_error(info)}};
 }
 
-void print_json(const std::vector<ConverterPath>& paths, const ConverterInfo& whole) {
+void print_json(const std::vector<ConverterPath>& paths, const ConverterInfo& whole,
+                const std::vector<std::string>& stages) {
   Json steps = Json::array(), alternatives = Json::array();
   for (const Converter* step : paths.front().steps) steps.push_back(step_json(step->info()));
   for (std::size_t i = 1; i < paths.size(); ++i)
     alternatives.push_back({{"models", path_models(paths[i])},
                             {"path", path_json(paths[i])},
                             {"expected_error", paths[i].expected_error}});
-  const Json result = {{"models", path_models(paths.front())},
-                       {"path", path_json(paths.front())},
-                       {"expected_error", paths.front().expected_error},
-                       {"assumed_image_error", kAssumedImageError},
-                       {"domain", domain_json(whole)},
-                       {"steps", steps},
-                       {"reason", reason(paths)},
-                       {"alternatives", alternatives}};
+  Json result = {{"models", path_models(paths.front())},
+                 {"path", path_json(paths.front())},
+                 {"expected_error", paths.front().expected_error},
+                 {"assumed_image_error", kAssumedImageError},
+                 {"domain", domain_json(whole)},
+                 {"steps", steps},
+                 {"reason", reason(paths)},
+                 {"alternatives", alternatives}};
+  if (!stages.empty()) result["stages"] = stages;
   std::cout << result.dump(2) << '\n';
 }
 
-void explain(const PathOptions& options) {
+std::string end_text(const WorkflowEnd& end, const std::string& brdf) {
+  return model_of(end) + ": " + std::string(workflow_kind_name(kind_of(end))) + " over " + brdf +
+         ", diffuse " + std::string(diffuse_convention_name(diffuse_of(end)));
+}
+
+// What becomes of a material, before and after the converters of width and specular.
+std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
+  std::vector<std::string> stages = {end_text(*choice.source, choice.source_brdf)};
+  const bool from_metallic = kind_of(*choice.source) == WorkflowKind::kMetallic;
+  if (from_metallic && (choice.source_brdf != choice.target_brdf || !choice.is_to_metallic()))
+    stages.push_back("to diffuse and specular by equation (2), exact");
+  if (choice.source_brdf != choice.target_brdf)
+    stages.push_back("width and specular from " + choice.source_brdf + " to " + choice.target_brdf);
+  if (choice.is_to_metallic())
+    stages.push_back("to base colour and metallic by " + std::string(formula_name(choice.formula)));
+  stages.push_back(end_text(*choice.target, choice.target_brdf));
+  return stages;
+}
+
+void explain(const PathOptions& asked) {
+  PathOptions options = asked;
+  const WorkflowChoice choice = workflow_between(asked.request.source, asked.request.target);
+  options.request.source = choice.source_brdf;
+  options.request.target = choice.target_brdf;
+  const bool has_path =
+      !choice.is_material() || choice.source_brdf != choice.target_brdf || !asked.request.via.empty();
+  const std::vector<std::string> stages =
+      choice.is_material() ? stage_texts(choice) : std::vector<std::string>{};
+  if (!options.json)
+    for (const std::string& stage : stages) std::cout << stage << '\n';
+  if (!has_path) {
+    if (options.json)
+      std::cout << Json{{"stages", stages}, {"path", Json::array()}, {"expected_error", 0.0}}.dump(2) << '\n';
+    return;
+  }
   const ConverterGraph graph = compiled_graph();
   const std::vector<ConverterPath> paths = graph.find_paths(options.request, kPathsShown);
   const ConverterInfo whole = make_chained_converter(paths.front().steps)->info();
   if (options.json)
-    print_json(paths, whole);
+    print_json(paths, whole, stages);
   else
     print_text(paths, whole);
 }
@@ -111,7 +148,9 @@ void add_path_command(CLI::App& app) {
                    "Model that the path must go through; give it again for more, in their order")
       ->allow_extra_args(false);
   command->add_flag("--json", options->json, "Machine-readable result on standard output");
-  command->footer("Example:\n  texremap path --from mitsuba/ward --to mitsuba/as");
+  command->footer(
+      "Example:\n  texremap path --from mitsuba/ward --to mitsuba/as\n"
+      "  texremap path --from mitsuba/ward --to gltf");
   command->callback([options] { explain(*options); });
 }
 

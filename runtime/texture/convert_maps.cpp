@@ -5,42 +5,21 @@
 #include <cstring>
 #include <future>
 #include <limits>
+#include <memory>
 #include <span>
 
 #include "error.hpp"
 #include "number_text.hpp"
+#include "texture/channel_rows.hpp"
+#include "texture/map_statistics.hpp"
 
 namespace remap {
 namespace {
 
-// Texels converted at a time: rows of floats that stay in the cache of one core.
-constexpr std::size_t kSegment = 2048;
 constexpr std::size_t kMaxChannels = 3;
 
-using FloatRow = std::array<float, kSegment>;
-
-// Texels [x, x + count) of row y, counted from the first row of the buffers.
-struct Segment {
-  std::size_t x, y, count;
-};
-
-template <typename Byte>
-Byte* at(const BasicChannelView<Byte>& view, std::size_t x, std::size_t y) {
-  return view.first + static_cast<std::ptrdiff_t>(y) * view.row_stride +
-         static_cast<std::ptrdiff_t>(x) * view.texel_stride;
-}
-
-void load(const ConstChannelView& view, const Segment& segment, float* values) {
-  load_values(view.type, at(view, segment.x, segment.y), static_cast<std::size_t>(view.texel_stride),
-              segment.count, values);
-}
-
-std::size_t store(const ChannelView& view, const Segment& segment, const float* values) {
-  return store_values(view.type, values, segment.count, at(view, segment.x, segment.y),
-                      static_cast<std::size_t>(view.texel_stride));
-}
-
-bool is_ordinary(float value) { return value >= 0.0f && value <= std::numeric_limits<float>::max(); }
+bool is_ordinary(float value, float highest) { return value >= 0.0f && value <= highest; }
+constexpr float kLargest = std::numeric_limits<float>::max();
 
 // Even in [-1/2, 1/2), a function of the place alone (finalizer of MurmurHash3, A. Appleby, public domain).
 float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
@@ -51,79 +30,129 @@ float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
   return static_cast<float>(bits >> 40) * 0x1p-24f - 0.5f;
 }
 
-ParameterStatistics statistics_of(std::span<const float> values) {
-  ParameterStatistics statistics;
-  statistics.min = std::numeric_limits<float>::max();
-  statistics.max = -statistics.min;
-  for (const float value : values) {
-    const bool counts = std::fabs(value) <= std::numeric_limits<float>::max();
-    statistics.min = counts && value < statistics.min ? value : statistics.min;
-    statistics.max = counts && value > statistics.max ? value : statistics.max;
-    statistics.finite_count += counts;
+// The rows of a segment: a row for each channel of each parameter.
+class SegmentRows {
+ public:
+  // Makes the rows of a parameter; those that are there stay.
+  void make(Parameter parameter, std::size_t count) {
+    std::vector<FloatRow>& rows = rows_[static_cast<std::size_t>(parameter)];
+    if (rows.size() < count) rows.resize(count);
+    counts_[static_cast<std::size_t>(parameter)] = count;
   }
-  constexpr float kBins = static_cast<float>(ParameterStatistics::kBins);
-  for (const float value : values) {
-    if (std::isnan(value)) continue;
-    const float bin = std::clamp(value * kBins, 0.0f, kBins - 1.0f);
-    ++statistics.histogram[static_cast<std::size_t>(bin)];
+  std::size_t count(Parameter parameter) const { return counts_[static_cast<std::size_t>(parameter)]; }
+  float* row(Parameter parameter, std::size_t channel) {
+    return rows_[static_cast<std::size_t>(parameter)][channel].data();
   }
-  return statistics;
-}
+  // All that are there, from texel `begin` on.
+  template <typename Float>
+  MaterialRows<Float> all(std::size_t begin = 0) {
+    MaterialRows<Float> material;
+    for (std::size_t p = 0; p < kParameterCount; ++p) {
+      ParameterRows<Float>& rows = material[static_cast<Parameter>(p)];
+      rows.count = counts_[p];
+      for (std::size_t c = 0; c < rows.count; ++c) rows.row[c] = rows_[p][c].data() + begin;
+    }
+    return material;
+  }
+
+ private:
+  std::array<std::vector<FloatRow>, kParameterCount> rows_;
+  std::array<std::size_t, kParameterCount> counts_{};
+};
 
 // The parameters of one segment as rows of floats.
 struct Scratch {
-  FloatRow roughness;
-  FloatRow other;  // copies of the roughness; what is stored
-  std::array<FloatRow, kMaxChannels> specular;
-  FloatRow given_roughness;  // what a mask is found from
-  std::array<FloatRow, kMaxChannels> given_specular;
+  SegmentRows source, target;
+  SegmentRows given, ignored;  // what a mask is found from
+  FloatRow first, other;       // copies of one value; what is stored
+  FloatRow coverage;
 };
 
 class Conversion {
  public:
-  Conversion(const Converter& converter, const MapConversion& maps)
-      : converter_(converter), maps_(maps), channels_(channel_count(maps.specular)) {
-    require_fitting();
-  }
+  Conversion(const MaterialConverter& converter, const MapConversion& maps);
   MapStatistics convert_rows(std::size_t begin, std::size_t end) const;
 
  private:
-  static std::size_t channel_count(const SourceParameter& parameter) {
-    return parameter.channels.empty() ? parameter.constants.size() : parameter.channels.size();
-  }
   void require_fitting() const;
+  const TargetParameter* wanted(Parameter parameter) const;
+  float highest(Parameter parameter) const;
   void load_channel(const SourceParameter& parameter, std::size_t channel, const Segment& segment,
                     float* values) const;
-  void require_grey(const Segment& segment, Scratch& scratch) const;
+  void require_grey(Parameter parameter, const Segment& segment, Scratch& scratch) const;
+  void load_sources(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
   void meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
-  [[noreturn]] void fail_bad(const Segment& segment, std::size_t texel, const Scratch& scratch) const;
+  [[noreturn]] void fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const;
   void clamp_bad(std::size_t count, Scratch& scratch) const;
   void write_mask(const Segment& segment, std::size_t begin, std::size_t end, Scratch& scratch) const;
   std::size_t store_parameter(const TargetParameter& parameter, std::size_t channel, const Segment& segment,
                               const float* values, FloatRow& stored) const;
+  void store_targets(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
+  ParameterStatistics value_statistics(std::size_t count, const float* values, Scratch& scratch) const;
+  bool is_covered(const Scratch& scratch, std::size_t texel) const {
+    return !maps_.coverage || scratch.coverage[texel] > 0.0f;
+  }
   void convert_segment(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
 
-  const Converter& converter_;
+  const MaterialConverter& converter_;
   const MapConversion& maps_;
-  std::size_t channels_;  // of specular
+  std::vector<Parameter> sources_;  // that the converter takes and the maps have
+  bool is_material_;                // more than width and specular
 };
+
+std::size_t channel_count(const SourceParameter& parameter) {
+  return parameter.channels.empty() ? parameter.constants.size() : parameter.channels.size();
+}
+
+std::string name_of_parameter(Parameter parameter) {
+  return parameter == Parameter::kWidth ? "roughness" : std::string(parameter_name(parameter));
+}
+
+Conversion::Conversion(const MaterialConverter& converter, const MapConversion& maps)
+    : converter_(converter),
+      maps_(maps),
+      sources_(converter.sources()),
+      is_material_(converter.sources().size() > 2) {
+  if (maps.sources.count(Parameter::kMetalMask) > 0) sources_.push_back(Parameter::kMetalMask);
+  require_fitting();
+}
 
 void Conversion::require_fitting() const {
   const auto fail = [](const std::string& what) { throw Error(ErrorKind::kUsage, "convert_maps: " + what); };
-  const auto fits = [](const SourceParameter& parameter, std::size_t count) {
-    return parameter.factors.size() <= 1 || parameter.factors.size() == count;
-  };
-  if (channel_count(maps_.roughness) == 0 ||
-      (maps_.roughness.channels.empty() && maps_.roughness.constants.size() > 1))
-    fail("the roughness has no channel; expected one, or one constant");
-  if (channels_ != 1 && channels_ != kMaxChannels)
-    fail("specular has " + std::to_string(channels_) + " channels; expected 1 or 3");
-  const std::size_t written = maps_.specular_out.channels.size();
-  if (written != 0 && written != channels_ && !(channels_ == 1 && written == kMaxChannels))
-    fail("the specular to write has " + std::to_string(maps_.specular_out.channels.size()) +
-         " channels; expected the " + std::to_string(channels_) + " of the source");
-  if (!fits(maps_.roughness, 1) || !fits(maps_.specular, channels_))
-    fail("there are more factors than channels; expected one, or one a channel");
+  for (const Parameter parameter : sources_) {
+    const auto found = maps_.sources.find(parameter);
+    const std::size_t count = found == maps_.sources.end() ? 0 : channel_count(found->second);
+    const std::string name = name_of_parameter(parameter);
+    if (!is_color(parameter) && (count == 0 || (found->second.channels.empty() && count > 1)))
+      fail("the " + name + " has no channel; expected one, or one constant");
+    if (is_color(parameter) && count != 1 && count != kMaxChannels)
+      fail(name + " has " + std::to_string(count) + " channels; expected 1 or 3");
+    const std::size_t factors = found->second.factors.size();
+    if (factors > 1 && (!is_color(parameter) || factors != count))
+      fail("there are more factors than channels; expected one, or one a channel");
+  }
+  const auto specular = maps_.sources.find(Parameter::kSpecular);
+  const std::size_t channels = specular == maps_.sources.end() ? 3 : channel_count(specular->second);
+  for (const auto& [parameter, target] : maps_.targets) {
+    const std::size_t written = target.channels.size(),
+                      given = converter_.target_channels(parameter, channels);
+    if (written == 0) continue;
+    if (!converter_.has_target(parameter))
+      fail("there is no " + name_of_parameter(parameter) + " in the result; expected other targets");
+    if (is_color(parameter) && written != given && !(given == 1 && written == kMaxChannels))
+      fail("the " + name_of_parameter(parameter) + " to write has " + std::to_string(written) +
+           " channels; expected the " + std::to_string(given) + " of the source");
+  }
+}
+
+const TargetParameter* Conversion::wanted(Parameter parameter) const {
+  const auto found = maps_.targets.find(parameter);
+  return found == maps_.targets.end() || found->second.channels.empty() ? nullptr : &found->second;
+}
+
+// What no material goes beyond; widths and specular alone have no such limit.
+float Conversion::highest(Parameter parameter) const {
+  return is_material_ && parameter != Parameter::kWidth ? 1.0f : kLargest;
 }
 
 void Conversion::load_channel(const SourceParameter& parameter, std::size_t channel, const Segment& segment,
@@ -140,26 +169,27 @@ void Conversion::load_channel(const SourceParameter& parameter, std::size_t chan
   for (std::size_t i = 0; i < segment.count; ++i) values[i] *= factor;
 }
 
-void Conversion::require_grey(const Segment& segment, Scratch& scratch) const {
-  const auto& channels = maps_.roughness.channels;
+void Conversion::require_grey(Parameter parameter, const Segment& segment, Scratch& scratch) const {
+  const SourceParameter& source = maps_.sources.at(parameter);
+  const auto& channels = source.channels;
   if (channels.size() < 2) return;
-  FloatRow& first = scratch.given_roughness;  // not needed yet
+  FloatRow& first = scratch.first;
   load(channels[0], segment, first.data());
   for (std::size_t c = 1; c < channels.size(); ++c) {
     load(channels[c], segment, scratch.other.data());
     if (std::memcmp(scratch.other.data(), first.data(), segment.count * sizeof(float)) == 0) continue;
     const auto differs = [&](std::size_t i) {
       return std::memcmp(&scratch.other[i], &first[i], sizeof(float)) != 0 &&
-             !(std::fabs(scratch.other[i] - first[i]) <= maps_.roughness.grey_tolerance);
+             !(std::fabs(scratch.other[i] - first[i]) <= source.grey_tolerance);
     };
     std::size_t i = 0;
     while (i < segment.count && !differs(i)) ++i;
     if (i == segment.count) continue;
     const auto name = [&](std::size_t channel) {
-      return channel < maps_.roughness.channel_names.size() ? maps_.roughness.channel_names[channel]
-                                                            : "channel " + std::to_string(channel);
+      return channel < source.channel_names.size() ? source.channel_names[channel]
+                                                   : "channel " + std::to_string(channel);
     };
-    throw Error(ErrorKind::kInput, maps_.roughness.name + ": texel (" + std::to_string(segment.x + i) + ", " +
+    throw Error(ErrorKind::kInput, source.name + ": texel (" + std::to_string(segment.x + i) + ", " +
                                        std::to_string(maps_.first_row + segment.y) + ") is not grey, " +
                                        name(0) + " is " + number_text(static_cast<double>(first[i])) +
                                        " and " + name(c) + " is " +
@@ -168,35 +198,70 @@ void Conversion::require_grey(const Segment& segment, Scratch& scratch) const {
   }
 }
 
-void Conversion::fail_bad(const Segment& segment, std::size_t texel, const Scratch& scratch) const {
-  const bool in_roughness = !is_ordinary(scratch.roughness[texel]);
-  std::size_t channel = 0;
-  while (!in_roughness && is_ordinary(scratch.specular[channel][texel])) ++channel;
-  const SourceParameter& parameter = in_roughness ? maps_.roughness : maps_.specular;
-  const float value = in_roughness ? scratch.roughness[texel] : scratch.specular[channel][texel];
-  const std::string of =
-      channel < parameter.channel_names.size() ? parameter.channel_names[channel] + " of " : "";
-  throw Error(ErrorKind::kInput, parameter.name + ": " + of + "texel (" + std::to_string(segment.x + texel) +
-                                     ", " + std::to_string(maps_.first_row + segment.y) + ") is " +
-                                     number_text(static_cast<double>(value)) +
-                                     "; expected finite values from 0, or --bad-texels clamp");
+ParameterStatistics Conversion::value_statistics(std::size_t count, const float* values,
+                                                 Scratch& scratch) const {
+  if (!maps_.coverage) return statistics_of({values, count});
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (is_covered(scratch, i)) scratch.other[covered++] = values[i];
+  return statistics_of({scratch.other.data(), covered});
+}
+
+void Conversion::load_sources(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
+  for (const Parameter parameter : sources_) {
+    const SourceParameter& source = maps_.sources.at(parameter);
+    const std::size_t count = is_color(parameter) ? channel_count(source) : 1;
+    if (!is_color(parameter)) require_grey(parameter, segment, scratch);
+    scratch.source.make(parameter, count);
+    for (std::size_t c = 0; c < count; ++c) {
+      float* const row = scratch.source.row(parameter, c);
+      load_channel(source, c, segment, row);
+      if (maps_.value_statistics)
+        statistics.sources[parameter] += value_statistics(segment.count, row, scratch);
+    }
+  }
+}
+
+void Conversion::fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const {
+  for (const Parameter parameter : sources_)
+    for (std::size_t c = 0; c < scratch.source.count(parameter); ++c) {
+      const float value = scratch.source.row(parameter, c)[texel];
+      if (is_ordinary(value, kLargest)) continue;
+      const SourceParameter& source = maps_.sources.at(parameter);
+      const std::string of = c < source.channel_names.size() ? source.channel_names[c] + " of " : "";
+      throw Error(ErrorKind::kInput, source.name + ": " + of + "texel (" + std::to_string(segment.x + texel) +
+                                         ", " + std::to_string(maps_.first_row + segment.y) + ") is " +
+                                         number_text(static_cast<double>(value)) +
+                                         "; expected finite values from 0, or --bad-texels clamp");
+    }
+  throw Error(ErrorKind::kUsage, "convert_maps: no bad texel; expected one");
 }
 
 // Counts them, and ends the conversion where it is to.
 void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
-  std::array<const float*, kMaxChannels + 1> rows{scratch.roughness.data()};
-  for (std::size_t c = 0; c < channels_; ++c) rows[c + 1] = scratch.specular[c].data();
+  struct CheckedRow {
+    const float* values;
+    float highest;
+  };
+  std::vector<CheckedRow> rows;
+  for (const Parameter parameter : sources_)
+    for (std::size_t c = 0; c < scratch.source.count(parameter); ++c)
+      rows.push_back({scratch.source.row(parameter, c), highest(parameter)});
   std::size_t odd = 0;
-  for (std::size_t r = 0; r <= channels_; ++r)
-    for (std::size_t i = 0; i < segment.count; ++i) odd += !is_ordinary(rows[r][i]);
+  for (const CheckedRow& row : rows)
+    for (std::size_t i = 0; i < segment.count; ++i) odd += !is_ordinary(row.values[i], row.highest);
   if (odd == 0) return;  // as nearly always, and found out at the speed of memory
   for (std::size_t i = 0; i < segment.count; ++i) {
-    bool nan = false, infinite = false, negative = false;
-    for (std::size_t r = 0; r <= channels_; ++r) {
-      nan = nan || std::isnan(rows[r][i]);
-      infinite = infinite || std::isinf(rows[r][i]);
-      negative = negative || rows[r][i] < 0.0f;
+    bool nan = false, infinite = false, negative = false, above = false;
+    for (const CheckedRow& row : rows) {
+      const float value = row.values[i];
+      nan = nan || std::isnan(value);
+      infinite = infinite || std::isinf(value);
+      negative = negative || value < 0.0f;
+      above = above || (value > row.highest && !std::isinf(value));
     }
+    if (!is_covered(scratch, i)) continue;
+    statistics.above_one_count += above;
     if (!(nan || infinite || negative)) continue;
     if (maps_.bad_texels == BadTexels::kFail) fail_bad(segment, i, scratch);
     if (!statistics.first_bad) statistics.first_bad = {segment.x + i, maps_.first_row + segment.y};
@@ -207,32 +272,28 @@ void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapSt
 }
 
 void Conversion::clamp_bad(std::size_t count, Scratch& scratch) const {
-  const auto clamp = [count](FloatRow& row, const Range& range) {
+  const auto clamp = [count](float* row, const Range& range) {
     const float low = static_cast<float>(range.min), high = static_cast<float>(range.max);
     for (std::size_t i = 0; i < count; ++i) {
       if (!(row[i] >= 0.0f)) row[i] = low;
-      if (row[i] > std::numeric_limits<float>::max()) row[i] = high;
+      if (row[i] > kLargest) row[i] = high;
     }
   };
-  clamp(scratch.roughness, converter_.info().roughness);
-  for (std::size_t c = 0; c < channels_; ++c)
-    clamp(scratch.specular[c], {0.0, converter_.info().specular.max});
+  for (const Parameter parameter : sources_) {
+    Range range{0.0, 1.0};
+    if (parameter == Parameter::kWidth) range = converter_.info().roughness;
+    if (parameter == Parameter::kSpecular) range.max = converter_.info().specular.max;
+    for (std::size_t c = 0; c < scratch.source.count(parameter); ++c)
+      clamp(scratch.source.row(parameter, c), range);
+  }
 }
 
 // The converter counts texels and names none: halves are converted again until all or none of a part are out.
 void Conversion::write_mask(const Segment& segment, std::size_t begin, std::size_t end,
                             Scratch& scratch) const {
-  std::array<const float*, kMaxChannels> specular{};
-  std::array<FloatRow, kMaxChannels> ignored;
-  std::array<float*, kMaxChannels> specular_out{};
-  for (std::size_t c = 0; c < channels_; ++c) {
-    specular[c] = scratch.given_specular[c].data() + begin;
-    specular_out[c] = ignored[c].data();
-  }
   const std::size_t count = end - begin;
   const std::size_t outside =
-      converter_.convert(count, scratch.given_roughness.data() + begin, {specular.data(), channels_},
-                         scratch.other.data(), {specular_out.data(), channels_});
+      converter_.convert(count, scratch.given.all<const float>(begin), scratch.ignored.all<float>());
   if (outside > 0 && outside < count) {
     const std::size_t middle = begin + count / 2;
     write_mask(segment, begin, middle, scratch);
@@ -258,57 +319,65 @@ std::size_t Conversion::store_parameter(const TargetParameter& parameter, std::s
   return store(view, segment, stored.data());
 }
 
+void Conversion::store_targets(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
+  for (const Parameter parameter : converter_.targets()) {
+    const std::size_t made = scratch.target.count(parameter);
+    if (maps_.value_statistics && parameter != Parameter::kDoubts)
+      for (std::size_t c = 0; c < made; ++c)
+        statistics.targets[parameter] +=
+            value_statistics(segment.count, scratch.target.row(parameter, c), scratch);
+    const TargetParameter* target = wanted(parameter);
+    if (target == nullptr) continue;
+    std::size_t clipped = 0;
+    for (std::size_t c = 0; c < target->channels.size(); ++c) {
+      const std::size_t own = store_parameter(
+          *target, c, segment, scratch.target.row(parameter, std::min(c, made - 1)), scratch.other);
+      clipped = is_color(parameter) ? clipped + own : own;  // copies of one value count once
+    }
+    statistics.clipped_count += clipped;
+  }
+}
+
 void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
   const ConverterInfo& info = converter_.info();
   const std::size_t count = segment.count;
-  require_grey(segment, scratch);
-  load_channel(maps_.roughness, 0, segment, scratch.roughness.data());
-  std::array<const float*, kMaxChannels> specular{};
-  std::array<float*, kMaxChannels> specular_out{};
-  for (std::size_t c = 0; c < channels_; ++c) {
-    specular_out[c] = scratch.specular[c].data();
-    specular[c] = specular_out[c];
-    load_channel(maps_.specular, c, segment, specular_out[c]);
-    if (maps_.value_statistics) statistics.specular += statistics_of({specular[c], count});
+  if (maps_.coverage) {
+    load(*maps_.coverage, segment, scratch.coverage.data());
+    for (std::size_t i = 0; i < count; ++i) statistics.masked_count += !is_covered(scratch, i);
   }
-  if (maps_.value_statistics) statistics.roughness += statistics_of({scratch.roughness.data(), count});
+  load_sources(segment, scratch, statistics);
   statistics.texel_count += count;
   meet_bad_texels(segment, scratch, statistics);
   change_convention(maps_.source_convention.value_or(info.source.roughness), info.source.roughness,
-                    {scratch.roughness.data(), count});
+                    {scratch.source.row(Parameter::kWidth, 0), count});
   if (maps_.bad_texels == BadTexels::kClamp) clamp_bad(count, scratch);
+  if (maps_.mask) scratch.given = scratch.ignored = scratch.source;
+
+  const std::size_t specular = scratch.source.count(Parameter::kSpecular);
+  for (const Parameter parameter : converter_.targets())
+    scratch.target.make(parameter, converter_.target_channels(parameter, specular));
+  statistics.out_of_domain_count +=
+      converter_.convert(count, scratch.source.all<const float>(), scratch.target.all<float>());
   if (maps_.mask) {
-    scratch.given_roughness = scratch.roughness;
-    scratch.given_specular = scratch.specular;
+    for (const Parameter parameter : converter_.targets())
+      scratch.ignored.make(parameter, converter_.target_channels(parameter, specular));
+    write_mask(segment, 0, count, scratch);
   }
-
-  const std::size_t outside =
-      converter_.convert(count, scratch.roughness.data(), {specular.data(), channels_},
-                         scratch.roughness.data(), {specular_out.data(), channels_});
-  statistics.out_of_domain_count += outside;
-  if (maps_.mask) write_mask(segment, 0, count, scratch);
-
+  if (converter_.can_diagnose())
+    statistics.metallic += statistics_of(
+        count, {scratch.target.row(Parameter::kResidual, 0), scratch.target.row(Parameter::kDoubts, 0),
+                maps_.coverage ? scratch.coverage.data() : nullptr});
   change_convention(info.target.roughness, maps_.target_convention.value_or(info.target.roughness),
-                    {scratch.roughness.data(), count});
-  if (maps_.value_statistics) statistics.roughness_out += statistics_of({scratch.roughness.data(), count});
-  std::size_t clipped = 0;  // copies of one value count once
-  for (std::size_t c = 0; c < maps_.roughness_out.channels.size(); ++c)
-    clipped = store_parameter(maps_.roughness_out, c, segment, scratch.roughness.data(), scratch.other);
-  statistics.clipped_count += clipped;
-  if (maps_.value_statistics)
-    for (std::size_t c = 0; c < channels_; ++c)
-      statistics.specular_out += statistics_of({specular[c], count});
-  for (std::size_t c = 0; c < maps_.specular_out.channels.size(); ++c)
-    statistics.clipped_count +=
-        store_parameter(maps_.specular_out, c, segment, specular[channels_ == 1 ? 0 : c], scratch.other);
+                    {scratch.target.row(Parameter::kWidth, 0), count});
+  store_targets(segment, scratch, statistics);
 }
 
 MapStatistics Conversion::convert_rows(std::size_t begin, std::size_t end) const {
   MapStatistics statistics;
-  Scratch scratch;
+  const auto scratch = std::make_unique<Scratch>();
   for (std::size_t y = begin; y < end; ++y)
     for (std::size_t x = 0; x < maps_.width; x += kSegment)
-      convert_segment({x, y, std::min(kSegment, maps_.width - x)}, scratch, statistics);
+      convert_segment({x, y, std::min(kSegment, maps_.width - x)}, *scratch, statistics);
   return statistics;
 }
 
@@ -329,32 +398,11 @@ ConstChannelView float_channel(const float* first, std::size_t width, std::size_
   return float_view<const float, const std::byte>(first, width, values_a_texel);
 }
 
-ParameterStatistics& ParameterStatistics::operator+=(const ParameterStatistics& other) noexcept {
-  if (other.finite_count > 0) {
-    min = finite_count > 0 ? std::min(min, other.min) : other.min;
-    max = finite_count > 0 ? std::max(max, other.max) : other.max;
-  }
-  finite_count += other.finite_count;
-  for (std::size_t i = 0; i < kBins; ++i) histogram[i] += other.histogram[i];
-  return *this;
-}
-
-MapStatistics& MapStatistics::operator+=(const MapStatistics& other) noexcept {
-  texel_count += other.texel_count;
-  out_of_domain_count += other.out_of_domain_count;
-  nan_count += other.nan_count;
-  infinite_count += other.infinite_count;
-  negative_count += other.negative_count;
-  clipped_count += other.clipped_count;
-  if (!first_bad) first_bad = other.first_bad;
-  roughness += other.roughness;
-  specular += other.specular;
-  roughness_out += other.roughness_out;
-  specular_out += other.specular_out;
-  return *this;
-}
-
 MapStatistics convert_maps(const Converter& converter, const MapConversion& maps, int thread_count) {
+  return convert_maps(*make_material_converter(converter), maps, thread_count);
+}
+
+MapStatistics convert_maps(const MaterialConverter& converter, const MapConversion& maps, int thread_count) {
   const Conversion conversion(converter, maps);
   const std::size_t parts = std::clamp<std::size_t>(static_cast<std::size_t>(std::max(thread_count, 1)), 1,
                                                     std::max<std::size_t>(maps.height, 1));

@@ -5,12 +5,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "convert/converter.hpp"
+#include "convert/material_converter.hpp"
 #include "model/convention.hpp"
 #include "texture/pixel_type.hpp"
 #include "texture/transfer.hpp"
@@ -46,7 +47,7 @@ struct SourceParameter {
   std::vector<float> constants;            // linear; used where `channels` is empty
   std::vector<float> factors;              // of the linear values; none, one, or one a channel
   Transfer transfer = Transfer::kLinear;   // of the stored values
-  float grey_tolerance = 0.0f;             // of the roughness: how far copies of one value may be apart
+  float grey_tolerance = 0.0f;             // how far copies of one value may be apart
   std::string name;                        // for messages: a file, a buffer
   std::vector<std::string> channel_names;  // for messages; as many as channels
 };
@@ -68,14 +69,17 @@ enum class BadTexels {
 struct MapConversion {
   std::size_t width = 0;
   std::size_t height = 0;
-  // One channel, or copies of one value, which is required: kInput names the first texel where they differ by
-  // more than the tolerance; the first channel counts.
-  SourceParameter roughness;
-  SourceParameter specular;       // 1 or 3 channels or constants
-  TargetParameter roughness_out;  // every channel gets the value
-  // As many channels as the source has, or three for grey; may be the source's own memory.
-  TargetParameter specular_out;
-  // Of the values in the maps; the model's own where there is none.
+  // Every source of the converter. Colours: 1 or 3 channels or constants. Others: one, or copies of one
+  // value, which is required: kInput names the first texel where they differ by more than the tolerance; the
+  // first channel counts.
+  std::map<Parameter, SourceParameter> sources;
+  // What is wanted of the converter's targets; may be the sources' own memory. Colours: as many channels as
+  // the converter gives, or three for grey. Others: every channel gets the value.
+  std::map<Parameter, TargetParameter> targets;
+  // Coverage: texels where it is 0 or less are converted as the others are, but are of no surface, and their
+  // values count in no statistics.
+  std::optional<ConstChannelView> coverage;
+  // Of the widths in the maps; the model's own where there is none.
   std::optional<RoughnessConvention> source_convention;
   std::optional<RoughnessConvention> target_convention;
   std::optional<ChannelView> mask;  // gets 1 for texels out of domain, else 0
@@ -102,24 +106,46 @@ struct TexelPosition {
   std::size_t y = 0;
 };
 
+// How far metallic can be trusted, over the texels that are covered and hold no NaN. All 0 where the
+// converter cannot say it (MaterialConverter::can_diagnose).
+struct MetallicStatistics {
+  std::size_t texel_count = 0;
+  // Sum of squared residuals in whole units of 2^-40: the same in any order.
+  std::uint64_t residual_squares = 0;
+  float largest_residual = 0.0f;
+  std::size_t guess_count = 0;        // width of metallic above kGuessWidth
+  std::size_t dark_count = 0;         // of those, too dark to tell
+  std::size_t two_answers_count = 0;  // Doubt::kTwoAnswers
+  std::size_t clamped_count = 0;      // Doubt::kClamped
+
+  double rms_residual() const noexcept;
+  MetallicStatistics& operator+=(const MetallicStatistics& other) noexcept;
+};
+
 // What was met on the way. Texels count once in each line that applies to them.
 struct MapStatistics {
   std::size_t texel_count = 0;
   std::size_t out_of_domain_count = 0;     // texels, as the converter counts them
-  std::size_t nan_count = 0;               // texels with a NaN in roughness or specular
+  std::size_t nan_count = 0;               // texels with a NaN in any source
   std::size_t infinite_count = 0;          // texels with an infinity there
   std::size_t negative_count = 0;          // texels with a value below 0 there
   std::size_t clipped_count = 0;           // values, not texels, that an integer pixel type cut to its range
+  std::size_t masked_count = 0;            // texels that coverage takes out
+  std::size_t above_one_count = 0;         // texels with a finite source above 1 that is no width
   std::optional<TexelPosition> first_bad;  // the first, row by row, of those with NaN, infinity or below 0
-  ParameterStatistics roughness, specular, roughness_out, specular_out;
+  std::map<Parameter, ParameterStatistics> sources, targets;
+  MetallicStatistics metallic;
 
   // `other`: of rows below.
-  MapStatistics& operator+=(const MapStatistics& other) noexcept;
+  MapStatistics& operator+=(const MapStatistics& other);
 };
 
-// Converts every texel. The results are those of Converter::convert texel by texel, whatever the thread
-// count. Throws kInput where a roughness of several channels is not grey and, asked to, for the first bad
-// texel; kUsage where the channels do not fit together.
+// Converts every texel. The results are those of MaterialConverter::convert texel by texel, whatever the
+// thread count. Throws kInput where a parameter that is no colour has several channels that differ and, asked
+// to, for the first bad texel; kUsage where the channels do not fit together.
+MapStatistics convert_maps(const MaterialConverter& converter, const MapConversion& maps,
+                           int thread_count = 1);
+// Of width and specular alone.
 MapStatistics convert_maps(const Converter& converter, const MapConversion& maps, int thread_count = 1);
 
 // Copies a channel of another map: bit for bit where the pixel types are the same, else by way of floats.

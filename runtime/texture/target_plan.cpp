@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <system_error>
 
 #include "error.hpp"
@@ -62,22 +63,31 @@ void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetCho
   }
 }
 
+bool is_wanted(const TargetChoice& choice, Parameter parameter) {
+  return std::find(choice.parameters.begin(), choice.parameters.end(), parameter) != choice.parameters.end();
+}
+
 // What becomes of a channel of a map.
 TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const TargetChoice& choice) {
-  const auto &roughness = set.roughness.channels, &specular = set.specular.channels;
-  const bool is_roughness = std::find(roughness.begin(), roughness.end(), place) != roughness.end();
-  const auto found = std::find(specular.begin(), specular.end(), place);
-  const bool is_specular = found != specular.end();
-  if (is_roughness && is_specular) {
+  std::optional<TargetChannel> content;
+  std::optional<Parameter> held;
+  for (const auto& [parameter, values] : set.parameters) {
+    const auto found = std::find(values.channels.begin(), values.channels.end(), place);
+    if (found == values.channels.end()) continue;
     const ImageReader& reader = set.maps[place.map];
-    throw Error(ErrorKind::kUsage,
-                reader.path().string() + ": channel " + reader.layout().channels[place.channel].name +
-                    " is both roughness and specular; expected FILE:CHANNEL to tell them apart");
+    const auto name = [](Parameter p) {
+      return p == Parameter::kWidth ? std::string("roughness") : std::string(parameter_name(p));
+    };
+    if (held)
+      throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
+                                         reader.layout().channels[place.channel].name + " is both " +
+                                         name(*held) + " and " + name(parameter) +
+                                         "; expected FILE:CHANNEL to tell them apart");
+    held = parameter;
+    const auto index = static_cast<std::size_t>(found - values.channels.begin());
+    if (is_wanted(choice, parameter)) content = TargetChannel::of(parameter, is_color(parameter) ? index : 0);
   }
-  if (is_roughness && choice.roughness) return {Content::kRoughness, 0, {}};
-  if (is_specular && choice.specular)
-    return {Content::kSpecular, static_cast<std::size_t>(found - specular.begin()), {}};
-  return {Content::kCopy, 0, place};
+  return content.value_or(TargetChannel::copy(place));
 }
 
 ImageChanges changes_of(const TargetChoice& choice) {
@@ -98,61 +108,94 @@ std::string own_name(const std::string& name, bool is_grey, const TextureSet& se
   return choice.names.before + name + choice.names.after + extension;
 }
 
-std::vector<TargetChannel>::const_iterator find_specular(const std::vector<TargetChannel>& channels) {
-  return std::find_if(channels.begin(), channels.end(),
-                      [](const TargetChannel& channel) { return channel.content == Content::kSpecular; });
+std::vector<TargetChannel>::const_iterator find_color(const std::vector<TargetChannel>& channels) {
+  return std::find_if(channels.begin(), channels.end(), [](const TargetChannel& channel) {
+    return channel.content == Content::kParameter && is_color(channel.parameter);
+  });
 }
 
-// How the values of specular are stored in a file of this pixel type: as in the source, where both hold whole
-// numbers.
-Transfer stored_transfer(const TextureSet& set, PixelType type) {
-  return set.specular.is_map() && is_integer(type) ? set.specular.transfer : Transfer::kLinear;
+// The map whose file a result's file follows: that of the parameter, or that from which it is made.
+const SetParameter* model_of(const TextureSet& set, Parameter parameter) {
+  if (const SetParameter* own = set.map_of(parameter)) return own;
+  for (const Parameter other : {Parameter::kDiffuse, Parameter::kBaseColor, Parameter::kSpecular})
+    if (const SetParameter* color = is_color(parameter) ? set.map_of(other) : nullptr) return color;
+  return nullptr;
+}
+
+// How the values of a colour are stored: as in the map that it follows; in sRGB where it follows none and is
+// made of other parameters.
+Transfer color_transfer(const TextureSet& set, Parameter parameter) {
+  if (const SetParameter* model = model_of(set, parameter)) return model->transfer;
+  return set.parameters.count(parameter) > 0 ? Transfer::kLinear : Transfer::kSrgb;
+}
+
+// The same for a file of this pixel type: curves are for whole numbers.
+Transfer stored_transfer(const TextureSet& set, Parameter parameter, PixelType type) {
+  return is_integer(type) ? color_transfer(set, parameter) : Transfer::kLinear;
 }
 
 // A map of its own, for what is a constant in the set or has another file there.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
-  const bool has_specular = find_specular(channels) != channels.end();
-  PlannedPart part{set.first_map(), changes_of(choice), std::move(channels)};
+  const auto color = find_color(channels);
+  PlannedPart part{set.first_map(), changes_of(choice), {}};
   part.changes.channels = channel_names;
-  part.changes.transfer = has_specular ? set.specular.transfer : Transfer::kLinear;
+  part.changes.transfer = color == channels.end() ? Transfer::kLinear : color_transfer(set, color->parameter);
+  part.channels = std::move(channels);
   return {choice.folder / own_name(name, channel_names.size() == 1, set, choice), {part}};
 }
 
-PlannedMap roughness_map(const TextureSet& set, const TargetChoice& choice) {
-  return new_map("roughness", kGrey, {{Content::kRoughness, 0, {}}}, set, choice);
+PlannedMap width_map(const TextureSet& set, const TargetChoice& choice) {
+  return new_map(choice.width_name, kGrey, {TargetChannel::of(Parameter::kWidth)}, set, choice);
 }
 
-std::vector<TargetChannel> specular_channels(const TextureSet& set) {
+// Three channels, or that of the source where the parameter has one there and stays what it is.
+std::vector<TargetChannel> color_channels(const TextureSet& set, Parameter parameter,
+                                          const TargetChoice& choice) {
+  const auto found = set.parameters.find(parameter);
+  const bool is_grey =
+      choice.colors_stay_grey && found != set.parameters.end() && found->second.channel_count() == 1;
   std::vector<TargetChannel> channels;
-  for (std::size_t c = 0; c < set.specular.channel_count(); ++c)
-    channels.push_back({Content::kSpecular, c, {}});
+  for (std::size_t c = 0; c < (is_grey ? 1u : 3u); ++c) channels.push_back(TargetChannel::of(parameter, c));
   return channels;
 }
 
-PlannedMap specular_map(const TextureSet& set, const TargetChoice& choice) {
-  const std::vector<TargetChannel> channels = specular_channels(set);
-  PlannedMap planned = new_map("specular", channels.size() == 1 ? kGrey : kColour, channels, set, choice);
-  if (set.specular.is_map()) planned.parts.front().model = set.specular.channels.front().map;
+PlannedMap color_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
+  std::vector<TargetChannel> channels = color_channels(set, parameter, choice);
+  std::vector<std::string> names = channels.size() == 1 ? kGrey : kColour;
+  const bool has_coverage = parameter == Parameter::kDiffuse || parameter == Parameter::kBaseColor;
+  if (set.coverage && has_coverage) {
+    channels.push_back(TargetChannel::copy(*set.coverage));
+    names.push_back("A");
+  }
+  PlannedMap planned =
+      new_map(std::string(parameter_name(parameter)), names, std::move(channels), set, choice);
+  if (const SetParameter* model = model_of(set, parameter))
+    planned.parts.front().model = model->channels.front().map;
   return planned;
 }
 
 TargetChannel carried_channel(const SetParameter& parameter) {
-  if (parameter.is_map()) return {Content::kCopy, 0, parameter.channels.front()};
-  return {Content::kConstant, 0, {}, parameter.constants.front()};
+  return parameter.is_map() ? TargetChannel::copy(parameter.channels.front())
+                            : TargetChannel::constant(parameter.constants.front());
 }
 
-TargetChannel carried_channel(const TextureSet& set, const std::string& name, float otherwise) {
+// Metallic is made where the target has it.
+TargetChannel packed_channel(const TextureSet& set, const std::string& name, float otherwise,
+                             const TargetChoice& choice) {
+  if (name == parameter_name(Parameter::kMetallic) && is_wanted(choice, Parameter::kMetallic))
+    return TargetChannel::of(Parameter::kMetallic);
   for (const CarriedParameter& carried : set.carried)
     if (carried.name == name) return carried_channel(carried.parameter);
-  return {Content::kConstant, 0, {}, otherwise};
+  return TargetChannel::constant(otherwise);
 }
 
 bool has_name(const TextureSet& set, const ChannelPlace& place) {
   const auto holds = [&](const SetParameter& parameter) {
     return std::find(parameter.channels.begin(), parameter.channels.end(), place) != parameter.channels.end();
   };
-  return holds(set.roughness) || holds(set.specular) ||
+  const auto is_held = [&](const auto& entry) { return holds(entry.second); };
+  return place == set.coverage || std::any_of(set.parameters.begin(), set.parameters.end(), is_held) ||
          std::any_of(set.carried.begin(), set.carried.end(),
                      [&](const CarriedParameter& carried) { return holds(carried.parameter); });
 }
@@ -192,6 +235,13 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan) {
   plan.copies.push_back({source, path});
 }
 
+// A file that holds one parameter.
+PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
+  if (is_color(parameter)) return color_map(set, parameter, choice);
+  if (parameter == Parameter::kWidth) return width_map(set, choice);
+  return new_map(std::string(parameter_name(parameter)), kGrey, {TargetChannel::of(parameter)}, set, choice);
+}
+
 TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   TargetPlan plan;
   std::vector<bool> seen(set.maps.size());
@@ -211,8 +261,14 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
     }
     if (holds_something) plan.maps.push_back(std::move(planned));
   }
-  if (!set.roughness.is_map() && choice.roughness) plan.maps.push_back(roughness_map(set, choice));
-  if (!set.specular.is_map() && choice.specular) plan.maps.push_back(specular_map(set, choice));
+  for (const Parameter parameter : choice.parameters) {
+    if (set.map_of(parameter) != nullptr) continue;
+    if (set.parameters.count(parameter) == 0)
+      throw Error(ErrorKind::kUsage, "--layout as-inputs: no input has a place for " +
+                                         std::string(parameter_name(parameter)) +
+                                         "; expected separate, orm, arm or specgloss");
+    plan.maps.push_back(own_map(set, parameter, choice));
+  }
   for (const CarriedParameter& carried : set.carried) {
     if (!carried.parameter.is_map())
       throw Error(ErrorKind::kUsage, "--" + carried.name +
@@ -236,30 +292,40 @@ PlannedMap carried_map(const TextureSet& set, const CarriedParameter& carried, c
 
 std::vector<PlannedMap> separate_maps(const TextureSet& set, const TargetChoice& choice) {
   std::vector<PlannedMap> all;
-  if (choice.roughness) all.push_back(roughness_map(set, choice));
-  if (choice.specular) all.push_back(specular_map(set, choice));
+  for (const Parameter parameter : choice.parameters) all.push_back(own_map(set, parameter, choice));
+  for (const CarriedParameter& carried : set.carried) all.push_back(carried_map(set, carried, choice));
+  return all;
+}
+
+std::vector<PlannedMap> specgloss_maps(const TextureSet& set, const TargetChoice& choice) {
+  std::vector<TargetChannel> channels = color_channels(set, Parameter::kSpecular, choice);
+  channels.resize(3, channels.front());  // grey in every colour
+  channels.push_back(TargetChannel::of(Parameter::kWidth));
+  std::vector<PlannedMap> all = {new_map("specular_glossiness", kColourAndAlpha, channels, set, choice)};
+  if (is_wanted(choice, Parameter::kDiffuse)) all.push_back(color_map(set, Parameter::kDiffuse, choice));
   for (const CarriedParameter& carried : set.carried) all.push_back(carried_map(set, carried, choice));
   return all;
 }
 
 std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& choice) {
-  if (!choice.roughness || (choice.layout == Layout::kSpecGloss && !choice.specular))
-    throw Error(ErrorKind::kUsage, "--only: leaves a channel of --layout " +
-                                       std::string(layout_name(choice.layout)) + " empty; expected both");
-  if (choice.layout == Layout::kSpecGloss) {
-    std::vector<TargetChannel> channels = specular_channels(set);
-    channels.resize(3, channels.front());  // grey in every colour
-    channels.push_back({Content::kRoughness, 0, {}});
-    std::vector<PlannedMap> all = {new_map("specular_glossiness", kColourAndAlpha, channels, set, choice)};
-    for (const CarriedParameter& carried : set.carried) all.push_back(carried_map(set, carried, choice));
-    return all;
-  }
-  std::vector<PlannedMap> all = {new_map(std::string(layout_name(choice.layout)), kColour,
-                                         {carried_channel(set, "occlusion", 1.0f),
-                                          {Content::kRoughness, 0, {}},
-                                          carried_channel(set, "metallic", 0.0f)},
-                                         set, choice)};
-  if (choice.specular) all.push_back(specular_map(set, choice));
+  const std::string layout(layout_name(choice.layout));
+  const bool is_specgloss = choice.layout == Layout::kSpecGloss;
+  const bool is_metallic = is_wanted(choice, Parameter::kMetallic);
+  if (is_specgloss ? is_metallic : is_wanted(choice, Parameter::kDiffuse))
+    throw Error(ErrorKind::kUsage, "--layout: is " + layout + ", which has no place for " +
+                                       (is_specgloss ? "metallic" : "diffuse beside specular") +
+                                       "; expected separate or " + (is_specgloss ? "orm" : "specgloss"));
+  if (!is_wanted(choice, Parameter::kWidth) || (is_specgloss && !is_wanted(choice, Parameter::kSpecular)))
+    throw Error(ErrorKind::kUsage,
+                "--only: leaves a channel of --layout " + layout + " empty; expected both");
+  if (is_specgloss) return specgloss_maps(set, choice);
+  std::vector<PlannedMap> all = {
+      new_map(layout, kColour,
+              {packed_channel(set, "occlusion", 1.0f, choice), TargetChannel::of(Parameter::kWidth),
+               packed_channel(set, "metallic", 0.0f, choice)},
+              set, choice)};
+  for (const Parameter parameter : choice.parameters)
+    if (is_color(parameter)) all.push_back(color_map(set, parameter, choice));
   return all;
 }
 
@@ -286,14 +352,16 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
     require_nothing_lost(set);
     plan.maps = choice.layout == Layout::kSeparate ? separate_maps(set, choice) : packed_maps(set, choice);
   }
-  if (choice.mask) {
-    PlannedMap mask = new_map("mask", kGrey, {{Content::kMask, 0, {}}}, set, choice);
-    const fs::path name = *choice.mask;
-    mask.path = choice.folder /
-                (choice.names.before + name.stem().string() + choice.names.after + name.extension().string());
-    mask.parts.front().changes.type = std::nullopt;
-    plan.maps.push_back(mask);
-  }
+  const auto add_named = [&](const std::string& file, const TargetChannel& channel) {
+    PlannedMap map = new_map("mask", kGrey, {channel}, set, choice);
+    const fs::path name = file;
+    map.path = choice.folder /
+               (choice.names.before + name.stem().string() + choice.names.after + name.extension().string());
+    map.parts.front().changes.type = std::nullopt;
+    plan.maps.push_back(map);
+  };
+  if (choice.mask) add_named(*choice.mask, TargetChannel::mask());
+  for (const MeasureMap& map : choice.measures) add_named(map.name, TargetChannel::of(map.measure));
   for (const CopiedFile& file : choice.copies) {
     const bool keeps_name = file.name.empty() || choice.layout == Layout::kAsInputs;
     const std::string name =
@@ -317,11 +385,11 @@ std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& pla
     for (std::size_t p = 0; p < map.parts.size(); ++p) {
       const std::vector<TargetChannel>& channels = map.parts[p].channels;
       target.parts.push_back({channels});
-      const auto specular = find_specular(channels);
-      if (specular == channels.end()) continue;
-      const auto channel = static_cast<std::size_t>(specular - channels.begin());
-      target.parts[p].specular_transfer =
-          stored_transfer(set, target.writer.layout(static_cast<int>(p)).channels[channel].type);
+      const auto color = find_color(channels);
+      if (color == channels.end()) continue;
+      const auto channel = static_cast<std::size_t>(color - channels.begin());
+      target.parts[p].color_transfer = stored_transfer(
+          set, color->parameter, target.writer.layout(static_cast<int>(p)).channels[channel].type);
     }
   }
   return targets;

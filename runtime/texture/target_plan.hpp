@@ -40,10 +40,10 @@ struct TargetPlan {
 // Which files the results are.
 enum class Layout {
   kAsInputs,   // every map that holds something converted, under its name
-  kSeparate,   // a file each: roughness, specular, and what is carried
-  kOrm,        // orm: occlusion, roughness, metallic; and specular
+  kSeparate,   // a file each: roughness, the colours, and what is carried
+  kOrm,        // orm: occlusion, roughness, metallic; and the colours
   kArm,        // the same as arm
-  kSpecGloss,  // specular_glossiness: specular, and glossiness in alpha
+  kSpecGloss,  // specular_glossiness: specular, and glossiness in alpha; and diffuse
 };
 std::string_view layout_name(Layout layout);
 std::optional<Layout> layout_from_name(std::string_view name);
@@ -55,23 +55,33 @@ struct ResultNames {
   std::string after;
 };
 
+// A map of what a conversion says of its result.
+struct MeasureMap {
+  Parameter measure = Parameter::kResidual;
+  std::string name;  // of the file
+};
+
 struct TargetChoice {
   std::filesystem::path folder;
+  std::vector<Parameter> parameters = {Parameter::kWidth, Parameter::kSpecular};  // that are wanted
+  std::string width_name = "roughness";  // of its file where it has one of its own
+  bool colors_stay_grey = true;  // those that are grey in the set, where they have a file of their own
+  std::vector<MeasureMap> measures;
   std::string extension;            // of all files; empty: as the inputs
   std::optional<PixelType> type;    // of all files
   std::optional<std::string> mask;  // name of the file that marks texels out of domain
   ResultNames names;
   Layout layout = Layout::kAsInputs;
   std::vector<CopiedFile> copies;
-  bool roughness = true;  // whether it is wanted
-  bool specular = true;
   bool force = false;  // may replace files that exist
   Metadata metadata;
 };
 
 // As inputs: every map of the set that holds something converted gives a file of its name, in which only that
 // is changed; a constant gives a map of its own (`roughness`, `specular`), and files of what is carried are
-// copied. The other layouts name their files themselves; what is carried and has no channel there has a file.
+// copied. The other layouts name their files themselves; what is carried and has no channel there has a file,
+// and coverage is the alpha of diffuse or base colour. Parameters that the set does not have, since the
+// converter makes them, have no place in as inputs: kUsage.
 // Throws kUsage where two results would have one name, where one is an input, where one channel is two
 // things, where a layout would lose a channel of an input or has no place for a constant, and for an unknown
 // extension; kInput where a file to copy is not there; kOutput where a result exists and `force` is not set

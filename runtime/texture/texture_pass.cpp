@@ -54,9 +54,11 @@ bool converts(const std::vector<Target>& targets) {
 // The maps that the targets are made of.
 std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Target>& targets) {
   std::vector<bool> needed(set.maps.size());
-  if (converts(targets))
-    for (const SetParameter* parameter : {&set.roughness, &set.specular})
-      for (const ChannelPlace& place : parameter->channels) needed[place.map] = true;
+  if (converts(targets)) {
+    for (const auto& [parameter, values] : set.parameters)
+      for (const ChannelPlace& place : values.channels) needed[place.map] = true;
+    if (set.coverage) needed[set.coverage->map] = true;
+  }
   for (const Target& target : targets)
     for (const TargetChannel& channel : target.part->channels)
       if (channel.content == Content::kCopy) needed[channel.from.map] = true;
@@ -97,7 +99,7 @@ std::vector<Round> rounds_of(const TextureSet& set, std::vector<TargetMap>& targ
 // One level of a round.
 class Pass {
  public:
-  Pass(TextureSet& set, const Round& round, const Converter& converter, const PassOptions& options);
+  Pass(TextureSet& set, const Round& round, const MaterialConverter& converter, const PassOptions& options);
   // `progress`: after each band, the rows that are done.
   MapStatistics run(const std::function<void(int)>& progress);
 
@@ -110,13 +112,15 @@ class Pass {
   MapStatistics convert(Band& band);
   void write(Band& band);
   std::byte* texels_of(std::size_t target, Band& band);
-  SourceParameter source_of(const SetParameter& parameter, const std::string& name, const Band& band) const;
+  SourceParameter source_of(Parameter name, const SetParameter& parameter, const Band& band) const;
+  void add_target(const Target& target, const TargetChannel& channel, const ChannelView& view,
+                  MapConversion& maps) const;
 
   TextureSet& set_;
   const Round& round_;
   int width_;
   int height_;
-  const Converter& converter_;
+  const MaterialConverter& converter_;
   const PassOptions& options_;
   std::launch launch_;
   std::vector<int> in_place_;  // a map for each target, or -1
@@ -124,7 +128,8 @@ class Pass {
   std::vector<std::vector<std::byte>> converted_;  // of targets that are not in place
 };
 
-Pass::Pass(TextureSet& set, const Round& round, const Converter& converter, const PassOptions& options)
+Pass::Pass(TextureSet& set, const Round& round, const MaterialConverter& converter,
+           const PassOptions& options)
     : set_(set),
       round_(round),
       width_(set.maps[round.maps.front()].layout().width),
@@ -247,13 +252,12 @@ std::byte* Pass::texels_of(std::size_t target, Band& band) {
                                 : converted_[target].data();
 }
 
-SourceParameter Pass::source_of(const SetParameter& parameter, const std::string& name,
-                                const Band& band) const {
+SourceParameter Pass::source_of(Parameter name, const SetParameter& parameter, const Band& band) const {
   SourceParameter source;
   source.constants = parameter.constants;
   source.factors = parameter.factors;
   source.transfer = parameter.transfer;
-  source.name = name;
+  source.name = parameter_option(name);
   for (const ChannelPlace& place : parameter.channels) {
     const ImageReader& reader = set_.maps[place.map];
     source.channels.push_back(view_of(band.maps[place.map].data(), reader.layout(), place.channel));
@@ -265,14 +269,33 @@ SourceParameter Pass::source_of(const SetParameter& parameter, const std::string
   return source;
 }
 
+void Pass::add_target(const Target& target, const TargetChannel& channel, const ChannelView& view,
+                      MapConversion& maps) const {
+  if (channel.content == Content::kMask) maps.mask = view;
+  if (channel.content != Content::kParameter) return;
+  TargetParameter& parameter = maps.targets[channel.parameter];
+  // Copies of one value follow one another; channels of a colour have their places.
+  const auto source = set_.parameters.find(channel.parameter);
+  const bool is_copy = !is_color(channel.parameter) ||
+                       (source != set_.parameters.end() && source->second.channel_count() == 1 &&
+                        converter_.target_channels(channel.parameter, 1) == 1);
+  const std::size_t place = is_copy ? parameter.channels.size() : channel.index;
+  parameter.channels.resize(std::max(parameter.channels.size(), place + 1));
+  parameter.channels[place] = view;
+  if (is_color(channel.parameter)) parameter.transfer = target.part->color_transfer;
+}
+
 MapStatistics Pass::convert(Band& band) {
   MapConversion maps;
   maps.width = static_cast<std::size_t>(width_);
   maps.height = static_cast<std::size_t>(band.row_count);
   maps.first_row = static_cast<std::size_t>(band.first_row);
   if (round_.is_converting) {
-    maps.roughness = source_of(set_.roughness, "--roughness", band);
-    maps.specular = source_of(set_.specular, "--specular", band);
+    for (const auto& [parameter, values] : set_.parameters)
+      maps.sources[parameter] = source_of(parameter, values, band);
+    if (set_.coverage)
+      maps.coverage = view_of(std::as_const(band.maps[set_.coverage->map]).data(),
+                              set_.maps[set_.coverage->map].layout(), set_.coverage->channel);
   }
   maps.source_convention = set_.convention;
   maps.target_convention = options_.target_convention;
@@ -286,15 +309,7 @@ MapStatistics Pass::convert(Band& band) {
     for (std::size_t c = 0; c < layout.channels.size(); ++c) {
       const TargetChannel& channel = round_.targets[t].part->channels[c];
       const ChannelView view = view_of(texels, layout, c);
-      if (channel.content == Content::kRoughness) maps.roughness_out.channels.push_back(view);
-      if (channel.content == Content::kMask) maps.mask = view;
-      if (channel.content == Content::kSpecular) {
-        auto& views = maps.specular_out.channels;
-        const std::size_t place = set_.specular.channel_count() == 1 ? views.size() : channel.index;
-        views.resize(std::max(views.size(), place + 1));
-        views[place] = view;
-        maps.specular_out.transfer = round_.targets[t].part->specular_transfer;
-      }
+      add_target(round_.targets[t], channel, view, maps);
       if (channel.content == Content::kConstant) {
         const auto* value = reinterpret_cast<const std::byte*>(&channel.value);
         clipped += copy_channel({value, PixelType::kFloat, 0, 0}, view, maps.width, maps.height);
@@ -335,6 +350,11 @@ bool is_converted(const TargetChannel& channel) noexcept {
 
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
                                const PassOptions& options) {
+  return run_texture_pass(set, targets, *make_material_converter(converter), options);
+}
+
+MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
+                               const MaterialConverter& converter, const PassOptions& options) {
   const std::vector<Round> rounds = rounds_of(set, targets);
   MapStatistics statistics;
   for (std::size_t i = 0; i < rounds.size(); ++i) {

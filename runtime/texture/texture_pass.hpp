@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "convert/converter.hpp"
+#include "convert/material_converter.hpp"
 #include "texture/convert_maps.hpp"
 #include "texture/image_io.hpp"
 #include "texture/texture_set.hpp"
@@ -16,11 +16,36 @@ namespace remap {
 
 // What a channel of a result holds.
 struct TargetChannel {
-  enum class Content { kRoughness, kSpecular, kCopy, kConstant, kMask };
+  enum class Content { kParameter, kCopy, kConstant, kMask };
   Content content = Content::kCopy;
-  std::size_t index = 0;  // of specular's channel
-  ChannelPlace from;      // of a copy
-  float value = 0.0f;     // of a constant
+  Parameter parameter = Parameter::kWidth;  // that the converter makes
+  std::size_t index = 0;                    // of its channel
+  ChannelPlace from;                        // of a copy
+  float value = 0.0f;                       // of a constant
+
+  static TargetChannel of(Parameter made, std::size_t channel = 0) {
+    TargetChannel target;
+    target.content = Content::kParameter;
+    target.parameter = made;
+    target.index = channel;
+    return target;
+  }
+  static TargetChannel copy(ChannelPlace place) {
+    TargetChannel target;
+    target.from = place;
+    return target;
+  }
+  static TargetChannel constant(float stored) {
+    TargetChannel target;
+    target.content = Content::kConstant;
+    target.value = stored;
+    return target;
+  }
+  static TargetChannel mask() {
+    TargetChannel target;
+    target.content = Content::kMask;
+    return target;
+  }
 };
 
 // Whether a converter makes it, rather than a copy or a constant.
@@ -28,8 +53,8 @@ bool is_converted(const TargetChannel& channel) noexcept;
 
 // One part of a file that a pass makes.
 struct TargetPart {
-  std::vector<TargetChannel> channels;             // as many as the part has
-  Transfer specular_transfer = Transfer::kLinear;  // of its specular
+  std::vector<TargetChannel> channels;          // as many as the part has
+  Transfer color_transfer = Transfer::kLinear;  // of the colours that the converter makes
 };
 
 // One file that a pass makes.
@@ -53,9 +78,12 @@ struct PassOptions {
 
 // Converts `set` into `targets`, level by level where they are mip-mapped: a renderer that filters parameters
 // sees at every level what it saw of the source. Finishes the files and gives them their names. The values
-// equal Converter::convert applied texel by texel, whatever the thread count and the band size, rounded to
-// the pixel type of the file. Throws what the files and convert_maps throw; kInterrupted when cancelled.
-// After an exception no file has appeared (after a failing rename, those renamed before it have).
+// equal MaterialConverter::convert applied texel by texel, whatever the thread count and the band size,
+// rounded to the pixel type of the file. Throws what the files and convert_maps throw; kInterrupted when
+// cancelled. After an exception no file has appeared (after a failing rename, those renamed before it have).
+MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
+                               const MaterialConverter& converter, const PassOptions& options);
+// Of width and specular alone.
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
                                const PassOptions& options);
 

@@ -124,8 +124,7 @@ std::vector<const SetParameter*> mapped_parameters(const TextureSet& set) {
   const auto add = [&](const SetParameter& parameter) {
     if (parameter.is_map()) mapped.push_back(&parameter);
   };
-  add(set.roughness);
-  add(set.specular);
+  for (const auto& [parameter, values] : set.parameters) add(values);
   for (const CarriedParameter& carried : set.carried) add(carried.parameter);
   return mapped;
 }
@@ -137,8 +136,9 @@ ImageReader& map_of(TextureSet& set, const SetParameter& parameter) {
 // Colour that follows a curve is interpolated as light.
 std::vector<Transfer> transfers_of(const TextureSet& set, std::size_t map) {
   std::vector<Transfer> transfers(set.maps[map].layout().channels.size(), Transfer::kLinear);
-  for (const ChannelPlace& place : set.specular.channels)
-    if (place.map == map) transfers[place.channel] = set.specular.transfer;
+  for (const auto& [parameter, values] : set.parameters)
+    for (const ChannelPlace& place : values.channels)
+      if (place.map == map) transfers[place.channel] = values.transfer;
   return transfers;
 }
 
@@ -201,14 +201,18 @@ std::vector<ChannelPlace> find_channels(const MapName& name, const std::string& 
                                      "FILE:PART.R,PART.G,PART.B");
 }
 
-// Colour in whole numbers follows the curve that its file names; a single channel is data.
-Transfer guessed_transfer(const TextureSet& set, const std::vector<ChannelPlace>& channels) {
-  const ImageLayout& layout = set.maps[channels.front().map].layout();
-  const bool is_colour = channels.size() == 3 && is_integer(layout.channels[channels.front().channel].type);
-  return is_colour && layout.is_tagged_nonlinear ? Transfer::kSrgb : Transfer::kLinear;
+// Colour in whole numbers follows the curve that its file names; a single channel is data, where it is not
+// the grey of a diffuse or base colour, which is never anything else.
+Transfer guessed_transfer(const TextureSet& set, const SetParameter& parameter, bool grey_is_color) {
+  const ChannelPlace first = parameter.channels.front();
+  const ImageLayout& layout = set.maps[first.map].layout();
+  const bool is_color =
+      (parameter.channels.size() == 3 || grey_is_color) && is_integer(layout.channels[first.channel].type);
+  return is_color && layout.is_tagged_nonlinear ? Transfer::kSrgb : Transfer::kLinear;
 }
 
-SetParameter open_parameter(const ParameterRequest& request, const std::string& expected, TextureSet& set) {
+SetParameter open_parameter(const ParameterRequest& request, const std::string& expected, TextureSet& set,
+                            bool grey_is_color = false) {
   SetParameter parameter;
   parameter.factors = request.factors;
   if (const auto* constants = std::get_if<ConstantValues>(&request.source)) {
@@ -216,7 +220,7 @@ SetParameter open_parameter(const ParameterRequest& request, const std::string& 
     return parameter;
   }
   parameter.channels = find_channels(std::get<MapName>(request.source), expected, set);
-  parameter.transfer = request.transfer.value_or(guessed_transfer(set, parameter.channels));
+  parameter.transfer = request.transfer.value_or(guessed_transfer(set, parameter, grey_is_color));
   parameter.transfer_is_guessed = !request.transfer;
   return parameter;
 }
@@ -226,6 +230,34 @@ void require_factors(std::string_view option, const SetParameter& parameter) {
     throw Error(ErrorKind::kUsage, std::string(option) + ": has " + std::to_string(parameter.factors.size()) +
                                        " values; expected one, or one each for the " +
                                        std::to_string(parameter.channel_count()) + " channels");
+}
+
+bool holds_parameter(const TextureSet& set, const ChannelPlace& place) {
+  const std::vector<const SetParameter*> parameters = mapped_parameters(set);
+  return std::any_of(parameters.begin(), parameters.end(), [&](const SetParameter* parameter) {
+    return std::find(parameter->channels.begin(), parameter->channels.end(), place) !=
+           parameter->channels.end();
+  });
+}
+
+std::optional<ChannelPlace> find_coverage(const TextureSet& set) {
+  for (const Parameter parameter : {Parameter::kDiffuse, Parameter::kBaseColor}) {
+    const SetParameter* color = set.map_of(parameter);
+    if (color == nullptr) continue;
+    const std::size_t map = color->channels.front().map;
+    const int alpha = set.maps[map].layout().alpha_channel;
+    if (alpha < 0) continue;
+    const ChannelPlace place{map, static_cast<std::size_t>(alpha)};
+    if (!holds_parameter(set, place)) return place;
+  }
+  return std::nullopt;
+}
+
+// `--roughness, --specular`.
+std::string listed_options(const TextureSet& set) {
+  std::vector<std::string> options;
+  for (const auto& [parameter, values] : set.parameters) options.push_back(parameter_option(parameter));
+  return listed(options);
 }
 
 }  // namespace
@@ -255,17 +287,28 @@ std::vector<float> parse_factors(std::string_view option, std::string_view text)
   return *values;
 }
 
+std::size_t TextureSet::first_map() const {
+  for (const auto& [parameter, values] : parameters)
+    if (values.is_map()) return values.channels.front().map;
+  throw Error(ErrorKind::kUsage, listed_options(*this) + ": are constants; expected a map");
+}
+
 TextureSet open_texture_set(const TextureSetRequest& request) {
   TextureSet set;
-  set.roughness = open_parameter(request.roughness, "one channel, Y, or R, G and B", set);
-  set.specular = open_parameter(request.specular, "R, G and B, or one channel", set);
   set.convention = request.convention;
-  if (!request.roughness.transfer)
-    set.roughness.transfer = Transfer::kLinear;  // data, whatever the file says
+  for (const auto& [parameter, asked] : request.parameters) {
+    const bool color = is_color(parameter);
+    SetParameter opened =
+        open_parameter(asked, color ? "R, G and B, or one channel" : "one channel, Y, or R, G and B", set,
+                       parameter == Parameter::kDiffuse || parameter == Parameter::kBaseColor);
+    if (!color && !asked.transfer) opened.transfer = Transfer::kLinear;  // data, whatever the file says
+    if (!color && !opened.is_map() && opened.constants.size() != 1)
+      throw Error(ErrorKind::kUsage, parameter_option(parameter) + ": has three values; expected one");
+    require_factors(parameter_option(parameter) + "-factor", opened);
+    set.parameters[parameter] = std::move(opened);
+  }
   if (set.maps.empty())
-    throw Error(ErrorKind::kUsage, "--roughness, --specular: are both constants; expected a map");
-  if (!set.roughness.is_map() && set.roughness.constants.size() != 1)
-    throw Error(ErrorKind::kUsage, "--roughness: has three values; expected one");
+    throw Error(ErrorKind::kUsage, listed_options(set) + ": are constants; expected a map");
   for (const CarriedRequest& carried : request.carried) {
     SetParameter parameter = open_parameter(carried.parameter, "one channel, Y, or R, G and B", set);
     if (parameter.is_map()) parameter.channels.resize(1);  // copies of one value
@@ -273,11 +316,10 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
       throw Error(ErrorKind::kUsage, "--" + carried.name + ": has three values; expected one");
     set.carried.push_back({carried.name, parameter});
   }
-  require_factors("--roughness-factor", set.roughness);
-  require_factors("--specular-factor", set.specular);
+  set.coverage = find_coverage(set);
   if (request.resample) resample_to_largest(set);
   for (const SetParameter* parameter : mapped_parameters(set))
-    require_same_texels(set.maps[set.first_map()], map_of(set, *parameter));
+    require_same_texels(set.maps[set.first_map()], set.maps[parameter->channels.front().map]);
   return set;
 }
 
@@ -294,11 +336,11 @@ std::vector<std::string> remarks(const TextureSet& set) {
   for (const ImageReader& map : set.maps)
     if (map.is_resampled())
       messages.push_back(map.path().string() + ": is resampled to " + window_text(map.layout()));
-  if (!set.specular.is_map()) return messages;
-  const ImageReader& reader = set.maps[set.specular.channels.front().map];
-  if (set.specular.transfer == Transfer::kSrgb && set.specular.transfer_is_guessed)
-    messages.push_back(reader.path().string() +
-                       ": specular is read as colour in sRGB; --color-space linear reads it as data");
+  for (const auto& [parameter, values] : set.parameters)
+    if (values.transfer == Transfer::kSrgb && values.transfer_is_guessed)
+      messages.push_back(set.maps[values.channels.front().map].path().string() + ": " +
+                         std::string(parameter_name(parameter)) +
+                         " is read as colour in sRGB; --color-space linear reads it as data");
   return messages;
 }
 

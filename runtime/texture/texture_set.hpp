@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "convert/material_rows.hpp"
 #include "model/convention.hpp"
 #include "texture/image_io.hpp"
 #include "texture/transfer.hpp"
@@ -46,10 +48,9 @@ struct CarriedRequest {
 };
 
 struct TextureSetRequest {
-  ParameterRequest roughness;
-  ParameterRequest specular;
+  std::map<Parameter, ParameterRequest> parameters;
   std::vector<CarriedRequest> carried;            // of one channel each
-  std::optional<RoughnessConvention> convention;  // of the roughness map; none: the model's own
+  std::optional<RoughnessConvention> convention;  // of the map of the width; none: the model's own
   bool resample = false;  // maps of other sizes, to the largest width and height among them
 };
 
@@ -62,7 +63,8 @@ struct ChannelPlace {
 
 // One parameter of an open set.
 struct SetParameter {
-  std::vector<ChannelPlace> channels;  // empty: constant. Of the roughness: copies of one value where several
+  std::vector<ChannelPlace>
+      channels;  // empty: constant. Of what is no colour: copies of one value where several
   ConstantValues constants;
   std::vector<float> factors;
   Transfer transfer = Transfer::kLinear;
@@ -77,20 +79,25 @@ struct CarriedParameter {
   SetParameter parameter;  // one channel or one constant
 };
 
-// An open set: every texel has one roughness and one or three specular values. A map is one part of a file;
-// all parts of a file are there, and those that hold no parameter may be of any size. A file that is named
-// twice is opened once. At least one of the parameters is a map.
+// An open set: every texel has one value of each parameter, colours one or three. A map is one part of a
+// file; all parts of a file are there, and those that hold no parameter may be of any size. A file that is
+// named twice is opened once. At least one of the parameters is a map.
 struct TextureSet {
   std::vector<ImageReader> maps;
-  SetParameter roughness;
-  SetParameter specular;
+  std::map<Parameter, SetParameter> parameters;
   std::vector<CarriedParameter> carried;
+  // The alpha of diffuse or base colour, where the file has one that is no parameter: how much of a texel is
+  // surface.
+  std::optional<ChannelPlace> coverage;
   std::optional<RoughnessConvention> convention;
 
-  // A map of the size of the set: that of the roughness, if there is one.
-  std::size_t first_map() const noexcept {
-    return (roughness.is_map() ? roughness : specular).channels.front().map;
+  // Null where the set has no such parameter, or a constant.
+  const SetParameter* map_of(Parameter parameter) const {
+    const auto found = parameters.find(parameter);
+    return found == parameters.end() || !found->second.is_map() ? nullptr : &found->second;
   }
+  // A map of the size of the set: that of the first parameter that has one.
+  std::size_t first_map() const;
 };
 
 // Opens the files and finds the channels. Throws kInput where a file cannot be read, where a channel is

@@ -45,11 +45,11 @@ MapConversion conversion(Buffer& from, Buffer& to, bool flipped = false) {
   MapConversion maps;
   maps.width = kWidth;
   maps.height = kHeight;
-  maps.roughness.channels = {from.channel(0, flipped)};
-  maps.roughness_out.channels = {to.channel(0, flipped)};
+  maps.sources[Parameter::kWidth].channels = {from.channel(0, flipped)};
+  maps.targets[Parameter::kWidth].channels = {to.channel(0, flipped)};
   for (std::size_t c = 1; c <= 3; ++c) {
-    maps.specular.channels.push_back(from.channel(c, flipped));
-    maps.specular_out.channels.push_back(to.channel(c, flipped));
+    maps.sources[Parameter::kSpecular].channels.push_back(from.channel(c, flipped));
+    maps.targets[Parameter::kSpecular].channels.push_back(to.channel(c, flipped));
   }
   return maps;
 }
@@ -126,16 +126,16 @@ TEST_CASE("convert_maps: statistics are those of all values, whatever the thread
     REQUIRE(statistics.first_bad.has_value());
     CHECK(statistics.first_bad->x == 50);
     CHECK(statistics.first_bad->y == 1020);
-    CHECK(statistics.roughness.min == -1.0f);
-    CHECK(statistics.specular.finite_count == 3 * kWidth * kHeight - 2);
-    CHECK(statistics.specular.max < 1.0f);
-    const auto& bins = statistics.specular.histogram;
+    CHECK(statistics.sources.at(Parameter::kWidth).min == -1.0f);
+    CHECK(statistics.sources.at(Parameter::kSpecular).finite_count == 3 * kWidth * kHeight - 2);
+    CHECK(statistics.sources.at(Parameter::kSpecular).max < 1.0f);
+    const auto& bins = statistics.sources.at(Parameter::kSpecular).histogram;
     CHECK(std::accumulate(bins.begin(), bins.end(), std::size_t{0}) == 3 * kWidth * kHeight - 1);
-    CHECK(bins == one.specular.histogram);
-    CHECK(statistics.roughness_out.max == one.roughness_out.max);
+    CHECK(bins == one.sources.at(Parameter::kSpecular).histogram);
+    CHECK(statistics.targets.at(Parameter::kWidth).max == one.targets.at(Parameter::kWidth).max);
   }
   // Noise is even: every bin holds about its share.
-  for (const std::size_t count : one.specular.histogram)
+  for (const std::size_t count : one.sources.at(Parameter::kSpecular).histogram)
     CHECK(static_cast<double>(count) == Approx(3.0 * kWidth * kHeight / 32.0).epsilon(0.3));
 }
 
@@ -149,9 +149,9 @@ TEST_CASE("convert_maps: widths in every encoding are the same widths") {
     float width = static_cast<float>(from_alpha(encoding, 0.25)), result = 0.0f;
     MapConversion maps;
     maps.width = maps.height = 1;
-    maps.roughness.constants = {width};
-    maps.specular.constants = {0.3f};
-    maps.roughness_out.channels = {float_channel(&result, 1)};
+    maps.sources[Parameter::kWidth].constants = {width};
+    maps.sources[Parameter::kSpecular].constants = {0.3f};
+    maps.targets[Parameter::kWidth].channels = {float_channel(&result, 1)};
     maps.source_convention = maps.target_convention = encoding;
     convert_maps(*converter, maps);
     const float expected =
@@ -171,10 +171,11 @@ TEST_CASE("convert_maps: dithering keeps the mean and is the same in every run a
     maps.height = rows;
     maps.first_row = first;
     maps.dither = dither;
-    maps.roughness.constants = {0.3f};
-    maps.specular.constants = {0.3f};
-    maps.specular_out.channels = {{reinterpret_cast<std::byte*>(&result[first * kSide]), PixelType::kUint8, 1,
-                                   static_cast<std::ptrdiff_t>(kSide)}};
+    maps.sources[Parameter::kWidth].constants = {0.3f};
+    maps.sources[Parameter::kSpecular].constants = {0.3f};
+    maps.targets[Parameter::kSpecular].channels = {{reinterpret_cast<std::byte*>(&result[first * kSide]),
+                                                    PixelType::kUint8, 1,
+                                                    static_cast<std::ptrdiff_t>(kSide)}};
     convert_maps(*converter, maps);
   };
   run(whole, 0, kSide, true);
@@ -197,10 +198,17 @@ TEST_CASE("convert_maps: what does not fit together is refused") {
     change(maps);
     CHECK_THROWS_WITH(convert_maps(*converter, maps), Contains(message));
   };
-  refused([](MapConversion& maps) { maps.roughness.channels.clear(); }, "the roughness has no channel");
-  refused([](MapConversion& maps) { maps.specular.channels.pop_back(); }, "specular has 2 channels");
-  refused([](MapConversion& maps) { maps.specular_out.channels.pop_back(); }, "expected the 3 of the source");
-  refused([](MapConversion& maps) { maps.specular.factors = {1.0f, 2.0f}; }, "more factors than channels");
+  refused([](MapConversion& maps) { maps.sources[Parameter::kWidth].channels.clear(); },
+          "the roughness has no channel");
+  refused([](MapConversion& maps) { maps.sources[Parameter::kSpecular].channels.pop_back(); },
+          "specular has 2 channels");
+  refused([](MapConversion& maps) { maps.targets[Parameter::kSpecular].channels.pop_back(); },
+          "expected the 3 of the source");
+  refused(
+      [](MapConversion& maps) {
+        maps.sources[Parameter::kSpecular].factors = {1.0f, 2.0f};
+      },
+      "more factors than channels");
 }
 
 TEST_CASE("copy_channel: bits stay where the types are the same, values where they are not") {

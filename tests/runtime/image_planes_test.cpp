@@ -75,8 +75,8 @@ std::array<float, 4> converted(const Converter& converter, float roughness, std:
 MapStatistics convert(const std::string& roughness, const std::string& specular, const fs::path& folder,
                       const Converter& converter) {
   TextureSetRequest request;
-  request.roughness.source = parameter_source("--roughness", roughness);
-  request.specular.source = parameter_source("--specular", specular);
+  request.parameters[Parameter::kWidth].source = parameter_source("--roughness", roughness);
+  request.parameters[Parameter::kSpecular].source = parameter_source("--specular", specular);
   TextureSet set = open_texture_set(request);
   TargetChoice choice;
   choice.folder = folder;

@@ -50,8 +50,8 @@ struct Scene {
   }
   MapStatistics pass(const Converter& converter, const PassOptions& options) const {
     TextureSetRequest request;
-    request.roughness.source = MapName{roughness, {}};
-    request.specular.source = MapName{specular, {}};
+    request.parameters[Parameter::kWidth].source = MapName{roughness, {}};
+    request.parameters[Parameter::kSpecular].source = MapName{specular, {}};
     TextureSet set = open_texture_set(request);
     TargetChoice choice;
     choice.folder = folder.path() / "out";

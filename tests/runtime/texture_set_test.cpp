@@ -29,15 +29,16 @@ const Source kGrey = ConstantValues{0.5f};
 
 TextureSet opened(Source roughness, Source specular) {
   TextureSetRequest request;
-  request.roughness.source = std::move(roughness);
-  request.specular.source = std::move(specular);
+  request.parameters[Parameter::kWidth].source = std::move(roughness);
+  request.parameters[Parameter::kSpecular].source = std::move(specular);
   return open_texture_set(request);
 }
 
 std::vector<std::size_t> roughness_channels(const std::filesystem::path& file,
                                             const std::vector<std::string>& names = {}) {
   std::vector<std::size_t> channels;
-  for (const ChannelPlace& place : opened(MapName{file, names}, kGrey).roughness.channels)
+  const TextureSet set = opened(MapName{file, names}, kGrey);
+  for (const ChannelPlace& place : set.parameters.at(Parameter::kWidth).channels)
     channels.push_back(place.channel);
   return channels;
 }
@@ -81,8 +82,8 @@ TEST_CASE("texture set: factors are one or three numbers from 0") {
     CHECK_THROWS_WITH(parse_factors("--specular-factor", bad), Contains("--specular-factor: is "));
   const Files files;
   TextureSetRequest request;
-  request.roughness.source = MapName{files.image("r.exr", {"Y"}), {}};
-  request.specular = {kGrey, {1.0f, 1.0f, 1.0f}, std::nullopt};
+  request.parameters[Parameter::kWidth].source = MapName{files.image("r.exr", {"Y"}), {}};
+  request.parameters[Parameter::kSpecular] = {kGrey, {1.0f, 1.0f, 1.0f}, std::nullopt};
   CHECK_THROWS_WITH(open_texture_set(request), Contains("--specular-factor: has 3 values; expected one"));
 }
 
@@ -101,8 +102,9 @@ TEST_CASE("texture set: a packed file is opened once") {
   const TextureSet set =
       opened(MapName{packed, {"A"}}, MapName{files.folder.path() / "." / "packed.exr", {"R", "G", "B"}});
   CHECK(set.maps.size() == 1);
-  CHECK(set.roughness.channels == std::vector<ChannelPlace>{{0, 3}});
-  CHECK(set.specular.channels == std::vector<ChannelPlace>{{0, 0}, {0, 1}, {0, 2}});
+  CHECK(set.parameters.at(Parameter::kWidth).channels == std::vector<ChannelPlace>{{0, 3}});
+  CHECK(set.parameters.at(Parameter::kSpecular).channels ==
+        std::vector<ChannelPlace>{{0, 0}, {0, 1}, {0, 2}});
 }
 
 TEST_CASE("texture set: a missing channel is answered with those that are there") {
@@ -131,12 +133,13 @@ TEST_CASE("texture set: colour in whole numbers tagged sRGB is read as such, and
   write_image(png, spec, noise);
   const auto roughness = files.image("r.exr", {"Y"});
   const TextureSet tagged = opened(MapName{roughness, {}}, MapName{png, {}});
-  CHECK(tagged.specular.transfer == Transfer::kSrgb);
+  CHECK(tagged.parameters.at(Parameter::kSpecular).transfer == Transfer::kSrgb);
   REQUIRE(remarks(tagged).size() == 1);
   CHECK_THAT(remarks(tagged).front(), Contains("is read as colour in sRGB"));
   // One channel of it is data, and so are floats and every roughness.
-  CHECK(opened(MapName{roughness, {}}, MapName{png, {"G"}}).specular.transfer == Transfer::kLinear);
-  CHECK(opened(MapName{png, {}}, kGrey).roughness.transfer == Transfer::kLinear);
+  CHECK(opened(MapName{roughness, {}}, MapName{png, {"G"}}).parameters.at(Parameter::kSpecular).transfer ==
+        Transfer::kLinear);
+  CHECK(opened(MapName{png, {}}, kGrey).parameters.at(Parameter::kWidth).transfer == Transfer::kLinear);
   CHECK(remarks(opened(MapName{roughness, {}}, MapName{files.image("s.exr", {"R", "G", "B"}), {}})).empty());
 }
 

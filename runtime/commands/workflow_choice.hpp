@@ -1,0 +1,40 @@
+// What `--from`, `--to` and the options of workflows mean: which material each end is, and which conventions
+// had to be assumed.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/convert_options.hpp"
+#include "convert/material_converter.hpp"
+
+namespace remap {
+
+struct WorkflowChoice {
+  std::string source_brdf, target_brdf;  // models of the graph of converters
+  // Both or none: with none width and specular alone are converted.
+  std::optional<WorkflowEnd> source, target;
+  WorkflowFormula formula = Projection{kCleanPrior};
+  bool estimates_f0 = false;  // use the F0 that the maps tell
+  bool f0_given = false;
+  std::vector<std::string> assumptions;  // one message each
+
+  bool is_material() const noexcept { return source.has_value(); }
+  bool is_to_metallic() const noexcept {
+    return is_material() && kind_of(*target) == WorkflowKind::kMetallic;
+  }
+  // A parameter that the source has maps of, in the order of Parameter.
+  std::vector<Parameter> sources() const;
+  std::vector<Parameter> targets() const;
+  bool has_source(Parameter parameter) const;
+};
+
+// `--from` or `--to` may be missing beside `--fit`. Throws kUsage for a word that there is not, for a
+// workflow that a named model does not have, and for options that need a workflow where there is none.
+WorkflowChoice workflow_choice(const ConvertOptions& options);
+
+// The same for two names alone.
+WorkflowChoice workflow_between(const std::string& from, const std::string& to);
+
+}  // namespace remap

@@ -1,0 +1,209 @@
+#include "texture/material_survey.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "error.hpp"
+
+namespace remap {
+namespace {
+
+constexpr int kBands = 16, kTexelsARow = 256;
+constexpr std::size_t kEstimatedTexels = 2048;
+
+// The maps that parameters or coverage lie in.
+std::vector<std::size_t> sampled_maps(const TextureSet& set) {
+  std::vector<bool> used(set.maps.size());
+  for (const auto& [parameter, values] : set.parameters)
+    for (const ChannelPlace& place : values.channels) used[place.map] = true;
+  if (set.coverage) used[set.coverage->map] = true;
+  std::vector<std::size_t> maps;
+  for (std::size_t map = 0; map < used.size(); ++map)
+    if (used[map]) maps.push_back(map);
+  return maps;
+}
+
+// A row of every map, as the files hold it.
+using StoredRows = std::map<std::size_t, std::vector<std::byte>>;
+
+// Every `step`-th value of a channel.
+std::vector<float> values_of(const TextureSet& set, const StoredRows& rows, const ChannelPlace& place,
+                             int step) {
+  const ImageLayout& layout = set.maps[place.map].layout();
+  const Channel& channel = layout.channels[place.channel];
+  std::vector<float> values(static_cast<std::size_t>((layout.width + step - 1) / step));
+  load_values(channel.type, rows.at(place.map).data() + channel.offset,
+              layout.texel_bytes * static_cast<std::size_t>(step), values.size(), values.data());
+  return values;
+}
+
+void add_row(const TextureSet& set, const StoredRows& rows, int step, MaterialSample& sample) {
+  std::vector<float> coverage;
+  if (set.coverage) coverage = values_of(set, rows, *set.coverage, step);
+  std::size_t added = 0;
+  for (const auto& [parameter, values] : set.parameters) {
+    const std::size_t count = is_color(parameter) ? values.channel_count() : 1;
+    auto& own = sample.rows[parameter];
+    own.resize(count);
+    for (std::size_t c = 0; c < count; ++c) {
+      const ImageLayout& layout = set.maps[set.first_map()].layout();
+      const auto texels = static_cast<std::size_t>((layout.width + step - 1) / step);
+      std::vector<float> row(texels, values.is_map() ? 0.0f : values.constants[c]);
+      if (values.is_map()) row = values_of(set, rows, values.channels[c], step);
+      if (values.is_map()) to_linear(values.transfer, row);
+      const float factor = values.factors.empty() ? 1.0f : values.factors[values.factors.size() == 1 ? 0 : c];
+      const std::size_t before = own[c].size();
+      for (std::size_t i = 0; i < row.size(); ++i)
+        if (coverage.empty() || coverage[i] > 0.0f) own[c].push_back(row[i] * factor);
+      added = own[c].size() - before;
+    }
+  }
+  sample.texel_count += added;
+}
+
+// Of the largest channel of each texel.
+std::vector<float> largest_of(const std::vector<std::vector<float>>& rows) {
+  std::vector<float> largest = rows.front();
+  for (const std::vector<float>& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) largest[i] = std::max(largest[i], row[i]);
+  return largest;
+}
+
+double share_within(const std::vector<float>& values, float low, float high) {
+  const auto inside =
+      std::count_if(values.begin(), values.end(), [&](float v) { return v >= low && v <= high; });
+  return static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(values.size(), 1));
+}
+
+std::string percent(double share) {
+  std::array<char, 16> text;
+  std::snprintf(text.data(), text.size(), "%.0f %%", 100.0 * share);
+  return text.data();
+}
+
+// Most of what there is are dielectrics, whose F0 lies at 0.03 to 0.05: read in the wrong way, it lies at
+// 0.19 to 0.25, where nothing but a few gems does, or at 0.002 to 0.004, where nothing does.
+void look_at_color_space(const MaterialSample& sample, const TextureSet& set,
+                         std::vector<std::string>& messages) {
+  constexpr double kMuch = 0.4, kLittle = 0.05;
+  const SetParameter* specular = set.map_of(Parameter::kSpecular);
+  if (specular == nullptr) return;
+  const std::vector<float> values = largest_of(sample.rows.at(Parameter::kSpecular));
+  if (share_within(values, 0.027f, 0.055f) > kLittle) return;
+  const bool is_srgb = specular->transfer == Transfer::kSrgb;
+  const double share = is_srgb ? share_within(values, 0.0018f, 0.0045f) : share_within(values, 0.185f, 0.26f);
+  if (share < kMuch) return;
+  const std::string place = set.maps[specular->channels.front().map].path().string();
+  messages.push_back(place + ": specular is " + (is_srgb ? "0.002 to 0.0045" : "0.19 to 0.26") + " in " +
+                     percent(share) + " of the texels, read as " +
+                     std::string(transfer_name(specular->transfer)) + ": F0 0.04 stored " +
+                     (is_srgb ? "linear" : "in sRGB") + " looks like this; expected --color-space specular=" +
+                     (is_srgb ? "linear" : "srgb") + " where that is so");
+}
+
+void look_at_flat_maps(const MaterialSample& sample, const TextureSet& set,
+                       std::vector<std::string>& messages) {
+  for (const auto& [parameter, values] : set.parameters) {
+    if (!is_color(parameter) || !values.is_map()) continue;
+    const std::vector<float> largest = largest_of(sample.rows.at(parameter));
+    const auto all = [&](float value) {
+      return !largest.empty() &&
+             std::all_of(largest.begin(), largest.end(), [&](float v) { return v == value; });
+    };
+    const std::string place = set.maps[values.channels.front().map].path().string() + ": " +
+                              std::string(parameter_name(parameter)) + " is ";
+    const auto is_white_everywhere = [&] {
+      return std::all_of(sample.rows.at(parameter).begin(), sample.rows.at(parameter).end(),
+                         [](const auto& row) {
+                           return std::all_of(row.begin(), row.end(), [](float v) { return v == 1.0f; });
+                         });
+    };
+    if (all(0.0f) && parameter != Parameter::kDiffuse)
+      messages.push_back(
+          place + "black in every texel that was looked at; expected " +
+          (parameter == Parameter::kSpecular ? "0.04 for what is no metal, linear" : "a colour"));
+    else if (all(1.0f) && is_white_everywhere())
+      messages.push_back(place + "white in every texel that was looked at; expected " +
+                         (parameter == Parameter::kSpecular ? "F0: a map of its strength is none"
+                                                            : "a reflectance below 1"));
+  }
+}
+
+}  // namespace
+
+MaterialSample sample_materials(TextureSet& set) {
+  MaterialSample sample;
+  const std::vector<std::size_t> maps = sampled_maps(set);
+  const ImageLayout& first = set.maps[set.first_map()].layout();
+  const int height = first.height, step = std::max(1, first.width / kTexelsARow);
+  int unit = 1;
+  for (const std::size_t map : maps)
+    if (const int tile = set.maps[map].layout().tile_height; tile > 0) unit = std::lcm(unit, tile);
+  const int units = (height + unit - 1) / unit, bands = std::min(kBands, units);
+  for (int band = 0; band < bands; ++band) {
+    const int begin = static_cast<int>((2 * band + 1) * static_cast<long long>(units) / (2 * bands)) * unit;
+    const int count = std::min(unit, height - begin);
+    StoredRows rows;
+    for (const std::size_t map : maps) {
+      rows[map].resize(static_cast<std::size_t>(count) * set.maps[map].layout().row_bytes());
+      set.maps[map].read_rows(begin, count, rows[map].data());
+    }
+    add_row(set, rows, step, sample);
+  }
+  return sample;
+}
+
+std::vector<std::string> doubts_about(const MaterialSample& sample, const TextureSet& set) {
+  std::vector<std::string> messages;
+  if (sample.texel_count == 0) return messages;
+  look_at_color_space(sample, set, messages);
+  look_at_flat_maps(sample, set, messages);
+  return messages;
+}
+
+std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,
+                                         RoughnessConvention width) {
+  if (sample.texel_count == 0) return std::nullopt;
+  SpecularWorkflow plain;
+  WorkflowStages to_plain = stages;
+  to_plain.target = plain;
+  const auto converter = make_workflow_converter(to_plain, InstructionSet::kBaseline);
+  const std::size_t count = sample.texel_count;
+  std::vector<float> widths = sample.rows.at(Parameter::kWidth).front();
+  change_convention(width, converter->info().source.roughness, widths);
+  MaterialRows<const float> in;
+  for (const Parameter parameter : converter->sources()) {
+    const auto& rows = sample.rows.at(parameter);
+    in[parameter].count = rows.size();
+    for (std::size_t c = 0; c < rows.size(); ++c) in[parameter].row[c] = rows[c].data();
+  }
+  in[Parameter::kWidth].row[0] = widths.data();
+  std::array<std::vector<float>, 7> made;
+  for (std::vector<float>& row : made) row.resize(count);
+  MaterialRows<float> out;
+  for (std::size_t c = 0; c < 3; ++c) {
+    out[Parameter::kDiffuse].row[c] = made[c].data();
+    out[Parameter::kSpecular].row[c] = made[3 + c].data();
+  }
+  out[Parameter::kDiffuse].count = out[Parameter::kSpecular].count = 3;
+  out[Parameter::kWidth] = {{made[6].data()}, 1};
+  converter->convert(count, in, out);
+  change_convention(converter->info().target.roughness, RoughnessConvention::kAlpha, made[6]);
+  std::vector<SpecularMaterial> materials;
+  const std::size_t every = std::max<std::size_t>(1, count / kEstimatedTexels);
+  for (std::size_t i = 0; i < count; i += every)
+    materials.push_back(
+        {{made[0][i], made[1][i], made[2][i]}, {made[3][i], made[4][i], made[5][i]}, made[6][i]});
+  WorkflowConversion conversion{plain, std::get<MetallicWorkflow>(stages.target), Projection{}};
+  conversion.specular.width = RoughnessConvention::kAlpha;
+  try {
+    return estimate_dielectric_f0(conversion, materials);
+  } catch (const Error&) {
+    return std::nullopt;  // nothing but NaN
+  }
+}
+
+}  // namespace remap

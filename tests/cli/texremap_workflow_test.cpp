@@ -1,0 +1,339 @@
+// Materials between workflows on files: what comes out, against formulas written here and the library in
+// memory, and what is said of maps that cannot be what they are taken for.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/texremap_session.hpp"
+#include "workflow/conversion.hpp"
+#include "workflow/diagnosis.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr int kSize = 40;
+
+void write_colors(const Session& session, const std::string& name, const TexelFunction& texel,
+                  OIIO::TypeDesc type = OIIO::TypeFloat, int size = kSize) {
+  write_image(session.path(name), test_spec(size, size, {"R", "G", "B"}, type), texel);
+}
+void write_grey(const Session& session, const std::string& name, const TexelFunction& texel,
+                OIIO::TypeDesc type = OIIO::TypeFloat, int size = kSize) {
+  write_image(session.path(name), test_spec(size, size, {"Y"}, type), texel);
+}
+
+float base_color(int x, int y, int c) { return 0.05f + 0.9f * noise(x, y, c); }
+float metallic(int x, int y, int) { return noise(x, y, 7); }
+float roughness(int x, int y, int) { return 0.1f + 0.8f * noise(x, y, 9); }
+
+// b.exr, m.exr, r.exr of a metallic material, floats.
+void write_metallic(const Session& session) {
+  write_colors(session, "b.exr", base_color);
+  write_grey(session, "m.exr", metallic);
+  write_grey(session, "r.exr", roughness);
+}
+// d.exr, s.exr, r.exr of a specular one: half plastics, half metals.
+void write_specular(const Session& session, float diffuse = 0.4f, float specular = 0.04f) {
+  write_colors(session, "d.exr",
+               [&](int x, int y, int c) { return y < 20 ? diffuse * noise(x, y, c) : 0.0f; });
+  write_colors(session, "s.exr",
+               [&](int x, int y, int c) { return y < 20 ? specular : 0.5f + 0.4f * noise(x, y, c); });
+  write_grey(session, "r.exr", roughness);
+}
+
+ProcessResult convert(const Session& session, std::vector<std::string> words) {
+  words.insert(words.begin(), "convert");
+  words.insert(words.end(), {"-o", session.path("out")});
+  return session.texremap(words);
+}
+
+std::vector<std::string> metallic_words(const Session& session, const std::string& from,
+                                        const std::string& to) {
+  return {"--from",       from,
+          "--to",         to,
+          "--base-color", session.path("b.exr"),
+          "--metallic",   session.path("m.exr"),
+          "--roughness",  session.path("r.exr")};
+}
+std::vector<std::string> specular_words(const Session& session, const std::string& from,
+                                        const std::string& to) {
+  return {"--from",      from,
+          "--to",        to,
+          "--diffuse",   session.path("d.exr"),
+          "--specular",  session.path("s.exr"),
+          "--roughness", session.path("r.exr")};
+}
+
+std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+}  // namespace
+
+TEST_CASE("texremap workflows: metallic to specular is equation (2), by hand") {
+  const Session session;
+  write_metallic(session);
+  const bool is_gltf = GENERATE(true, false);
+  require_success(convert(session, metallic_words(session, is_gltf ? "gltf" : "metallic",
+                                                  is_gltf ? "gltf-specgloss" : "specular")));
+  const TestImage d = read_image(session.path("out/diffuse.exr")),
+                  s = read_image(session.path("out/specular.exr"));
+  const TestImage width = read_image(session.path(is_gltf ? "out/glossiness.exr" : "out/roughness.exr"));
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const double n = 1.0 - static_cast<double>(metallic(x, y, 0));
+      double most = 0.0;
+      for (int c = 0; c < 3; ++c)
+        most = std::max(most, 0.04 * n + static_cast<double>(base_color(x, y, c)) * (1.0 - n));
+      for (int c = 0; c < 3; ++c) {
+        const double base = static_cast<double>(base_color(x, y, c));
+        REQUIRE(s.at(x, y, c) == Approx(0.04 * n + base * (1.0 - n)).margin(1e-6));
+        REQUIRE(d.at(x, y, c) == Approx(is_gltf ? 0.96 * base * n / (1.0 - most) : base * n).margin(2e-6));
+      }
+      const float own = roughness(x, y, 0);
+      REQUIRE(width.at(x, y, 0) == Approx(is_gltf ? 1.0f - own : own).margin(1e-6));
+    }
+}
+
+TEST_CASE("texremap workflows: specular to metallic has the bits of the library, on any number of threads") {
+  const Session session;
+  write_specular(session);
+  const std::string threads = GENERATE("1", "3");
+  const std::string set = GENERATE("baseline", "avx2");
+  const ProcessResult result =
+      convert(session, with(specular_words(session, "specular", "metallic"),
+                            {"--threads", threads, "--instructions", set, "--residual", "res.exr",
+                             "--metallic-width", "wid.exr", "--json"}));
+  if (result.exit_code == 2 && result.errors.find("--instructions") != std::string::npos) return;
+  require_success(result);
+  const TestImage d = read_image(session.path("d.exr")), s = read_image(session.path("s.exr")),
+                  r = read_image(session.path("r.exr")),
+                  base = read_image(session.path("out/base_color.exr")),
+                  metal = read_image(session.path("out/metallic.exr")),
+                  residual = read_image(session.path("out/res.exr")),
+                  width = read_image(session.path("out/wid.exr"));
+  const WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
+  std::size_t guesses = 0;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const SpecularMaterial material{{d.at(x, y, 0), d.at(x, y, 1), d.at(x, y, 2)},
+                                      {s.at(x, y, 0), s.at(x, y, 1), s.at(x, y, 2)},
+                                      r.at(x, y, 0)};
+      const MetallicMaterial expected = to_metallic(conversion, material);
+      const MetallicDiagnosis diagnosis = diagnose(conversion, material, expected);
+      for (int c = 0; c < 3; ++c)
+        REQUIRE(base.at(x, y, c) == expected.base_color[static_cast<std::size_t>(c)]);
+      REQUIRE(metal.at(x, y, 0) == expected.metallic);
+      REQUIRE(residual.at(x, y, 0) == diagnosis.residual);
+      REQUIRE(width.at(x, y, 0) == diagnosis.metallic_width);
+      guesses += diagnosis.metallic_width > 0.2f;
+    }
+  const auto json = nlohmann::json::parse(result.output);
+  CHECK(json["metallic_confidence"]["guesses"] == guesses);
+  CHECK(json["estimated_dielectric_f0"]["value"].get<double>() == Approx(0.04).margin(0.001));
+}
+
+TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in one pass") {
+  const Session session;
+  write_specular(session);
+  std::vector<std::string> words = specular_words(session, "mitsuba/ward", "gltf");
+  require_success(convert(session, with(words, {"--from-workflow", "specular", "--layout", "orm"})));
+  const TestImage d = read_image(session.path("d.exr")), s = read_image(session.path("s.exr")),
+                  r = read_image(session.path("r.exr")),
+                  base = read_image(session.path("out/base_color.exr")),
+                  orm = read_image(session.path("out/orm.exr"));
+  const Converter& brdf = find_converter("mitsuba/ward", "mitsuba/ggx");
+  WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
+  conversion.specular.width = conversion.metallic.width = RoughnessConvention::kAlpha;
+  conversion.metallic.diffuse = DiffuseConvention::kScaled;
+  for (int y = 0; y < kSize; y += 3)
+    for (int x = 0; x < kSize; ++x) {
+      const float alpha = r.at(x, y, 0);
+      const std::array<float, 3> given = {s.at(x, y, 0), s.at(x, y, 1), s.at(x, y, 2)};
+      SpecularMaterial material{{d.at(x, y, 0), d.at(x, y, 1), d.at(x, y, 2)}, {}, 0.0f};
+      const std::array<const float*, 3> in = {&given[0], &given[1], &given[2]};
+      const std::array<float*, 3> out = {&material.specular[0], &material.specular[1], &material.specular[2]};
+      brdf.convert(1, &alpha, in, &material.width, out);
+      const MetallicMaterial expected = to_metallic(conversion, material);
+      for (int c = 0; c < 3; ++c)
+        REQUIRE(base.at(x, y, c) == expected.base_color[static_cast<std::size_t>(c)]);
+      REQUIRE(orm.at(x, y, 2) == expected.metallic);
+      REQUIRE(orm.at(x, y, 1) == Approx(std::sqrt(material.width)).margin(1e-6));
+    }
+}
+
+TEST_CASE("texremap workflows: metallic to metallic of another BRDF, files as they were") {
+  const Session session;
+  write_metallic(session);
+  require_success(convert(session, metallic_words(session, "gltf", "cycles-5/principled")));
+  CHECK(session.result_count() == 3);
+  const TestImage before = read_image(session.path("m.exr")), after = read_image(session.path("out/m.exr"));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < before.values.size(); ++i)
+    sum += std::abs(static_cast<double>(before.values[i] - after.values[i]));
+  CHECK(sum / static_cast<double>(before.values.size()) < 0.05);
+}
+
+TEST_CASE("texremap workflows: glossiness in alpha leaves the colours of a PNG alone") {
+  const Session session;
+  write_colors(
+      session, "d.png", [](int, int, int c) { return 0.2f + 0.1f * static_cast<float>(c); }, OIIO::TypeUInt8);
+  write_image(session.path("sg.png"), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
+              [](int x, int, int c) { return c == 3 ? static_cast<float>(x) / 255.0f : 0.8f; });
+  require_success(convert(
+      session, {"--from", "gltf-specgloss", "--to", "gltf", "--diffuse", session.path("d.png"), "--specular",
+                session.path("sg.png"), "--glossiness", session.path("sg.png") + ":A", "--layout", "orm"}));
+  const TestImage base = read_image(session.path("out/base_color.png")),
+                  orm = read_image(session.path("out/orm.png"));
+  for (int x = 1; x < kSize; ++x) {
+    REQUIRE(orm.at(x, 0, 1) == Approx(1.0f - static_cast<float>(x) / 255.0f).margin(1e-6));
+    // The colour of the texel does not know its glossiness: a metal of 0.8 in sRGB.
+    REQUIRE(orm.at(x, 0, 2) > 0.9f);
+    REQUIRE(base.at(x, 0, 0) == Approx(0.8f).margin(0.03));
+  }
+}
+
+TEST_CASE("texremap workflows: alpha of diffuse goes along, and what it masks does not count") {
+  const Session session;
+  write_specular(session);
+  write_image(session.path("d.exr"), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeFloat),
+              [](int x, int, int c) { return x < 10 ? (c == 3 ? 0.0f : 5.0f) : 0.3f; });
+  const ProcessResult result =
+      convert(session, with(specular_words(session, "specular", "metallic"), {"--json"}));
+  require_success(result);
+  const auto json = nlohmann::json::parse(result.output);
+  CHECK(json["masked"] == 10 * kSize);
+  CHECK(json["above_one"] == 0);
+  CHECK(json["metallic_confidence"]["texels"] == 30 * kSize);
+  const TestImage base = read_image(session.path("out/base_color.exr"));
+  REQUIRE(base.spec.nchannels == 4);
+  for (int x = 0; x < kSize; ++x) REQUIRE(base.at(x, 3, 3) == (x < 10 ? 0.0f : 0.3f));
+}
+
+TEST_CASE("texremap workflows: a mask of metal chooses between answers that look alike") {
+  const Session session;
+  // A dark blend: metallic 0.69 with a base colour of 0.04, or none with 0.0125; the same picture.
+  write_colors(session, "d.exr", [](int, int, int) { return 0.0125f; });
+  write_colors(session, "s.exr", [](int, int, int) { return 0.04f; });
+  write_grey(session, "r.exr", [](int, int, int) { return 0.5f; });
+  write_grey(session, "mask.exr", [](int x, int, int) { return x < 20 ? 1.0f : 0.0f; });
+  require_success(convert(session, with(specular_words(session, "specular", "metallic"),
+                                        {"--metal-mask", session.path("mask.exr")})));
+  const TestImage metal = read_image(session.path("out/metallic.exr"));
+  CHECK(metal.at(3, 3, 0) > 0.65f);
+  CHECK(metal.at(30, 3, 0) < 0.01f);
+}
+
+TEST_CASE("texremap workflows: maps that cannot be meant so are warned of, with the reason") {
+  const Session session;
+  const auto warned = [&](const std::vector<std::string>& words, const std::string& message) {
+    const ProcessResult result = convert(session, with(words, {"--force"}));
+    require_success(result);
+    CHECK_THAT(result.errors, Contains(message));
+  };
+  const std::vector<std::string> words = specular_words(session, "specular", "metallic");
+  write_specular(session, 0.4f, 0.2195f);  // F0 0.04 as sRGB stores it
+  warned(words, "F0 0.04 stored in sRGB looks like this; expected --color-space specular=srgb");
+  write_specular(session, 0.4f, 0.0f);
+  write_colors(session, "s.exr", [](int, int, int) { return 0.0f; });
+  warned(words, "specular is black in every texel that was looked at; expected 0.04");
+  write_colors(session, "s.exr", [](int, int, int) { return 1.0f; });
+  warned(words, "specular is white in every texel that was looked at");
+  write_specular(session, 8.0f);
+  warned(words, "texels with values above 1, which reflect more than they receive");
+  write_specular(session);
+  warned(words, "diffuse of specular is taken as plain, which no map can tell; --diffuse-convention scaled");
+  warned(words, "the maps' own F0 of a dielectric is about 0.04");
+  write_metallic(session);
+  write_colors(session, "b.exr", [](int, int, int) { return 0.0f; });
+  warned(metallic_words(session, "metallic", "specular"), "base_color is black in every texel");
+}
+
+TEST_CASE("texremap workflows: the F0 of the maps is used where that is asked for") {
+  const Session session;
+  write_specular(session, 0.5f, 0.055f);
+  const ProcessResult result = convert(session, with(specular_words(session, "specular", "metallic"),
+                                                     {"--dielectric-f0", "estimate", "--json"}));
+  require_success(result);
+  CHECK(nlohmann::json::parse(result.output)["metallic_confidence"]["rms_residual"] < 0.002);
+  CHECK_THAT(result.errors, Contains("is about 0.055; 0.055 is used"));
+  const TestImage metal = read_image(session.path("out/metallic.exr"));
+  CHECK(metal.at(5, 5, 0) < 0.01f);
+}
+
+TEST_CASE("texremap workflows: what does not fit together is refused, and nothing is written") {
+  const Session session;
+  write_specular(session);
+  write_metallic(session);
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& message, int code = 2) {
+    const ProcessResult result = convert(session, words);
+    CHECK(result.exit_code == code);
+    CHECK_THAT(result.last_error(), Contains(message));
+    CHECK(session.file_count() == 0);
+  };
+  const std::vector<std::string> specular = specular_words(session, "specular", "gltf"),
+                                 metal = metallic_words(session, "gltf", "specular");
+  std::vector<std::string> words = specular;
+  words.erase(words.begin() + 4, words.begin() + 6);
+  refused(words, "--diffuse: is missing; expected a map or a number");
+  words = metal;
+  write_grey(session, "m.exr", metallic, OIIO::TypeFloat, 20);
+  refused(words, "m.exr: is 20 x 20; expected the size of", 1);
+  refused(with(specular, {"--layout", "specgloss"}), "specgloss, which has no place for metallic");
+  refused(with(specular, {"--layout", "as-inputs"}), "no input has a place for base_color");
+  refused(with(specular, {"--from-workflow", "metallic"}), "specular has the specular workflow");
+  refused(with(specular, {"--formula", "projektion"}), "did you mean projection?");
+  refused(with(specular, {"--formula", "khronos"}), "Khronos' solver with plain diffuse", 1);
+  refused(with(specular, {"--dielectric-f0", "2"}), "--dielectric-f0: is 2; expected 0 to 0.9, or estimate");
+  refused(with(specular, {"--diffuse-convention", "plane"}), "did you mean plain?");
+  refused(with(metal, {"--residual", "r.exr"}), "--residual: is for metallic results");
+  refused(with(metal, {"--dielectric-f0", "estimate"}), "expected a number");
+  refused(with(specular, {"--only", "specular"}), "--only: is for width and specular alone");
+  refused({"--from", "mitsuba/ward", "--to", "mitsuba/ggx", "--roughness", "0.3", "--specular", "0.1",
+           "--prior", "noisy"},
+          "--prior: is for workflows");
+}
+
+TEST_CASE("texremap workflows: a folder of sets goes from one workflow to another") {
+  const Session session;
+  std::filesystem::create_directory(session.path("in"));
+  write_colors(session, "in/wood_diffuse.png", base_color, OIIO::TypeUInt8);
+  write_colors(session, "in/wood_specular.png", base_color, OIIO::TypeUInt8);
+  write_grey(session, "in/wood_glossiness.png", roughness, OIIO::TypeUInt8);
+  write_grey(session, "in/wood_ao.png", roughness, OIIO::TypeUInt8);
+  write_grey(session, "in/bare_glossiness.png", roughness, OIIO::TypeUInt8);
+  const ProcessResult result =
+      convert(session, {session.path("in"), "--from", "gltf-specgloss", "--to", "gltf", "--layout", "orm"});
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.errors, Contains("bare: has no specular map; expected one, or --specular VALUE"));
+  const TestImage orm = read_image(session.path("out/wood_orm.png")),
+                  gloss = read_image(session.path("in/wood_glossiness.png")),
+                  occlusion = read_image(session.path("in/wood_ao.png"));
+  for (int x = 0; x < kSize; ++x) {
+    REQUIRE(orm.at(x, 2, 1) == Approx(1.0f - gloss.at(x, 2, 0)).margin(1e-6));
+    REQUIRE(orm.at(x, 2, 0) == occlusion.at(x, 2, 0));
+  }
+  CHECK(std::filesystem::exists(session.path("out/wood_base_color.png")));
+}
+
+TEST_CASE("texremap workflows: list and path know them") {
+  const Session session;
+  const ProcessResult list = session.texremap({"list", "--workflows", "--json"});
+  require_success(list);
+  const auto models = nlohmann::json::parse(list.output);
+  CHECK(models.size() == 7);
+  CHECK(models[0]["model"] == "gltf");
+  CHECK(models[0]["dielectric_f0"] == 0.04);
+  const ProcessResult path = session.texremap({"path", "--from", "mitsuba/ward", "--to", "gltf"});
+  require_success(path);
+  CHECK_THAT(path.output, Contains("width and specular from mitsuba/ward to mitsuba/ggx") &&
+                              Contains("to base colour and metallic by projection") &&
+                              Contains("mitsuba_ward_to_mitsuba_ggx"));
+  require_success(session.texremap({"path", "--from", "gltf-specgloss", "--to", "gltf", "--json"}));
+}
