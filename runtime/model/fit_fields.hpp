@@ -28,7 +28,9 @@ inline ModelSide read_side(const Field& field) {
 }
 
 // Whether the root of a fit file is that of a fit of whole materials: its ends name their workflows.
-inline bool is_of_materials(const Field& root) { return root["source"].json().contains("workflow"); }
+inline bool is_of_materials(const Field& root) {
+  return root.json().contains("source") && root["source"].json().contains("workflow");
+}
 
 // Throws kInput where the root of a file is not that of a fit of kFitFormatVersion.
 inline void require_fit_format(const Field& root) {

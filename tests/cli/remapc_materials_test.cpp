@@ -110,7 +110,8 @@ TEST_CASE("remapc study: wrong usage is exit code 2, help has an example") {
           std::string::npos);
 }
 
-TEST_CASE("remapc sample: a table of named columns, which check reads and fit refuses") {
+TEST_CASE(
+    "remapc sample: a table of named columns, which check reads and fit learns from the other way round") {
   const Session session;
   const std::vector<std::string> sample = {"sample",       "--source",    "mitsuba/ggx-metallic",
                                            "--target",     "mitsuba/ggx", "--vary",
@@ -124,7 +125,8 @@ TEST_CASE("remapc sample: a table of named columns, which check reads and fit re
   CHECK(result.output.find("\"rows\": 50") != std::string::npos);
   CHECK(result.output.find("\"base_color_g1\"") != std::string::npos);
   CHECK(session.remapc({"check", session.path("t.csv")}).exit_code == 0);
-  check_failure(session.remapc({"fit", session.path("t.csv")}), 1, "is a table of named parameters");
+  check_failure(session.remapc({"fit", session.path("t.csv")}), 2,
+                "is exact and needs no fit; expected --swap");
   check_failure(session.remapc(sample), 1, "exists; --force replaces it");
   check_failure(session.remapc({"sample", "--source", "mitsuba/ggx", "--target", "mitsuba/ggx", "--range",
                                 "alpha=0.5", "-o", session.path("u.csv")}),
