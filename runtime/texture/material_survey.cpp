@@ -115,11 +115,11 @@ void look_at_flat_maps(const MaterialSample& sample, const TextureSet& set,
     };
     const std::string place = set.maps[values.channels.front().map].path().string() + ": " +
                               std::string(parameter_name(parameter)) + " is ";
-    const auto is_white_everywhere = [&] {
-      return std::all_of(sample.rows.at(parameter).begin(), sample.rows.at(parameter).end(),
-                         [](const auto& row) {
-                           return std::all_of(row.begin(), row.end(), [](float v) { return v == 1.0f; });
-                         });
+    const auto& rows = sample.rows.at(parameter);
+    const auto is_white_everywhere = [&rows] {
+      return std::all_of(rows.begin(), rows.end(), [](const auto& row) {
+        return std::all_of(row.begin(), row.end(), [](float v) { return v == 1.0f; });
+      });
     };
     if (all(0.0f) && parameter != Parameter::kDiffuse)
       messages.push_back(
