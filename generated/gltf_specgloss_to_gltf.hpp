@@ -80,14 +80,15 @@ inline float float_of_order(std::int32_t value) noexcept {
   return float_from_bits(static_cast<std::uint32_t>(value));
 }
 
-// The smaller of two integers from 0, of two floats from 0.
+// The smaller and the larger of two integers from 0, of two floats from 0.
 inline std::int32_t smaller(std::int32_t a, std::int32_t b) noexcept {
   return b + ((a - b) & ((a - b) >> 31));
 }
-inline float smaller(float a, float b) noexcept { return float_of_order(smaller(order(a), order(b))); }
-inline float larger(float a, float b) noexcept {
-  return float_of_order(order(a) + order(b) - smaller(order(a), order(b)));
+inline std::int32_t larger(std::int32_t a, std::int32_t b) noexcept {
+  return a - ((a - b) & ((a - b) >> 31));
 }
+inline float smaller(float a, float b) noexcept { return float_of_order(smaller(order(a), order(b))); }
+inline float larger(float a, float b) noexcept { return float_of_order(larger(order(a), order(b))); }
 
 // 0 in place of a negative value.
 inline float from_zero(float value) noexcept { return float_of_order(order(value) & ~(order(value) >> 31)); }
