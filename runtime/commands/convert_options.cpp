@@ -158,6 +158,11 @@ void add_output_options(CLI::App& command, ConvertOptions& options) {
       "--metallic-width", options.metallic_width,
       "Name of a map to write as well: share of [0, 1] in which metallic could lie; above 0.2 it "
       "is a guess");
+  command.add_option(
+      "--doubts", options.doubts,
+      "Name of a map to write as well: why metallic or base colour may not be those that were meant; in 8 "
+      "bits the sum of 1 (clamped), 2 (two answers look alike), 4 (too dark to tell), 8 (metallic is a "
+      "guess)");
   command.add_option("--format", options.format, "Extension of the results: exr, tif, png, ...");
   command.add_option("--type", options.type, "Pixel type of the results: uint8, uint16, half, float");
   command.add_flag("--dither", options.dither,
@@ -195,6 +200,9 @@ void add_workflow_options(CLI::App& command, ConvertOptions& options) {
       "number");
   command.add_option("--metal-mask", options.metal_mask,
                      "Map of what is metal: chooses among metallic values that look alike");
+  command.add_flag("--smooth-metallic", options.smooth_metallic,
+                   "Where metallic is a guess on which the picture does not depend, follow the texels around "
+                   "it that can tell; reads the maps twice");
 }
 
 // Which parameters a set must have: the name of what is missing ends the conversion.
@@ -335,6 +343,7 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   if (!options.residual.empty()) choice.measures.push_back({Parameter::kResidual, options.residual});
   if (!options.metallic_width.empty())
     choice.measures.push_back({Parameter::kMetallicWidth, options.metallic_width});
+  if (!options.doubts.empty()) choice.measures.push_back({Parameter::kDoubts, options.doubts});
   choice.parameters = workflow.targets();
   choice.colors_stay_grey = !workflow.is_material();
   if (workflow.is_material() && width_of(*workflow.target) == RoughnessConvention::kGlossiness &&
@@ -352,6 +361,8 @@ PassOptions pass_options(const ConvertOptions& options) {
   pass.bad_texels = bad_texels_of(options.bad_texels);
   pass.dither = options.dither;
   pass.value_statistics = options.json;
+  pass.metallic_statistics = options.json || !options.quiet;
+  pass.smooth_metallic = options.smooth_metallic;
   return pass;
 }
 
@@ -367,7 +378,8 @@ std::string result_options_text(const ConvertOptions& options) {
         &options.to_workflow,     &options.dielectric_f0, &options.diffuse_convention,
         &options.formula,         &options.prior,         &options.metal_mask})
     text += *word + '\n';
-  return text + (options.dither ? "dither\n" : "") + (options.resample ? "resample\n" : "");
+  return text + (options.dither ? "dither\n" : "") + (options.resample ? "resample\n" : "") +
+         (options.smooth_metallic ? "smooth-metallic\n" : "");
 }
 
 InstructionSet chosen_instructions(const ConvertOptions& options) {

@@ -52,12 +52,14 @@ struct ConvertOptions {
   std::string mask;
   std::string residual;
   std::string metallic_width;
+  std::string doubts;
   std::string output;
   std::string format;
   std::string type;
   std::string instructions;
   int thread_count = 0;
   bool dither = false;
+  bool smooth_metallic = false;
   bool force = false;
   bool json = false;
   bool quiet = false;

@@ -51,6 +51,10 @@ std::string outside_text(const ChosenConverter& chosen) {
   return "what one of the steps covers (the path: " + domain + ")";
 }
 
+Json position_json(const std::optional<TexelPosition>& texel) {
+  return texel ? Json{texel->x, texel->y} : Json();
+}
+
 std::string first_text(const MapStatistics& counts) {
   if (!counts.first_bad) return "";
   return "; the first bad texel is (" + std::to_string(counts.first_bad->x) + ", " +
@@ -118,10 +122,15 @@ Json metallic_json(const MetallicStatistics& metallic) {
   return {{"texels", metallic.texel_count},
           {"rms_residual", metallic.rms_residual()},
           {"largest_residual", metallic.largest_residual},
-          {"guesses", metallic.guess_count},
-          {"guesses_in_the_dark", metallic.dark_count},
-          {"two_answers", metallic.two_answers_count},
-          {"clamped", metallic.clamped_count}};
+          {"guesses", metallic.guess.count},
+          {"guesses_in_the_dark", metallic.dark.count},
+          {"two_answers", metallic.two_answers.count},
+          {"clamped", metallic.clamped.count},
+          {"first",
+           {{"guess", position_json(metallic.guess.first)},
+            {"guess_in_the_dark", position_json(metallic.dark.first)},
+            {"two_answers", position_json(metallic.two_answers.first)},
+            {"clamped", position_json(metallic.clamped.first)}}}};
 }
 
 Json f0_json(const std::optional<DielectricF0>& f0) {
@@ -163,7 +172,7 @@ Json counts_json(const MapStatistics& counts) {
           {"nan", counts.nan_count},
           {"infinite", counts.infinite_count},
           {"negative", counts.negative_count},
-          {"first_bad", counts.first_bad ? Json{counts.first_bad->x, counts.first_bad->y} : Json()},
+          {"first_bad", position_json(counts.first_bad)},
           {"clipped_values", counts.clipped_count}};
 }
 
@@ -318,10 +327,10 @@ void print_confidence(const std::string& program, const std::string& place, cons
   print_message(program, place + "what metallic cannot say (residual): " + residual.data() +
                              "; pictures differ by about 0.42 of it");
   print_message(program, place + "metallic is a guess that the picture does not depend on in " +
-                             share(metallic.guess_count) + " of the texels (" + share(metallic.dark_count) +
+                             share(metallic.guess.count) + " of the texels (" + share(metallic.dark.count) +
                              " too dark to tell); two answers look alike in " +
-                             share(metallic.two_answers_count) + ", clamped " +
-                             share(metallic.clamped_count));
+                             share(metallic.two_answers.count) + ", clamped " +
+                             share(metallic.clamped.count));
 }
 
 }  // namespace

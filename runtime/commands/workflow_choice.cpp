@@ -143,6 +143,8 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
                            {"--prior", !options.prior.empty(), true},
                            {"--residual", !options.residual.empty(), true},
                            {"--metallic-width", !options.metallic_width.empty(), true},
+                           {"--doubts", !options.doubts.empty(), true},
+                           {"--smooth-metallic", options.smooth_metallic, true},
                            {"--metal-mask", !options.metal_mask.empty(), true}};
   for (const Entry& entry : entries) {
     if (!entry.given) continue;

@@ -15,6 +15,7 @@ constexpr NamedValues<Parameter, kParameterCount> kParameters = {
      {Parameter::kBaseColor, "base_color"},
      {Parameter::kMetallic, "metallic"},
      {Parameter::kMetalMask, "metal_mask"},
+     {Parameter::kNearbyMetallic, "nearby_metallic"},
      {Parameter::kResidual, "residual"},
      {Parameter::kMetallicWidth, "metallic_width"},
      {Parameter::kDoubts, "doubts"}}};
@@ -45,6 +46,11 @@ class WidthSpecularConverter final : public MaterialConverter {
 }  // namespace
 
 std::string_view parameter_name(Parameter parameter) { return name_of(kParameters, parameter); }
+
+bool is_measure(Parameter parameter) {
+  return parameter == Parameter::kResidual || parameter == Parameter::kMetallicWidth ||
+         parameter == Parameter::kDoubts;
+}
 
 std::string parameter_option(Parameter parameter) {
   if (parameter == Parameter::kWidth) return "--roughness";

@@ -20,7 +20,8 @@ class MaterialConverter {
 
   // Models, width parameters and ranges of both ends.
   const ConverterInfo& info() const noexcept { return info_; }
-  // What it needs, and what it makes, each in the order of Parameter. It may take kMetalMask as well.
+  // What it needs, and what it makes, each in the order of Parameter. Where it can diagnose, it may
+  // take kMetalMask or kNearbyMetallic as well.
   const std::vector<Parameter>& sources() const noexcept { return sources_; }
   const std::vector<Parameter>& targets() const noexcept { return targets_; }
   bool has_source(Parameter parameter) const noexcept;

@@ -16,12 +16,13 @@ enum class Parameter {
   kDiffuse,    // of the specular workflow
   kBaseColor,  // of the metallic workflow
   kMetallic,
-  kMetalMask,      // source only: which of several metallic values that look alike is meant
-  kResidual,       // target only: what metallic cannot say of a texel (workflow/diagnosis.hpp)
-  kMetallicWidth,  // target only: share of [0, 1] in which metallic could lie
-  kDoubts,         // target only: a sum of Doubt
+  kMetalMask,       // source only: which of several metallic values that look alike is meant
+  kNearbyMetallic,  // source only: the metallic around a texel, taken where its own is a guess
+  kResidual,        // target only: what metallic cannot say of a texel (workflow/diagnosis.hpp)
+  kMetallicWidth,   // target only: share of [0, 1] in which metallic could lie
+  kDoubts,          // target only: a sum of Doubt, over 255: 8 bits hold it
 };
-inline constexpr std::size_t kParameterCount = 9;
+inline constexpr std::size_t kParameterCount = 10;
 
 // Why the metallic material of a texel may not be the one that was meant; powers of two.
 enum class Doubt {
@@ -36,11 +37,13 @@ inline constexpr float kGuessWidth = 0.2f;
 // Diffuse and F0 below which a texel counts as dark, linear.
 inline constexpr float kDarkTexel = 0.06f;
 
-// `width`, `specular`, `diffuse`, `base_color`, `metallic`, `metal_mask`, `residual`, `metallic_width`,
-// `doubts`.
+// `width`, `specular`, `diffuse`, `base_color`, `metallic`, `metal_mask`, `nearby_metallic`, `residual`,
+// `metallic_width`, `doubts`.
 std::string_view parameter_name(Parameter parameter);
 // `--base-color`; `--roughness` for the width.
 std::string parameter_option(Parameter parameter);
+// Whether it is said of the result, and no parameter of it: kResidual, kMetallicWidth, kDoubts.
+bool is_measure(Parameter parameter);
 // Whether it has three channels, or may have.
 bool is_color(Parameter parameter);
 

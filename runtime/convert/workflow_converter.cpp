@@ -254,8 +254,12 @@ void WorkflowConverter::write_metallic(std::size_t count, std::size_t start, con
   const MetallicRows<float> to = {base[0].data(), base[1].data(), base[2].data(), scratch.metallic.data(),
                                   scratch.ignored.data()};
   kernels_.to_metallic(*to_metallic_, count, from, to);
-  if (const auto& mask = in[Parameter::kMetalMask]; mask.count > 0)
-    kernels_.follow(*to_metallic_, count, from, mask.row[0] + start, to);
+  const auto follow = [&](Parameter parameter, FollowedTexels which) {
+    const auto& wanted = in[parameter];
+    if (wanted.count > 0) kernels_.follow(*to_metallic_, count, from, wanted.row[0] + start, which, to);
+  };
+  follow(Parameter::kNearbyMetallic, FollowedTexels::kGuesses);
+  follow(Parameter::kMetalMask, FollowedTexels::kAll);
   const auto wanted = [&](Parameter parameter) { return out[parameter].count > 0; };
   if (wanted(Parameter::kResidual) || wanted(Parameter::kMetallicWidth) || wanted(Parameter::kDoubts))
     kernels_.diagnose(*to_metallic_, count, from, {to[0], to[1], to[2], to[3], to[4]},

@@ -20,8 +20,11 @@ using MetallicRows = std::array<Float*, 5>;
 struct DiagnosisRows {
   float* residual = nullptr;
   float* metallic_width = nullptr;
-  float* doubts = nullptr;  // sums of Doubt
+  float* doubts = nullptr;  // sums of Doubt, over 255
 };
+
+// Which texels follow another metallic: all, or those where it is a guess (kGuessWidth).
+enum class FollowedTexels { kAll, kGuesses };
 
 // `conversion` must be valid (require_valid). Rows as in convert_workflow.
 struct WorkflowKernels {
@@ -33,9 +36,9 @@ struct WorkflowKernels {
                       const SpecularRows<const float>& in, const MetallicRows<float>& out) noexcept;
   // Of those metallic values whose pictures are within a step of 8 bits of the best, the nearest to
   // `wanted`, with the base colour that is best for it: replaces base colour and metallic in `result`.
-  // Texels whose `wanted` is NaN stay.
+  // Texels whose `wanted` is NaN stay, and with kGuesses those whose metallic is none.
   void (*follow)(const WorkflowConversion& conversion, std::size_t count, const SpecularRows<const float>& in,
-                 const float* wanted, const MetallicRows<float>& result) noexcept;
+                 const float* wanted, FollowedTexels which, const MetallicRows<float>& result) noexcept;
   // What diagnose() says of each texel. NaN in the material or in the result: residual and width NaN, no
   // doubt.
   void (*diagnose)(const WorkflowConversion& conversion, std::size_t count,

@@ -76,6 +76,7 @@ class Conversion {
  private:
   void require_fitting() const;
   const TargetParameter* wanted(Parameter parameter) const;
+  bool is_made(Parameter parameter) const;
   float highest(Parameter parameter) const;
   void load_channel(const SourceParameter& parameter, std::size_t channel, const Segment& segment,
                     float* values) const;
@@ -113,7 +114,8 @@ Conversion::Conversion(const MaterialConverter& converter, const MapConversion& 
       maps_(maps),
       sources_(converter.sources()),
       is_material_(converter.sources().size() > 2) {
-  if (maps.sources.count(Parameter::kMetalMask) > 0) sources_.push_back(Parameter::kMetalMask);
+  for (const Parameter beside : {Parameter::kMetalMask, Parameter::kNearbyMetallic})
+    if (maps.sources.count(beside) > 0) sources_.push_back(beside);
   require_fitting();
 }
 
@@ -148,6 +150,12 @@ void Conversion::require_fitting() const {
 const TargetParameter* Conversion::wanted(Parameter parameter) const {
   const auto found = maps_.targets.find(parameter);
   return found == maps_.targets.end() || found->second.channels.empty() ? nullptr : &found->second;
+}
+
+// Measures are made where a map or the statistics hold them.
+bool Conversion::is_made(Parameter parameter) const {
+  const bool counts = maps_.metallic_statistics && parameter != Parameter::kMetallicWidth;
+  return !is_measure(parameter) || counts || wanted(parameter) != nullptr;
 }
 
 // What no material goes beyond; widths and specular alone have no such limit.
@@ -355,18 +363,20 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
 
   const std::size_t specular = scratch.source.count(Parameter::kSpecular);
   for (const Parameter parameter : converter_.targets())
-    scratch.target.make(parameter, converter_.target_channels(parameter, specular));
+    if (is_made(parameter)) scratch.target.make(parameter, converter_.target_channels(parameter, specular));
   statistics.out_of_domain_count +=
       converter_.convert(count, scratch.source.all<const float>(), scratch.target.all<float>());
   if (maps_.mask) {
     for (const Parameter parameter : converter_.targets())
-      scratch.ignored.make(parameter, converter_.target_channels(parameter, specular));
+      if (!is_measure(parameter))
+        scratch.ignored.make(parameter, converter_.target_channels(parameter, specular));
     write_mask(segment, 0, count, scratch);
   }
-  if (converter_.can_diagnose())
-    statistics.metallic += statistics_of(
-        count, {scratch.target.row(Parameter::kResidual, 0), scratch.target.row(Parameter::kDoubts, 0),
-                maps_.coverage ? scratch.coverage.data() : nullptr});
+  if (converter_.can_diagnose() && maps_.metallic_statistics)
+    statistics.metallic += statistics_of(count, {{segment.x, maps_.first_row + segment.y},
+                                                 scratch.target.row(Parameter::kResidual, 0),
+                                                 scratch.target.row(Parameter::kDoubts, 0),
+                                                 maps_.coverage ? scratch.coverage.data() : nullptr});
   change_convention(info.target.roughness, maps_.target_convention.value_or(info.target.roughness),
                     {scratch.target.row(Parameter::kWidth, 0), count});
   store_targets(segment, scratch, statistics);

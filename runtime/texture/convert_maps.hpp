@@ -69,9 +69,9 @@ enum class BadTexels {
 struct MapConversion {
   std::size_t width = 0;
   std::size_t height = 0;
-  // Every source of the converter. Colours: 1 or 3 channels or constants. Others: one, or copies of one
-  // value, which is required: kInput names the first texel where they differ by more than the tolerance; the
-  // first channel counts.
+  // Every source of the converter, and what it takes beside. Colours: 1 or 3 channels or constants. Others:
+  // one, or copies of one value, which is required: kInput names the first texel where they differ by more
+  // than the tolerance; the first channel counts.
   std::map<Parameter, SourceParameter> sources;
   // What is wanted of the converter's targets; may be the sources' own memory. Colours: as many channels as
   // the converter gives, or three for grey. Others: every channel gets the value.
@@ -84,9 +84,10 @@ struct MapConversion {
   std::optional<RoughnessConvention> target_convention;
   std::optional<ChannelView> mask;  // gets 1 for texels out of domain, else 0
   BadTexels bad_texels = BadTexels::kKeep;
-  bool dither = false;            // values for 8-bit integers: noise of half a step, the same in every run
-  bool value_statistics = false;  // fill in ranges and histograms
-  std::size_t first_row = 0;  // position of row 0 in the whole map: for messages, `first_bad` and dithering
+  bool dither = false;               // values for 8-bit integers: noise of half a step, the same in every run
+  bool value_statistics = false;     // fill in ranges and histograms
+  bool metallic_statistics = false;  // and how far metallic can be trusted, which takes its time
+  std::size_t first_row = 0;         // position of row 0 in the whole map: for positions and dithering
 };
 
 // The values of one parameter, as the map has them (linear, in the encoding of the map), all channels
@@ -106,17 +107,23 @@ struct TexelPosition {
   std::size_t y = 0;
 };
 
-// How far metallic can be trusted, over the texels that are covered and hold no NaN. All 0 where the
-// converter cannot say it (MaterialConverter::can_diagnose).
+// Texels with one Doubt.
+struct DoubtStatistics {
+  std::size_t count = 0;
+  std::optional<TexelPosition> first;  // row by row
+
+  // `other`: of rows below.
+  DoubtStatistics& operator+=(const DoubtStatistics& other) noexcept;
+};
+
+// How far metallic can be trusted, over the texels that are covered and hold no NaN. All 0 where that was not
+// asked for, or the converter cannot say it (MaterialConverter::can_diagnose).
 struct MetallicStatistics {
   std::size_t texel_count = 0;
   // Sum of squared residuals in whole units of 2^-40: the same in any order.
   std::uint64_t residual_squares = 0;
   float largest_residual = 0.0f;
-  std::size_t guess_count = 0;        // width of metallic above kGuessWidth
-  std::size_t dark_count = 0;         // of those, too dark to tell
-  std::size_t two_answers_count = 0;  // Doubt::kTwoAnswers
-  std::size_t clamped_count = 0;      // Doubt::kClamped
+  DoubtStatistics guess, dark, two_answers, clamped;
 
   double rms_residual() const noexcept;
   MetallicStatistics& operator+=(const MetallicStatistics& other) noexcept;

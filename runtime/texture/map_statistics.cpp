@@ -40,16 +40,19 @@ MetallicStatistics statistics_of(std::size_t count, const DiagnosedRow& row) {
   for (std::size_t i = 0; i < count; ++i) {
     const float residual = row.residual[i];
     if (std::isnan(residual) || (row.coverage != nullptr && !(row.coverage[i] > 0.0f))) continue;
-    const int doubts = static_cast<int>(row.doubts[i]);
-    const auto has = [doubts](Doubt doubt) { return (doubts & static_cast<int>(doubt)) != 0; };
+    const long doubts = std::lround(row.doubts[i] * 255.0f);
+    const auto count_if_has = [&](Doubt doubt, DoubtStatistics& texels) {
+      if ((doubts & static_cast<long>(doubt)) != 0)
+        texels += {1, TexelPosition{row.first.x + i, row.first.y}};
+    };
     const double square = static_cast<double>(residual) * static_cast<double>(residual);
     ++sum.texel_count;
     sum.residual_squares += static_cast<std::uint64_t>(std::llround(square / kResidualUnit));
     sum.largest_residual = std::max(sum.largest_residual, residual);
-    sum.guess_count += has(Doubt::kGuess);
-    sum.dark_count += has(Doubt::kDark);
-    sum.two_answers_count += has(Doubt::kTwoAnswers);
-    sum.clamped_count += has(Doubt::kClamped);
+    count_if_has(Doubt::kGuess, sum.guess);
+    count_if_has(Doubt::kDark, sum.dark);
+    count_if_has(Doubt::kTwoAnswers, sum.two_answers);
+    count_if_has(Doubt::kClamped, sum.clamped);
   }
   return sum;
 }
@@ -59,14 +62,20 @@ double MetallicStatistics::rms_residual() const noexcept {
   return std::sqrt(static_cast<double>(residual_squares) * kResidualUnit / static_cast<double>(texel_count));
 }
 
+DoubtStatistics& DoubtStatistics::operator+=(const DoubtStatistics& other) noexcept {
+  count += other.count;
+  if (!first) first = other.first;
+  return *this;
+}
+
 MetallicStatistics& MetallicStatistics::operator+=(const MetallicStatistics& other) noexcept {
   texel_count += other.texel_count;
   residual_squares += other.residual_squares;
   largest_residual = std::max(largest_residual, other.largest_residual);
-  guess_count += other.guess_count;
-  dark_count += other.dark_count;
-  two_answers_count += other.two_answers_count;
-  clamped_count += other.clamped_count;
+  guess += other.guess;
+  dark += other.dark;
+  two_answers += other.two_answers;
+  clamped += other.clamped;
   return *this;
 }
 

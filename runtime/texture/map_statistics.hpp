@@ -11,6 +11,7 @@ ParameterStatistics statistics_of(std::span<const float> values);
 
 // Of rows as a converter gives them; `coverage` may be null.
 struct DiagnosedRow {
+  TexelPosition first;
   const float* residual;
   const float* doubts;
   const float* coverage;

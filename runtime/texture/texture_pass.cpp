@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "error.hpp"
+#include "texture/channel_rows.hpp"
+#include "texture/metallic_field.hpp"
 
 namespace remap {
 namespace {
@@ -101,7 +103,10 @@ class Pass {
  public:
   Pass(TextureSet& set, const Round& round, const MaterialConverter& converter, const PassOptions& options);
   // `progress`: after each band, the rows that are done.
-  MapStatistics run(const std::function<void(int)>& progress);
+  using Progress = std::function<void(int)>;
+  // What smooth_metallic follows; before run().
+  void look_around(const Progress& progress);
+  MapStatistics run(const Progress& progress);
 
  private:
   // The map that `target` is a copy of but for the channels that are converted; -1 where it is none.
@@ -109,6 +114,9 @@ class Pass {
   int rows_of_a_band() const;
   void stop_if_cancelled() const;
   void read(Band& band, int first_row);
+  // Calls `process` for each band in order while the next one is read.
+  void for_each_band(const std::function<void(Band&)>& process, const Progress& progress);
+  MapConversion sources_of(const Band& band) const;
   MapStatistics convert(Band& band);
   void write(Band& band);
   std::byte* texels_of(std::size_t target, Band& band);
@@ -126,6 +134,8 @@ class Pass {
   std::vector<int> in_place_;  // a map for each target, or -1
   int band_rows_;
   std::vector<std::vector<std::byte>> converted_;  // of targets that are not in place
+  std::optional<MetallicField> around_;            // filled
+  std::vector<float> around_band_;
 };
 
 Pass::Pass(TextureSet& set, const Round& round, const MaterialConverter& converter,
@@ -203,22 +213,51 @@ void Pass::stop_if_cancelled() const {
     throw Error(ErrorKind::kInterrupted, "interrupted: no file was written");
 }
 
-MapStatistics Pass::run(const std::function<void(int)>& progress) {
-  MapStatistics statistics;
+void Pass::for_each_band(const std::function<void(Band&)>& process, const Progress& progress) {
   Band present, next;
   read(present, 0);
   while (present.row_count > 0) {
     stop_if_cancelled();
     const int end = present.first_row + present.row_count;
     std::future<void> reading = std::async(launch_, [&] { read(next, end); });
-    statistics += convert(present);
-    write(present);
+    process(present);
     reading.get();
     std::swap(present, next);
     progress(end);
   }
   stop_if_cancelled();
+}
+
+MapStatistics Pass::run(const Progress& progress) {
+  MapStatistics statistics;
+  const auto process = [&](Band& band) {
+    statistics += convert(band);
+    write(band);
+  };
+  for_each_band(process, progress);
   return statistics;
+}
+
+void Pass::look_around(const Progress& progress) {
+  const auto width = static_cast<std::size_t>(width_);
+  MetallicField field(width, static_cast<std::size_t>(height_));
+  const std::size_t texels = width * static_cast<std::size_t>(band_rows_);
+  std::vector<float> metallic(texels), metallic_width(texels), coverage(width);
+  const auto process = [&](Band& band) {
+    MapConversion maps = sources_of(band);
+    maps.targets[Parameter::kMetallic].channels = {float_channel(metallic.data(), width)};
+    maps.targets[Parameter::kMetallicWidth].channels = {float_channel(metallic_width.data(), width)};
+    convert_maps(converter_, maps, options_.thread_count);
+    for (std::size_t y = 0; y < maps.height; ++y) {
+      if (maps.coverage) load(*maps.coverage, {0, y, width}, coverage.data());
+      field.add(0, maps.first_row + y, width, &metallic[y * width], &metallic_width[y * width],
+                maps.coverage ? coverage.data() : nullptr);
+    }
+  };
+  for_each_band(process, progress);
+  if (!field.fill()) return;
+  around_ = std::move(field);
+  around_band_.resize(texels);
 }
 
 void Pass::read(Band& band, int first_row) {
@@ -285,7 +324,7 @@ void Pass::add_target(const Target& target, const TargetChannel& channel, const 
   if (is_color(channel.parameter)) parameter.transfer = target.part->color_transfer;
 }
 
-MapStatistics Pass::convert(Band& band) {
+MapConversion Pass::sources_of(const Band& band) const {
   MapConversion maps;
   maps.width = static_cast<std::size_t>(width_);
   maps.height = static_cast<std::size_t>(band.row_count);
@@ -298,10 +337,22 @@ MapStatistics Pass::convert(Band& band) {
                               set_.maps[set_.coverage->map].layout(), set_.coverage->channel);
   }
   maps.source_convention = set_.convention;
-  maps.target_convention = options_.target_convention;
   maps.bad_texels = options_.bad_texels;
+  return maps;
+}
+
+MapStatistics Pass::convert(Band& band) {
+  MapConversion maps = sources_of(band);
+  if (around_) {
+    for (std::size_t y = 0; y < maps.height; ++y)
+      around_->read(maps.first_row + y, maps.width, &around_band_[y * maps.width]);
+    maps.sources[Parameter::kNearbyMetallic].channels = {
+        float_channel(std::as_const(around_band_).data(), maps.width)};
+  }
+  maps.target_convention = options_.target_convention;
   maps.dither = options_.dither;
   maps.value_statistics = options_.value_statistics;
+  maps.metallic_statistics = options_.metallic_statistics;
   std::size_t clipped = 0;
   for (std::size_t t = 0; t < round_.targets.size(); ++t) {
     const ImageLayout& layout = round_.targets[t].writer->layout();
@@ -366,11 +417,19 @@ MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
       const double rows = set.maps[round.maps.front()].layout().height;
       // A level takes a quarter of the time of the one before; the last one ends the round.
       const double left = std::ldexp(1.0, -2 * level), own_share = level + 1 < levels ? 0.75 : 1.0;
-      const MapStatistics plane = Pass(set, round, converter, options).run([&](int done) {
-        const double of_round = 1.0 - left * (1.0 - own_share * done / rows);
-        if (options.progress)
-          options.progress((static_cast<double>(i) + of_round) / static_cast<double>(rounds.size()));
-      });
+      const bool looks_around = options.smooth_metallic && round.is_converting;
+      const double passes = looks_around ? 2.0 : 1.0;
+      const auto after = [&](double passes_before) {
+        return [&, passes_before](int done) {
+          const double share = (passes_before + done / rows) / passes;
+          const double of_round = 1.0 - left * (1.0 - own_share * share);
+          if (options.progress)
+            options.progress((static_cast<double>(i) + of_round) / static_cast<double>(rounds.size()));
+        };
+      };
+      Pass pass(set, round, converter, options);
+      if (looks_around) pass.look_around(after(0.0));
+      const MapStatistics plane = pass.run(after(passes - 1.0));
       // Texels are those of the whole picture, and count once however many files they go to.
       if (level == 0 && statistics.texel_count == 0) statistics = plane;
     }

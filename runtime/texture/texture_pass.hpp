@@ -71,7 +71,11 @@ struct PassOptions {
   std::optional<RoughnessConvention> target_convention;  // of the results; none: the model's own
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
-  bool value_statistics = false;  // ranges and histograms
+  bool value_statistics = false;     // ranges and histograms
+  bool metallic_statistics = false;  // how far metallic can be trusted
+  // Where metallic is a guess on which the picture does not depend, it follows the metallic around it, as far
+  // as no picture shows that. Maps are read twice. For converters that can diagnose.
+  bool smooth_metallic = false;
   std::function<void(double share_done)> progress;
   const std::atomic<bool>* cancelled = nullptr;  // looked at between bands
 };
