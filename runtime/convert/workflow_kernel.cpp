@@ -15,6 +15,7 @@ REMAP_INLINED_FUNCTIONS_BEGIN
 #include "workflow/workflow_code.hpp"
 REMAP_INLINED_FUNCTIONS_END
 
+#include "workflow/conversion.hpp"
 #include "workflow/conversion_constants.hpp"
 
 namespace remap {
@@ -23,9 +24,6 @@ namespace {
 namespace code = workflow_code;
 
 constexpr std::size_t kBlock = code::kMetallicBlock;
-// As in workflow/diagnosis.cpp.
-constexpr std::size_t kSamples = 128;
-constexpr float kStep = 1.0f / 255.0f, kVisible = 0.5f / 255.0f;
 // Two answers are this far apart at least.
 constexpr float kApart = 0.05f;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -40,9 +38,11 @@ inline void convert_to_specular(const code::Conventions& use, std::size_t count,
   });
 }
 
-inline void convert_to_metallic(const code::Conventions& use, const WorkflowFormula& formula,
-                                std::size_t count, const SpecularRows<const float>& in,
+inline void convert_to_metallic(const WorkflowConversion& conversion, std::size_t count,
+                                const SpecularRows<const float>& in,
                                 const MetallicRows<float>& out) noexcept {
+  const code::Conventions use = conventions_of(conversion);
+  const WorkflowFormula& formula = conversion.formula;
   if (const auto* projection = std::get_if<Projection>(&formula)) {
     const float prior = static_cast<float>(projection->prior);
     code::convert_rows<kBlock>(count, in, out, [&, prior](const auto& from, const auto& to) {
@@ -53,9 +53,11 @@ inline void convert_to_metallic(const code::Conventions& use, const WorkflowForm
     code::convert_rows<kBlock>(count, in, out, [&, by_albedo](const auto& from, const auto& to) {
       return code::solve_equation_3(use, by_albedo, from, to);
     });
-  } else {
+  } else if (std::holds_alternative<KhronosSolver>(formula)) {
     code::convert_rows<kBlock>(
         count, in, out, [&](const auto& from, const auto& to) { return code::solve_khronos(use, from, to); });
+  } else {
+    convert_workflow(conversion, count, in, out);  // a network, which is interpreted
   }
 }
 
@@ -80,32 +82,15 @@ inline void read_block(const code::Conventions& use, const SpecularRows<const fl
     block.alpha[i] = code::width_to_alpha(use.width_in, block.texels.held.row[6][i]);
 }
 
-// The error of each of evenly spaced metallic values, from that of half a sample.
-inline void sample_errors(const code::Texel& texel, const code::Conventions& use, float* errors) noexcept {
-  const code::Texel own = texel;
-  const code::Conventions conventions = use;
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC ivdep
-#endif
-  for (std::size_t s = 0; s < kSamples; ++s) {
-    const float metallic = (static_cast<float>(static_cast<std::int32_t>(s)) + 0.5f) / kSamples;
-    errors[s] = code::from_zero(code::error_of(own, conventions, 1.0f - metallic));
-  }
-}
-
-inline float least_error(const code::Texel& texel, const code::Conventions& use) noexcept {
-  return code::from_zero(code::error_of(texel, use, code::best_share(texel, use, 0.0f)));
-}
-
 // The starts of the projection: two of them apart, both as good as the best, and what lies between is not.
-inline bool has_two_answers(const code::Texel& texel, const code::Conventions& use, float limit) noexcept {
+inline bool has_two_answers(const code::Texel& texel, const code::Conventions& use, float good) noexcept {
   const code::ErrorCurve curve = code::error_curve(texel, use, 0.0f);
   const float both =
       curve.r1 + code::approximate_root(code::from_zero(curve.r1 * curve.r1 - 4.0f * curve.r2 * curve.r0));
   const std::array<float, 3> shares = {code::improved(curve, code::held(both / (2.0f * curve.r2 + 1e-20f))),
                                        code::improved(curve, code::held(2.0f * curve.r0 / (both + 1e-20f))),
                                        code::improved(curve, 0.0f)};
-  const auto is_good = [&](float share) { return code::error_of(texel, use, share) <= limit; };
+  const auto is_good = [&](float share) { return code::error_of(texel, use, share) <= good; };
   for (std::size_t a = 0; a < shares.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
       if (code::magnitude(shares[a] - shares[b]) < kApart) continue;
@@ -120,15 +105,6 @@ inline bool is_beyond(const SpecularRows<const float>& in, std::size_t i) noexce
   return sign >> 31 != 0;
 }
 
-inline bool is_held(const code::Texel& texel, const code::Conventions& use, float metallic) noexcept {
-  const code::Blend blend = code::blend_of(texel.gram, use, 1.0f - metallic);
-  const auto is_held_channel = [&](const code::Channel& channel) {
-    const float albedo = code::free_albedo(blend, channel.diffuse, channel.f0);
-    return albedo < -kVisible || albedo > 1.0f + kVisible;
-  };
-  return is_held_channel(texel.red) || is_held_channel(texel.green) || is_held_channel(texel.blue);
-}
-
 inline bool is_dark(const code::Texel& texel) noexcept {
   const auto is_dark_channel = [](const code::Channel& channel) {
     return channel.diffuse < kDarkTexel && channel.f0 < kDarkTexel;
@@ -140,7 +116,7 @@ inline void diagnose_rows(const code::Conventions& use, std::size_t count,
                           const SpecularRows<const float>& in, const MetallicRows<const float>& result,
                           const DiagnosisRows& out) noexcept {
   TexelBlock block;
-  float errors[kSamples];
+  float errors[code::kMetallicSamples];
   for (std::size_t start = 0; start < count; start += kBlock) {
     read_block(use, in, start, count, block);
     for (std::size_t b = 0; b < block.size; ++b) {
@@ -152,21 +128,16 @@ inline void diagnose_rows(const code::Conventions& use, std::size_t count,
         continue;
       }
       const code::Texel texel = code::texel_of(block.texels, block.alpha[b], b);
-      const code::Blend blend = code::blend_of(texel.gram, use, 1.0f - metallic);
-      const float error = code::channel_error(blend, texel.gram, texel.red, result[0][i]) +
-                          code::channel_error(blend, texel.gram, texel.green, result[1][i]) +
-                          code::channel_error(blend, texel.gram, texel.blue, result[2][i]);
-      const float limit = least_error(texel, use) + kStep * kStep;
-      sample_errors(texel, use, errors);
-      std::int32_t within = 0;
-      for (std::size_t s = 0; s < kSamples; ++s) within += errors[s] <= limit ? 1 : 0;
-      const float width = static_cast<float>(within) / kSamples;
+      const float good = code::good_error(texel, use);
+      code::sample_errors(texel, use, errors);
+      const float width = code::metallic_width(errors, good);
       const bool guess = width > kGuessWidth;
       int doubts = guess ? static_cast<int>(Doubt::kGuess) : 0;
       if (guess && is_dark(texel)) doubts += static_cast<int>(Doubt::kDark);
-      if (has_two_answers(texel, use, limit)) doubts += static_cast<int>(Doubt::kTwoAnswers);
-      if (is_beyond(in, i) || is_held(texel, use, metallic)) doubts += static_cast<int>(Doubt::kClamped);
-      out.residual[i] = std::sqrt(code::from_zero(error));
+      if (has_two_answers(texel, use, good)) doubts += static_cast<int>(Doubt::kTwoAnswers);
+      if (is_beyond(in, i) || code::is_held(texel, use, metallic))
+        doubts += static_cast<int>(Doubt::kClamped);
+      out.residual[i] = code::residual_of(texel, use, metallic, result[0][i], result[1][i], result[2][i]);
       out.metallic_width[i] = width;
       out.doubts[i] = static_cast<float>(doubts);
     }
@@ -176,16 +147,15 @@ inline void diagnose_rows(const code::Conventions& use, std::size_t count,
 // The nearest to `wanted` of the samples that are good enough, and of 0, 1 and `found`.
 inline float nearest_good(const code::Texel& texel, const code::Conventions& use, float wanted,
                           float found) noexcept {
-  float errors[kSamples];
-  const float limit = least_error(texel, use) + kStep * kStep;
-  sample_errors(texel, use, errors);
+  float errors[code::kMetallicSamples];
+  const float good = code::good_error(texel, use);
+  code::sample_errors(texel, use, errors);
   float nearest = found;
   const auto consider = [&](float metallic, float error) {
-    if (error <= limit && code::magnitude(metallic - wanted) < code::magnitude(nearest - wanted))
+    if (error <= good && code::magnitude(metallic - wanted) < code::magnitude(nearest - wanted))
       nearest = metallic;
   };
-  for (std::size_t s = 0; s < kSamples; ++s)
-    consider((static_cast<float>(static_cast<std::int32_t>(s)) + 0.5f) / kSamples, errors[s]);
+  for (std::size_t s = 0; s < code::kMetallicSamples; ++s) consider(code::sampled_metallic(s), errors[s]);
   consider(0.0f, code::error_of(texel, use, 1.0f));
   consider(1.0f, code::error_of(texel, use, 0.0f));
   return nearest;
@@ -223,7 +193,7 @@ REMAP_INLINED_FUNCTIONS_END
   REMAP_TARGET void to_metallic_##SET(const WorkflowConversion& conversion, std::size_t count,      \
                                       const SpecularRows<const float>& in,                          \
                                       const MetallicRows<float>& out) noexcept {                    \
-    convert_to_metallic(conventions_of(conversion), conversion.formula, count, in, out);            \
+    convert_to_metallic(conversion, count, in, out);                                                \
   }                                                                                                 \
   REMAP_TARGET void follow_##SET(const WorkflowConversion& conversion, std::size_t count,           \
                                  const SpecularRows<const float>& in, const float* wanted,          \

@@ -12,11 +12,6 @@ namespace {
 
 namespace code = workflow_code;
 
-// Half a step of 8 bits, in linear light.
-constexpr float kVisible = 0.5f / 255.0f;
-constexpr float kStep = 1.0f / 255.0f;
-constexpr int kWidthSamples = 128;  // of metallic
-
 bool has_nan(const SpecularMaterial& material) {
   const auto is_nan = [](float value) { return std::isnan(value); };
   return std::any_of(material.diffuse.begin(), material.diffuse.end(), is_nan) ||
@@ -44,36 +39,10 @@ code::Texel texel_of(const code::Conventions& use, const SpecularMaterial& mater
   return code::texel_of(texels, code::width_to_alpha(use.width_in, texels.held.row[6][0]), 0);
 }
 
-std::array<code::Channel, 3> channels(const code::Texel& texel) {
-  return {texel.red, texel.green, texel.blue};
-}
-
-float error_of_result(const code::Texel& texel, const code::Conventions& use,
-                      const MetallicMaterial& result) {
-  const code::Blend blend = code::blend_of(texel.gram, use, 1.0f - result.metallic);
-  float error = 0.0f;
-  for (std::size_t c = 0; c < 3; ++c)
-    error += code::channel_error(blend, texel.gram, channels(texel)[c], result.base_color[c]);
-  return std::max(error, 0.0f);
-}
-
 float width_of(const code::Texel& texel, const code::Conventions& use) {
-  const float least = std::max(code::error_of(texel, use, code::best_share(texel, use, 0.0f)), 0.0f);
-  int within = 0;
-  for (int i = 0; i < kWidthSamples; ++i) {
-    const float metallic = (static_cast<float>(i) + 0.5f) / kWidthSamples;
-    if (code::error_of(texel, use, 1.0f - metallic) <= least + kStep * kStep) ++within;
-  }
-  return static_cast<float>(within) / kWidthSamples;
-}
-
-bool is_held(const code::Texel& texel, const code::Conventions& use, float metallic) {
-  const code::Blend blend = code::blend_of(texel.gram, use, 1.0f - metallic);
-  const auto channel_list = channels(texel);
-  return std::any_of(channel_list.begin(), channel_list.end(), [&](const code::Channel& channel) {
-    const float albedo = code::free_albedo(blend, channel.diffuse, channel.f0);
-    return albedo < -kVisible || albedo > 1.0f + kVisible;
-  });
+  std::array<float, code::kMetallicSamples> errors{};
+  code::sample_errors(texel, use, errors.data());
+  return code::metallic_width(errors.data(), code::good_error(texel, use));
 }
 
 // Root mean square of the residuals of the projection.
@@ -121,8 +90,9 @@ MetallicDiagnosis diagnose(const WorkflowConversion& conversion, const SpecularM
   direction.formula = Projection{};
   const code::Conventions use = conventions_of(direction);
   const code::Texel texel = texel_of(use, material);
-  return {std::sqrt(error_of_result(texel, use, result)), width_of(texel, use),
-          has_value_beyond(material) || is_held(texel, use, result.metallic)};
+  const auto& [red, green, blue] = result.base_color;
+  return {code::residual_of(texel, use, result.metallic, red, green, blue), width_of(texel, use),
+          has_value_beyond(material) || code::is_held(texel, use, result.metallic)};
 }
 
 DielectricF0 estimate_dielectric_f0(const WorkflowConversion& conversion,

@@ -1,5 +1,6 @@
 // The formulas of workflow conversions: the very text that generated headers hold
-// (compiler/emit/workflow_header.cpp), so that both give the same bits.
+// (compiler/emit/workflow_header.cpp), so that both give the same bits; and, for this program alone, those of
+// the diagnosis.
 #pragma once
 
 #include <array>
@@ -22,6 +23,7 @@ namespace remap::workflow_code {
 #include "workflow/code/metallic_to_specular.inc"
 #include "workflow/code/specular_texels.inc"
 #include "workflow/code/projection.inc"
+#include "workflow/code/diagnosis.inc"
 #include "workflow/code/equation_3.inc"
 #include "workflow/code/khronos.inc"
 // clang-format on
