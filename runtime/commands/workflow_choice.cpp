@@ -160,12 +160,6 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
                 "--only: is for width and specular alone; expected no such option beside a workflow");
 }
 
-std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
-  if (kind_of(end) == WorkflowKind::kSpecular)
-    return {Parameter::kWidth, Parameter::kSpecular, Parameter::kDiffuse};
-  return {Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic};
-}
-
 }  // namespace
 
 std::vector<Parameter> WorkflowChoice::sources() const {

@@ -75,13 +75,10 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
     const auto found = std::find(values.channels.begin(), values.channels.end(), place);
     if (found == values.channels.end()) continue;
     const ImageReader& reader = set.maps[place.map];
-    const auto name = [](Parameter p) {
-      return p == Parameter::kWidth ? std::string("roughness") : std::string(parameter_name(p));
-    };
     if (held)
       throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
                                          reader.layout().channels[place.channel].name + " is both " +
-                                         name(*held) + " and " + name(parameter) +
+                                         plain_name(*held) + " and " + plain_name(parameter) +
                                          "; expected FILE:CHANNEL to tell them apart");
     held = parameter;
     const auto index = static_cast<std::size_t>(found - values.channels.begin());
