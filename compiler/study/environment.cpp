@@ -147,6 +147,12 @@ Environment exposed(Environment environment, double exposure) {
   return environment;
 }
 
+std::string environment_names(const std::vector<Environment>& environments) {
+  std::string names;
+  for (const Environment& environment : environments) names += (names.empty() ? "" : ", ") + environment.name;
+  return names;
+}
+
 double mean_luminance(const Environment& environment) {
   const Image& map = environment.map;
   double sum = 0.0, weights = 0.0;

@@ -40,6 +40,9 @@ std::vector<Environment> builtin_environments(int height = 256);
 // The same light, `exposure` times as bright.
 Environment exposed(Environment environment, double exposure);
 
+// `sky, studio`.
+std::string environment_names(const std::vector<Environment>& environments);
+
 // The mean of luminance over all directions.
 double mean_luminance(const Environment& environment);
 
