@@ -172,12 +172,7 @@ remap::AnalyticFit fit_material_network(const NamedTable& table, std::string_vie
   fit.conversion = conversion_of(table, deviation.dielectric_f0);
   fit.id = fit_id(options.id, fit.conversion.specular.model, fit.conversion.metallic.model);
   const MaterialSplit split = split_materials(table, rows, options);
-  TrainingOptions training;
-  training.hidden = options.hidden;
-  training.activation = options.activation;
-  training.seed = options.seed;
-  training.starts = options.starts;
-  training.jobs = options.jobs;
+  const TrainingOptions training = training_options(options);
   const TrainedNetwork trained = train_network(split.training, training, progress);
   fit.conversion.formula = remap::LearnedNetwork{trained.network};
   fit.training.emplace();

@@ -4,16 +4,10 @@
 
 #include "convert/path.hpp"
 #include "error.hpp"
-#include "nearest_name.hpp"
 #include "number_text.hpp"
 
 namespace remap {
 namespace {
-
-[[noreturn]] void fail_unknown(const std::string& option, const std::string& word,
-                               const std::vector<std::string>& known) {
-  throw Error(ErrorKind::kUsage, option + ": is " + word + suggestion(word, known));
-}
 
 std::optional<WorkflowKind> kind_named(const std::string& option, const std::string& word) {
   if (word.empty()) return std::nullopt;
