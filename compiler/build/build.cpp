@@ -140,8 +140,9 @@ class Builder {
       remap::run_parallel(ready.size(), execution_.jobs, [&](std::size_t i) { build_item(*ready[i]); });
       waiting = later;
     }
-    write_registry();
-    write_report();
+    const FitFolder folder = load_fit_folder(folders_.fits);
+    write_registry(folder);
+    write_report(folder);
     if (lock_ != load_lock(folders_.fits)) save_lock(folders_.fits, lock_);
     std::sort(built_.begin(), built_.end(),
               [](const BuiltItem& a, const BuiltItem& b) { return a.id < b.id; });
@@ -339,16 +340,14 @@ class Builder {
     return composed_fit(steps, id);
   }
 
-  void write_registry() const {
-    const FitFolder folder = load_fit_folder(folders_.fits);
+  void write_registry(const FitFolder& folder) const {
     write_changed(folders_.generated / "registry.hpp", emit_registry(folder.fits, folder.analytic));
   }
 
   // Which takes a second to compute.
-  void write_report() {
+  void write_report(const FitFolder& folder) {
     if (has_report(folders_, lock_)) return;
-    for (const ReportFile& file : report(load_fit_folder(folders_.fits), lock_))
-      write_changed(folders_.fits / file.name, file.text);
+    for (const ReportFile& file : report(folder, lock_)) write_changed(folders_.fits / file.name, file.text);
     lock_.report = report_hash(folders_, lock_);
   }
 

@@ -1,12 +1,11 @@
 // The small multiples of the report, drawn without any plotting program so that every machine gives the same
 // bytes.
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <set>
 
 #include "build/report.hpp"
 #include "model/interpreter.hpp"
+#include "report_text.hpp"
 
 namespace remapc {
 namespace {
@@ -16,12 +15,6 @@ constexpr int kPanel = 116, kGap = 12, kMargin = 140, kTop = 40;
 constexpr int kSpokeTop = 40, kSpokeLabel = 26;
 constexpr int kSteps = 48;
 constexpr double kSpecular = 0.5, kLargestRatio = 2.0;
-
-std::string decimals(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.1f", value);
-  return text.data();
-}
 
 struct Place {
   double x, y;
@@ -33,8 +26,8 @@ std::string polyline(const Place& corner, const std::string& colour, const remap
   for (int i = 0; i <= kSteps; ++i) {
     const double alpha = alphas.min + (alphas.max - alphas.min) * i / kSteps;
     const double share = std::clamp(share_at(alpha), 0.0, 1.0);
-    points += (points.empty() ? "" : " ") + decimals(corner.x + kPanel * alpha) + "," +
-              decimals(corner.y + kPanel * (1.0 - share));
+    points += (points.empty() ? "" : " ") + fixed(corner.x + kPanel * alpha, 1) + "," +
+              fixed(corner.y + kPanel * (1.0 - share), 1);
   }
   return "<polyline fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"1.5\" points=\"" + points +
          "\"/>\n";
@@ -42,10 +35,10 @@ std::string polyline(const Place& corner, const std::string& colour, const remap
 
 std::string panel(const remap::Fit& fit, const Place& corner) {
   const double specular = std::min(kSpecular, fit.domain.specular.max);
-  const std::string x = decimals(corner.x), y = decimals(corner.y), side = std::to_string(kPanel);
+  const std::string x = fixed(corner.x, 1), y = fixed(corner.y, 1), side = std::to_string(kPanel);
   std::string text = "<rect x=\"" + x + "\" y=\"" + y + "\" width=\"" + side + "\" height=\"" + side +
                      "\" fill=\"white\" stroke=\"#999\"/>\n<path d=\"M" + x + "," +
-                     decimals(corner.y + kPanel) + " l" + side + ",-" + side + "\" stroke=\"#ccc\"/>\n";
+                     fixed(corner.y + kPanel, 1) + " l" + side + ",-" + side + "\" stroke=\"#ccc\"/>\n";
   text += polyline(corner, "#1f6fb4", fit.domain.alpha,
                    [&](double alpha) { return remap::evaluate_mapping(fit.mapping, alpha, specular).alpha; });
   text += polyline(corner, "#e07b00", fit.domain.alpha, [&](double alpha) {
@@ -55,7 +48,7 @@ std::string panel(const remap::Fit& fit, const Place& corner) {
 }
 
 std::string label(double x, double y, const std::string& anchor, const std::string& text) {
-  return "<text x=\"" + decimals(x) + "\" y=\"" + decimals(y) + "\" text-anchor=\"" + anchor + "\">" + text +
+  return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" text-anchor=\"" + anchor + "\">" + text +
          "</text>\n";
 }
 
@@ -81,8 +74,8 @@ std::string pairs_plot(const std::vector<remap::Fit>& fits) {
   const Place end = spokes.empty()
                         ? place(models.size(), columns)
                         : Place{place(0, columns).x, spoke_place(spokes.size() - 1).y + kPanel + kGap};
-  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + decimals(end.x) + "\" height=\"" +
-                     decimals(end.y) + "\" font-family=\"sans-serif\" font-size=\"10\">\n" +
+  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + fixed(end.x, 1) + "\" height=\"" +
+                     fixed(end.y, 1) + "\" font-family=\"sans-serif\" font-size=\"10\">\n" +
                      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   for (std::size_t i = 0; i < models.size(); ++i) {
     text += label(place(0, i).x + 0.5 * kPanel, kTop - 8.0, "middle", models[i]);

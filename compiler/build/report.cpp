@@ -1,30 +1,23 @@
 #include "build/report.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <map>
 #include <set>
 
 #include "fit/split.hpp"
 #include "model/round_trip.hpp"
 #include "number_text.hpp"
+#include "report_text.hpp"
 
 namespace remapc {
 namespace {
 
 using remap::Fit;
 
-std::string decimals(double value, int digits) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
-}
-
-std::string percent(double value) { return decimals(100.0 * value, value < 0.00995 ? 2 : 1); }
+std::string percent(double value) { return fixed(100.0 * value, value < 0.00995 ? 2 : 1); }
 
 std::string range_text(const remap::Range& range) {
-  return decimals(range.min, 3) + " to " + decimals(range.max, 3);
+  return fixed(range.min, 3) + " to " + fixed(range.max, 3);
 }
 
 bool is_chain(const Fit& fit) { return std::holds_alternative<remap::Chain>(fit.mapping); }
@@ -46,7 +39,7 @@ Pairs measured_pairs(const std::vector<Fit>& fits) {
 }
 
 std::string alike_text(const Fit& fit) {
-  return percent(fit.likeness->image_error.rms) + " %, " + decimals(mean_ssim(fit), 3);
+  return percent(fit.likeness->image_error.rms) + " %, " + fixed(mean_ssim(fit), 3);
 }
 
 std::string matrix(const Pairs& pairs, const std::set<std::string>& models) {
@@ -108,9 +101,9 @@ std::string pair_lines(const Pairs& pairs, const Lock& lock) {
         fit->likeness->ssim.begin(), fit->likeness->ssim.end(),
         [](const remap::SphereSimilarity& a, const remap::SphereSimilarity& b) { return a.ssim < b.ssim; });
     text += "| [" + fit->id + "](" + fit->id + ".json) | " + range_text(fit->domain.alpha) + " | to " +
-            decimals(fit->domain.specular.max, 3) + " | " + percent(fit->likeness->image_error.rms) + " %, " +
-            percent(fit->likeness->image_error.p99) + " % | " + decimals(mean_ssim(*fit), 3) + ", " +
-            decimals(least->ssim, 3) + " at " + decimals(least->alpha, 2) + " | " + fit_text(*fit) + " | " +
+            fixed(fit->domain.specular.max, 3) + " | " + percent(fit->likeness->image_error.rms) + " %, " +
+            percent(fit->likeness->image_error.p99) + " % | " + fixed(mean_ssim(*fit), 3) + ", " +
+            fixed(least->ssim, 3) + " at " + fixed(least->alpha, 2) + " | " + fit_text(*fit) + " | " +
             bound_text(*fit, lock) + " | " + trip_text(*fit, pairs) + " | " + kind_name(fit->mapping) +
             " |\n";
   }
@@ -130,7 +123,7 @@ std::string other_lines(const std::vector<Fit>& fits, const Lock& lock) {
     if (is_chain(fit))
       remarks += " Against its steps: " + fit.method.at("against its steps one after another") + ".";
     text += "| [" + fit.id + "](" + fit.id + ".json) | " + range_text(fit.domain.alpha) + " | to " +
-            decimals(fit.domain.specular.max, 3) + " | " + fit_text(fit) + " | " + bound_text(fit, lock) +
+            fixed(fit.domain.specular.max, 3) + " | " + fit_text(fit) + " | " + bound_text(fit, lock) +
             " | " + remarks + " |\n";
   }
   return text;

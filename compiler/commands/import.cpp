@@ -37,9 +37,7 @@ void judge(remap::Fit& fit, const ImportCommand& command) {
   fit.specular_error = errors.specular;
   fit.split.held_out_fraction = 1.0;
   fit.split.held_out_rows = static_cast<std::int64_t>(rows.size());
-  fit.table.name = std::filesystem::path(table.name).filename().string();
-  fit.table.sha256 = sha256(bytes);
-  for (const auto& [key, value] : table.comments) fit.table.comments[key] = value;
+  fit.table = table_record(table.name, bytes, table.comments);
   fit.method["imported"] =
       "libsvm model files; errors are those on the usable rows of the table, which may have trained them";
 }

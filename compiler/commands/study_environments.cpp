@@ -6,16 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "build/fit_folder.hpp"
-#include "command_line/interruption.hpp"
-#include "command_line/progress.hpp"
 #include "commands/studies.hpp"
-#include "commands/study_environment_options.hpp"
+#include "commands/study_options.hpp"
 #include "error.hpp"
 #include "files.hpp"
-#include "fit/gnuplot.hpp"
 #include "number_text.hpp"
 #include "study/environments_report.hpp"
-#include "sweep/image_file.hpp"
 
 namespace remapc {
 namespace {
@@ -23,16 +19,12 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-const std::filesystem::path kDefaultFitFolder = "fits";
-
 struct EnvironmentsCommand {
   std::vector<std::string> pairs;  // SOURCE:TARGET; empty: the six of default_pairs()
   bool plain = false;
   EnvironmentsOptions study;
   EnvironmentOptions environments;
-  std::filesystem::path fit_folder;  // empty: `fits`, where there is such a folder
-  std::filesystem::path output;
-  bool pictures = false, json = false, quiet = false;
+  OutputOptions output;
 };
 
 ModelPair parse_pair(const std::string& text) {
@@ -63,11 +55,9 @@ EnvironmentsOptions study_options(const EnvironmentsCommand& command) {
   std::sort(options.alphas.begin(), options.alphas.end());
   options.alphas.erase(std::unique(options.alphas.begin(), options.alphas.end()), options.alphas.end());
   options.environments = read_environments(command.environments);
-  if (!command.fit_folder.empty() || std::filesystem::is_directory(kDefaultFitFolder))
-    options.fits = load_fits(command.fit_folder.empty() ? kDefaultFitFolder : command.fit_folder);
-  if (command.pictures && command.output.empty())
-    throw Error(ErrorKind::kUsage, "--pictures: there is no folder for them; expected -o FOLDER");
-  if (command.pictures && !options.alphas.empty())
+  if (const auto folder = fit_folder_of(command.output); !folder.empty()) options.fits = load_fits(folder);
+  require_folder_for_pictures(command.output);
+  if (command.output.pictures && !options.alphas.empty())
     options.sheet_alpha = options.alphas[options.alphas.size() / 2];
   return options;
 }
@@ -101,32 +91,22 @@ nlohmann::ordered_json report_json(const EnvironmentsOptions& options, const Env
   return json;
 }
 
-void write_results(const EnvironmentsCommand& command, const EnvironmentsOptions& options,
+void write_results(const std::filesystem::path& folder, const EnvironmentsOptions& options,
                    const EnvironmentsResult& result) {
-  remap::write_file(command.output / "environments.csv", comparisons_csv(options, result));
-  remap::write_file(command.output / "environments_summary.csv", summary_csv(options, result));
-  for (std::size_t e = 0; e < result.sheets.size(); ++e)
-    write_png(command.output / ("spheres_" + options.environments[e].name + ".png"), result.sheets[e]);
-  try {
-    remap::write_file(command.output / "environments.svg", run_gnuplot(plot_script(options, result)));
-  } catch (const Error& error) {
-    std::cerr << "remapc: warning: environments.svg is not drawn: " << error.what() << "\n";
-  }
+  remap::write_file(folder / "environments.csv", comparisons_csv(options, result));
+  remap::write_file(folder / "environments_summary.csv", summary_csv(options, result));
+  write_sheets(folder, "spheres", options.environments, result.sheets);
+  write_plot(folder / "environments.svg", plot_script(options, result));
 }
 
 void run(const EnvironmentsCommand& command) {
   EnvironmentsOptions options = study_options(command);
-  if (!command.output.empty()) remap::create_parent(command.output / "environments.csv");
-  remap::watch_interruptions();
-  EnvironmentsResult result;
-  {
-    remap::Progress progress("study environments", progress_steps(options), !command.quiet);
-    options.progress = [&] { progress.advance(); };
-    options.cancelled = &remap::interruption();
-    result = study_environments(options);
-  }
-  if (!command.output.empty()) write_results(command, options, result);
-  if (command.json)
+  const std::filesystem::path& folder = command.output.folder;
+  if (!folder.empty()) remap::create_parent(folder / "environments.csv");
+  const EnvironmentsResult result =
+      run_study("study environments", options, command.output.quiet, study_environments);
+  if (!folder.empty()) write_results(folder, options, result);
+  if (command.output.json)
     std::cout << report_json(options, result).dump(2) << "\n";
   else
     std::cout << summary_text(options, result);
@@ -143,23 +123,15 @@ void add_options(CLI::App& app, EnvironmentsCommand& command) {
       ->capture_default_str();
   app.add_option("--specular", study.specular, "Of the source, linear")->capture_default_str();
   add_environment_options(app, command.environments);
-  app.add_option("--resolution", study.resolution, "Width and height of the pictures")->capture_default_str();
-  app.add_option("--samples", study.samples, "Directions a pixel")->capture_default_str();
-  app.add_option("--fits", command.fit_folder,
-                 "Folder of the fits that `shipped` converts with; default: fits, if there is one");
-  app.add_option(
-      "-o,--output", command.output,
-      "Folder for environments.csv, environments_summary.csv and environments.svg (needs gnuplot)");
-  app.add_flag(
-      "--pictures", command.pictures,
-      "Write spheres_<environment>.png too: the middle alpha, a row a pair; the source, then copy, paper, "
-      "natural, shipped, best");
   app.add_flag("--floor", study.floor,
                "Search the parameters of least mean RMSE over these environments too (`best`)");
-  app.add_option("--jobs", study.jobs, "Threads; 0: one a core. The figures do not depend on it")
-      ->capture_default_str();
-  app.add_flag("--json", command.json, "Means as JSON on standard output");
-  app.add_flag("--quiet", command.quiet, "No progress");
+  add_output_options(
+      app, command.output, study,
+      {"Folder of the fits that `shipped` converts with",
+       "Folder for environments.csv, environments_summary.csv and environments.svg (needs gnuplot)",
+       "Write spheres_<environment>.png too: the middle alpha, a row a pair; the source, then copy, paper, "
+       "natural, shipped, best",
+       "Means as JSON on standard output"});
 }
 
 }  // namespace

@@ -6,23 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "build/fit_folder.hpp"
-#include "command_line/interruption.hpp"
-#include "command_line/progress.hpp"
 #include "commands/studies.hpp"
-#include "commands/study_environment_options.hpp"
-#include "error.hpp"
+#include "commands/study_options.hpp"
 #include "files.hpp"
-#include "fit/gnuplot.hpp"
 #include "study/workflows_report.hpp"
-#include "sweep/image_file.hpp"
 
 namespace remapc {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
-
-const std::filesystem::path kDefaultFitFolder = "fits";
 // Brighter than mid grey needs: dark materials, on which methods differ most, are seen.
 constexpr double kExposure = 1.7;
 
@@ -30,16 +21,14 @@ struct WorkflowsCommand {
   EnvironmentOptions environments;
   WorkflowsOptions study;
   MaterialSetOptions materials;
-  std::filesystem::path fit_folder;  // empty: `fits`, where there is such a folder
   std::size_t family_count = 100000;
-  std::filesystem::path output;
-  bool pictures = false, json = false, quiet = false;
+  OutputOptions output;
 };
 
 std::vector<NamedConversion> learned_conversions(const std::filesystem::path& folder) {
   std::vector<NamedConversion> learned;
-  if (folder.empty() && !std::filesystem::is_directory(kDefaultFitFolder)) return learned;
-  for (const remap::AnalyticFit& fit : load_fit_folder(folder.empty() ? kDefaultFitFolder : folder).analytic)
+  if (folder.empty()) return learned;
+  for (const remap::AnalyticFit& fit : load_fit_folder(folder).analytic)
     if (is_learned(fit.conversion.formula)) learned.push_back({fit.id, fit.conversion});
   return learned;
 }
@@ -71,17 +60,12 @@ nlohmann::ordered_json report_json(const WorkflowsOptions& options, const Workfl
   return json;
 }
 
-void write_results(const WorkflowsCommand& command, const WorkflowsOptions& options,
+void write_results(const std::filesystem::path& folder, const WorkflowsOptions& options,
                    const WorkflowsResult& result) {
-  remap::write_file(command.output / "workflows.csv", workflow_materials_csv(options, result));
-  remap::write_file(command.output / "workflows_summary.csv", workflow_summary_csv(options, result));
-  for (std::size_t e = 0; e < result.sheets.size(); ++e)
-    write_png(command.output / ("workflows_" + options.environments[e].name + ".png"), result.sheets[e]);
-  try {
-    remap::write_file(command.output / "workflows.svg", run_gnuplot(workflows_plot_script(options, result)));
-  } catch (const Error& error) {
-    std::cerr << "remapc: warning: workflows.svg is not drawn: " << error.what() << "\n";
-  }
+  remap::write_file(folder / "workflows.csv", workflow_materials_csv(options, result));
+  remap::write_file(folder / "workflows_summary.csv", workflow_summary_csv(options, result));
+  write_sheets(folder, "workflows", options.environments, result.sheets);
+  write_plot(folder / "workflows.svg", workflows_plot_script(options, result));
 }
 
 std::string sheet_text(const WorkflowsResult& result) {
@@ -93,30 +77,23 @@ std::string sheet_text(const WorkflowsResult& result) {
 }
 
 void run(const WorkflowsCommand& command) {
-  if (command.pictures && command.output.empty())
-    throw Error(ErrorKind::kUsage, "--pictures: there is no folder for them; expected -o FOLDER");
+  require_folder_for_pictures(command.output);
   WorkflowsOptions options = command.study;
   MaterialSetOptions materials = command.materials;
   materials.alpha_count = options.alphas.size();
   MaterialSet set = study_materials(materials);
   options.materials = std::move(set.materials);
   options.environments = read_environments(command.environments);
-  options.learned = learned_conversions(command.fit_folder);
-  options.sheets = command.pictures;
+  options.learned = learned_conversions(fit_folder_of(command.output));
+  options.sheets = command.output.pictures;
   if (options.learned.empty()) set.remarks.emplace_back("no network among the fits (--fits FOLDER)");
-  if (!command.output.empty()) remap::create_parent(command.output / "workflows.csv");
-  remap::watch_interruptions();
-  WorkflowsResult result;
-  {
-    remap::Progress progress("study workflows", progress_steps(options), !command.quiet);
-    options.progress = [&] { progress.advance(); };
-    options.cancelled = &remap::interruption();
-    result = study_workflows(options);
-  }
+  const std::filesystem::path& folder = command.output.folder;
+  if (!folder.empty()) remap::create_parent(folder / "workflows.csv");
+  const WorkflowsResult result = run_study("study workflows", options, command.output.quiet, study_workflows);
   const std::vector<FamilyLine> family =
       study_family(options.learned, command.family_count, materials.seed, options.jobs);
-  if (!command.output.empty()) write_results(command, options, result);
-  if (command.json) {
+  if (!folder.empty()) write_results(folder, options, result);
+  if (command.output.json) {
     std::cout << report_json(options, result, family, set.remarks).dump(2) << "\n";
     return;
   }
@@ -142,20 +119,13 @@ void add_options(CLI::App& app, WorkflowsCommand& command) {
                  "Random metallic materials of each kind that go there and back")
       ->capture_default_str();
   app.add_option("--seed", command.materials.seed, "Of all random materials")->capture_default_str();
-  app.add_option("--resolution", study.resolution, "Width and height of the pictures")->capture_default_str();
-  app.add_option("--samples", study.samples, "Directions a pixel")->capture_default_str();
-  app.add_option("--fits", command.fit_folder,
-                 "Folder of fits whose networks are compared too; default: fits, if there is one");
-  app.add_option("-o,--output", command.output,
-                 "Folder for workflows.csv, workflows_summary.csv and workflows.svg (needs gnuplot)");
-  app.add_flag(
-      "--pictures", command.pictures,
-      "Write workflows_<environment>.png too: a row a material, two of each group; the material, then "
-      "what each method makes of it");
-  app.add_option("--jobs", study.jobs, "Threads; 0: one a core. The figures do not depend on it")
-      ->capture_default_str();
-  app.add_flag("--json", command.json, "Figures as JSON on standard output");
-  app.add_flag("--quiet", command.quiet, "No progress");
+  add_output_options(
+      app, command.output, study,
+      {"Folder of fits whose networks are compared too",
+       "Folder for workflows.csv, workflows_summary.csv and workflows.svg (needs gnuplot)",
+       "Write workflows_<environment>.png too: a row a material, two of each group; the material, then "
+       "what each method makes of it",
+       "Figures as JSON on standard output"});
 }
 
 }  // namespace

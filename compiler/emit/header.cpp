@@ -7,6 +7,7 @@
 
 #include "emit/block_code.hpp"
 #include "emit/emit.hpp"
+#include "emit/header_frame.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
 #include "error.hpp"
@@ -39,10 +40,7 @@ constexpr std::string_view kLayout =
 #include <type_traits>
 #include <utility>
 
-#if defined(__clang__)  // a loop that cannot be vectorised under the user's flags is no fault
-#pragma clang diagnostic push
-#pragma clang diagnostic ignored "-Wpass-failed"
-#endif
+@before_code@
 
 namespace remap::@id@ {
 
@@ -184,9 +182,7 @@ inline bool self_test() noexcept {
 
 }  // namespace remap::@id@
 
-#if defined(__clang__)
-#pragma clang diagnostic pop
-#endif
+@behind_code@
 
 #endif  // @guard@
 )";
@@ -199,12 +195,6 @@ void require_free_name(const std::string& name) {
   if (std::find(kTaken.begin(), kTaken.end(), name) == kTaken.end()) return;
   throw remap::Error(remap::ErrorKind::kInput, "emit: the specular parameter is called " + name +
                                                    ", as a variable of the header; expected another");
-}
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  return text;
 }
 
 std::string two_digits(double value) { return remap::number_text(remap::rounded_up(value, 2)); }
@@ -362,7 +352,9 @@ std::string header_text(const Fit& fit, const MappingCode& code) {
                                  {"source", fit.source.model},
                                  {"target", fit.target.model},
                                  {"provenance", provenance(fit, code)},
-                                 {"guard", "REMAP_GENERATED_" + upper(fit.id) + "_HPP"},
+                                 {"guard", guard_of(fit.id)},
+                                 {"before_code", std::string(kBeforeCode)},
+                                 {"behind_code", std::string(kBehindCode)},
                                  {"include_cmath", uses_cmath ? "#include <cmath>" : ""},
                                  {"in_roughness", in_roughness},
                                  {"in_specular", fit.source.specular},

@@ -1,8 +1,7 @@
 // The header of an analytic fit: the text of its formulas, and around it what every generated header offers:
 // one texel, rows of texels, domain, self-test.
-#include <algorithm>
-
 #include "emit/emit.hpp"
+#include "emit/header_frame.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
 #include "emit/workflow_text.hpp"
@@ -32,10 +31,7 @@ constexpr std::string_view kLayout =
 #include <cstring>
 #include <utility>
 
-#if defined(__clang__)  // a loop that cannot be vectorised under the user's flags is no fault
-#pragma clang diagnostic push
-#pragma clang diagnostic ignored "-Wpass-failed"
-#endif
+@before_code@
 
 namespace remap::@id@ {
 
@@ -140,9 +136,7 @@ inline bool self_test() noexcept {
 
 }  // namespace remap::@id@
 
-#if defined(__clang__)
-#pragma clang diagnostic pop
-#endif
+@behind_code@
 
 #endif  // @guard@
 )";
@@ -315,12 +309,6 @@ std::string provenance(const remap::AnalyticFit& fit) {
   return text;
 }
 
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  return text;
-}
-
 }  // namespace
 
 std::string emit_header(const remap::AnalyticFit& fit) {
@@ -347,7 +335,9 @@ std::string emit_header(const remap::AnalyticFit& fit) {
        {"target_width", out.back().name},
        {"dielectric_f0", literal(conversion.metallic.dielectric_f0)},
        {"provenance", provenance(fit)},
-       {"guard", "REMAP_GENERATED_" + upper(fit.id) + "_HPP"},
+       {"guard", guard_of(fit.id)},
+       {"before_code", std::string(kBeforeCode)},
+       {"behind_code", std::string(kBehindCode)},
        {"input_members", members(in)},
        {"output_members", members(out)},
        {"input_rows", row_members(in, "const float*")},

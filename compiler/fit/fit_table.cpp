@@ -80,6 +80,21 @@ std::string sha256(std::string_view bytes) {
   return text;
 }
 
+remap::TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
+                                const std::vector<std::pair<std::string, std::string>>& comments) {
+  remap::TableRecord record{path.filename().string(), sha256(bytes), {}};
+  for (const auto& [key, value] : comments) record.comments[key] = value;
+  return record;
+}
+
+std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model) {
+  const std::string chosen = id.empty() ? remap::converter_id(source_model, target_model) : id;
+  if (!remap::is_valid_id(chosen))
+    throw Error(ErrorKind::kUsage,
+                "id: \"" + chosen + "\"; expected a C++ identifier without leading or doubled underscore");
+  return chosen;
+}
+
 RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows) {
   std::vector<double> alpha_errors, specular_errors;
   for (const TableRow& row : rows) {
@@ -95,16 +110,11 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   require_models(table);
   require_fittable(table);
   remap::Fit fit;
-  fit.id = options.id.empty() ? remap::converter_id(table.source.model, table.target.model) : options.id;
-  if (!remap::is_valid_id(fit.id))
-    throw Error(ErrorKind::kUsage,
-                "id: \"" + fit.id + "\"; expected a C++ identifier without leading or doubled underscore");
+  fit.id = fit_id(options.id, table.source.model, table.target.model);
   fit.source = table.source;
   fit.target = table.target;
   fit.domain = table_domain(table);
-  fit.table.name = std::filesystem::path(table.name).filename().string();
-  fit.table.sha256 = sha256(bytes);
-  for (const auto& [key, value] : table.comments) fit.table.comments[key] = value;
+  fit.table = table_record(table.name, bytes, table.comments);
   fit.likeness = likeness(table, rows_inside(usable_rows(table), fit.domain));
   fit.tool_version = remap::kVersion;
 

@@ -38,6 +38,13 @@ struct RowErrors {
 };
 RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows);
 
+// What a fit says of the table that it was made from, whose file is `bytes`.
+remap::TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
+                                const std::vector<std::pair<std::string, std::string>>& comments);
+
+// `id`, or where it is empty that of a converter between the models. Throws kUsage where it is no identifier.
+std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model);
+
 // SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
 std::string sha256(std::string_view bytes);
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <random>
 
 #include "error.hpp"
 #include "fit/fit_table.hpp"
@@ -110,15 +108,6 @@ remap::WorkflowConversion conversion_of(const NamedTable& table, double dielectr
   return conversion;
 }
 
-// Which rows judge: the first of a seeded order.
-std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed) {
-  std::vector<std::size_t> order(count);
-  for (std::size_t i = 0; i < count; ++i) order[i] = i;
-  std::mt19937_64 random(seed);
-  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-  return order;
-}
-
 struct MaterialSplit {
   Samples training;
   std::vector<MaterialRow> held_out;
@@ -127,14 +116,11 @@ struct MaterialSplit {
 
 MaterialSplit split_materials(const NamedTable& table, const std::vector<MaterialRow>& rows,
                               const MaterialNetworkOptions& options) {
-  if (!(options.held_out_fraction >= 0.0 && options.held_out_fraction <= 0.9))
-    throw Error(ErrorKind::kUsage,
-                "held-out share: " + remap::number_text(options.held_out_fraction) + "; expected 0 to 0.9");
+  require_held_out_share(options.held_out_fraction);
   MaterialSplit split;
   split.training.input_count = 6;
   split.training.output_count = 4;
-  const auto judges =
-      static_cast<std::size_t>(std::lround(options.held_out_fraction * static_cast<double>(rows.size())));
+  const std::size_t judges = held_out_count(options.held_out_fraction, rows.size());
   const std::vector<std::size_t> order = seeded_order(rows.size(), options.seed);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const MaterialRow& row = rows[order[i]];
@@ -184,19 +170,9 @@ remap::AnalyticFit fit_material_network(const NamedTable& table, std::string_vie
                                        ", models of one BRDF and plain diffuse");
   remap::AnalyticFit fit;
   fit.conversion = conversion_of(table, deviation.dielectric_f0);
-  fit.id = options.id.empty()
-               ? remap::converter_id(fit.conversion.specular.model, fit.conversion.metallic.model)
-               : options.id;
-  if (!remap::is_valid_id(fit.id))
-    throw Error(ErrorKind::kUsage,
-                "id: \"" + fit.id + "\"; expected a C++ identifier without leading or doubled underscore");
+  fit.id = fit_id(options.id, fit.conversion.specular.model, fit.conversion.metallic.model);
   const MaterialSplit split = split_materials(table, rows, options);
-  TrainingOptions training;
-  training.hidden = options.hidden;
-  training.activation = options.activation;
-  training.seed = options.seed;
-  training.starts = options.starts;
-  training.jobs = options.jobs;
+  const TrainingOptions training = training_options(options);
   const TrainedNetwork trained = train_network(split.training, training, progress);
   fit.conversion.formula = remap::LearnedNetwork{trained.network};
   fit.training.emplace();
@@ -205,9 +181,7 @@ remap::AnalyticFit fit_material_network(const NamedTable& table, std::string_vie
       "rms of f0 " + error_text(deviation.f0) + ", of diffuse " + error_text(deviation.diffuse);
   judge(trained.network, split.held_out, &*fit.training);
   fit.training->split = split.record;
-  fit.training->table.name = std::filesystem::path(table.name).filename().string();
-  fit.training->table.sha256 = sha256(bytes);
-  for (const auto& [key, value] : table.comments) fit.training->table.comments[key] = value;
+  fit.training->table = table_record(table.name, bytes, table.comments);
   fit.tool_version = remap::kVersion;
   require_valid(fit.conversion, fit.id);
   return fit;

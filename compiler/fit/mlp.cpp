@@ -48,12 +48,7 @@ Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
                    const FitProgress& progress) {
   require_variety(rows, "mlp");
 
-  TrainingOptions training;
-  training.hidden = options.hidden;
-  training.activation = options.activation;
-  training.seed = options.seed;
-  training.starts = options.starts;
-  training.jobs = options.jobs;
+  const TrainingOptions training = training_options(options);
   const auto part = [&progress](double from) -> FitProgress {
     if (!progress) return {};
     return [&progress, from](double share) { progress(from + 0.5 * share); };

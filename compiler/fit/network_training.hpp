@@ -33,6 +33,18 @@ struct TrainingOptions {
   unsigned jobs = 0;  // threads; 0: one a processor. The result does not depend on it
 };
 
+// What the options of a kind of fit say of it.
+template <typename Options>
+TrainingOptions training_options(const Options& options) {
+  TrainingOptions training;
+  training.hidden = options.hidden;
+  training.activation = options.activation;
+  training.seed = options.seed;
+  training.starts = options.starts;
+  training.jobs = options.jobs;
+  return training;
+}
+
 struct TrainedNetwork {
   remap::Network network;
   double training_rms = 0.0;    // over the rows it was trained on, in units of the normalised outputs

@@ -12,11 +12,28 @@
 
 namespace remapc {
 
+std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed) {
+  // Fisher and Yates by hand: std::shuffle is not the same in every standard library.
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937_64 random(seed);
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+  return order;
+}
+
+void require_held_out_share(double fraction) {
+  if (!(fraction >= 0.0 && fraction <= 0.9))
+    throw remap::Error(remap::ErrorKind::kUsage,
+                       "held-out share: " + remap::number_text(fraction) + "; expected 0 to 0.9");
+}
+
+std::size_t held_out_count(double fraction, std::size_t rows) {
+  return static_cast<std::size_t>(std::lround(fraction * static_cast<double>(rows)));
+}
+
 RowSplit split_rows(const Table& table, const remap::Domain& domain, std::uint64_t seed,
                     double held_out_fraction) {
-  if (!(held_out_fraction >= 0.0 && held_out_fraction <= 0.9))
-    throw remap::Error(remap::ErrorKind::kUsage,
-                       "held-out share: " + remap::number_text(held_out_fraction) + "; expected 0 to 0.9");
+  require_held_out_share(held_out_fraction);
   RowSplit split;
   std::vector<const TableRow*> usable;
   for (const TableRow& row : table.rows) {
@@ -27,14 +44,8 @@ RowSplit split_rows(const Table& table, const remap::Domain& domain, std::uint64
     else
       usable.push_back(&row);
   }
-  // Fisher and Yates by hand: std::shuffle is not the same in every standard library.
-  std::vector<std::size_t> order(usable.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::mt19937_64 random(seed);
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-
-  const auto count =
-      static_cast<std::size_t>(std::lround(held_out_fraction * static_cast<double>(usable.size())));
+  std::vector<std::size_t> order = seeded_order(usable.size(), seed);
+  const std::size_t count = held_out_count(held_out_fraction, usable.size());
   std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
   std::sort(order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
   for (std::size_t i = 0; i < order.size(); ++i)

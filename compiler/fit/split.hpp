@@ -10,6 +10,12 @@
 
 namespace remapc {
 
+// The places of `count` rows in an order of that seed, the same on every machine: the first of it judge.
+std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed);
+// Throws kUsage for a share of judges outside [0, 0.9].
+void require_held_out_share(double fraction);
+std::size_t held_out_count(double fraction, std::size_t rows);
+
 struct RowSplit {
   std::vector<TableRow> training;
   std::vector<TableRow> held_out;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 
 #include "error.hpp"
 #include "number_text.hpp"
@@ -145,6 +146,20 @@ std::vector<Environment> builtin_environments(int height) {
 Environment exposed(Environment environment, double exposure) {
   for (float& value : environment.map.values) value = static_cast<float>(value * exposure);
   return environment;
+}
+
+void require_names_differ(const std::vector<Environment>& environments) {
+  std::set<std::string> names;
+  for (const Environment& environment : environments)
+    if (!names.insert(environment.name).second)
+      throw Error(ErrorKind::kUsage,
+                  "environments: two are named " + environment.name + "; expected names that differ");
+}
+
+std::string environment_names(const std::vector<Environment>& environments) {
+  std::string names;
+  for (const Environment& environment : environments) names += (names.empty() ? "" : ", ") + environment.name;
+  return names;
 }
 
 double mean_luminance(const Environment& environment) {

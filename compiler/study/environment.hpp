@@ -40,6 +40,12 @@ std::vector<Environment> builtin_environments(int height = 256);
 // The same light, `exposure` times as bright.
 Environment exposed(Environment environment, double exposure);
 
+// Throws kUsage where two have one name.
+void require_names_differ(const std::vector<Environment>& environments);
+
+// `sky, studio`.
+std::string environment_names(const std::vector<Environment>& environments);
+
 // The mean of luminance over all directions.
 double mean_luminance(const Environment& environment);
 

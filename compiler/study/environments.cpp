@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <span>
 
 #include "error.hpp"
@@ -144,11 +143,7 @@ void require_options(const EnvironmentsOptions& options) {
   if (options.pairs.empty() || options.alphas.empty() || options.environments.empty())
     throw Error(ErrorKind::kUsage,
                 "environments: no pair, alpha or environment; expected one at least of each");
-  std::set<std::string> names;
-  for (const Environment& environment : options.environments)
-    if (!names.insert(environment.name).second)
-      throw Error(ErrorKind::kUsage,
-                  "environments: two are named " + environment.name + "; expected names that differ");
+  require_names_differ(options.environments);
   const auto renderer = make_builtin_renderer();
   for (const ModelPair& pair : options.pairs)
     for (const std::string& name : {pair.source, pair.target}) {

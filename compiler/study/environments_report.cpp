@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include "number_text.hpp"
+#include "report_text.hpp"
 #include "version.hpp"
 
 namespace remapc {
@@ -17,17 +17,6 @@ constexpr std::array kMethods = {Method::kCopy, Method::kPaper, Method::kNatural
                                  Method::kBest};
 constexpr double kRmseStep = 0.01, kSsimStep = 0.001;  // of the figures in the text
 
-std::string fixed(double value, int decimals, int width) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%*.*f", width, decimals, value);
-  return text.data();
-}
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(text.size(), width), ' ');
-  return text;
-}
-
 std::string figures_text(const PictureLikeness& likeness) {
   return fixed(likeness.rmse, 2, 8) + fixed(likeness.ssim, 3, 8) + fixed(100.0 * likeness.energy, 1, 8);
 }
@@ -38,25 +27,12 @@ std::string brightness_text(const EnvironmentsOptions& options) {
 }
 
 // What the figures depend on besides the rows themselves.
-std::vector<std::pair<std::string, std::string>> circumstances(const EnvironmentsOptions& options,
-                                                               const EnvironmentsResult& result) {
-  return {{"tool", std::string("remapc ") + remap::kVersion},
-          {"resolution", std::to_string(options.resolution)},
-          {"samples", std::to_string(options.samples)},
-          {"mean_luminance", brightness_text(options)},
-          {"noise_percent", number_text(remap::rounded_up(result.noise, 2))}};
-}
-
 std::string comments_of(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  std::string text;
-  for (const auto& [key, value] : circumstances(options, result)) text += "# " + key + ": " + value + "\n";
-  return text;
-}
-
-std::string listed(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + number_text(value);
-  return text;
+  return comment_lines({{"tool", std::string("remapc ") + remap::kVersion},
+                        {"resolution", std::to_string(options.resolution)},
+                        {"samples", std::to_string(options.samples)},
+                        {"mean_luminance", brightness_text(options)},
+                        {"noise_percent", number_text(remap::rounded_up(result.noise, 2))}});
 }
 
 std::vector<const EnvironmentComparison*> at_alpha(
@@ -82,13 +58,11 @@ std::string counted_pairs(const EnvironmentsOptions& options, const Environments
 }
 
 std::string heading(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  std::string names;
-  for (const Environment& environment : options.environments)
-    names += (names.empty() ? "" : ", ") + environment.name;
-  return "Spheres under " + names + ", mean luminance " + brightness_text(options) + "; alpha " +
-         listed(options.alphas) + ", specular " + number_text(options.specular) + ", " +
-         std::to_string(options.resolution) + " x " + std::to_string(options.resolution) +
-         " pixels, sampling noise " + number_text(remap::rounded_up(result.noise, 2)) +
+  return "Spheres under " + environment_names(options.environments) + ", mean luminance " +
+         brightness_text(options) + "; alpha " + listed(options.alphas) + ", specular " +
+         number_text(options.specular) + ", " + std::to_string(options.resolution) + " x " +
+         std::to_string(options.resolution) + " pixels, sampling noise " +
+         number_text(remap::rounded_up(result.noise, 2)) +
          " %\nRMSE in % of the display's range, SSIM of luma, energy: error of mean radiance in %\n";
 }
 

@@ -1,7 +1,6 @@
 #include "study/workflows.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "error.hpp"
 #include "number_text.hpp"
@@ -169,11 +168,7 @@ void require_options(const WorkflowsOptions& options) {
   if (options.materials.empty() || options.alphas.empty() || options.environments.empty())
     throw Error(ErrorKind::kUsage,
                 "workflows: no material, alpha or environment; expected one at least of each");
-  std::set<std::string> names;
-  for (const Environment& environment : options.environments)
-    if (!names.insert(environment.name).second)
-      throw Error(ErrorKind::kUsage,
-                  "environments: two are named " + environment.name + "; expected names that differ");
+  require_names_differ(options.environments);
   for (const double alpha : options.alphas)
     if (!(alpha >= 0.01 && alpha <= 1.0))
       throw Error(ErrorKind::kUsage, "alpha: " + remap::number_text(alpha) + "; expected 0.01 to 1");

@@ -2,37 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <sstream>
 
 #include "number_text.hpp"
+#include "report_text.hpp"
 #include "version.hpp"
 
 namespace remapc {
 namespace {
 
 using remap::number_text;
-
-std::string fixed(double value, int decimals, int width) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%*.*f", width, decimals, value);
-  return text.data();
-}
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(text.size(), width), ' ');
-  return text;
-}
-
-std::string right(const std::string& text, std::size_t width) {
-  return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
-}
-
-std::string listed(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + number_text(value);
-  return text;
-}
 
 std::size_t name_width(const WorkflowsResult& result) {
   std::size_t width = 0;
@@ -45,7 +24,7 @@ std::string comparison_text(const WorkflowsOptions& options, const WorkflowCompa
                             std::size_t width) {
   std::string text = padded(comparison.convention == "gltf" ? "diffuse as in glTF" : "diffuse plain", width) +
                      "   RMSE    SSIM   worst   headlight        RMSE of";
-  for (const MaterialGroup group : groups_of(options)) text += right(group_name(group), 9);
+  for (const MaterialGroup group : groups_of(options)) text += padded_left(group_name(group), 9);
   text += "\n";
   for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
     const WorkflowFigures all = figures_of(options, comparison, m);
@@ -72,7 +51,7 @@ std::string verdict(const WorkflowsOptions& options, const WorkflowComparison& c
 std::string family_text(const std::vector<FamilyLine>& family, std::size_t width) {
   std::string text = padded("there and back, rms", width);
   for (std::size_t kind = 0; kind < kFamilyKinds; ++kind)
-    text += right(family_name(static_cast<FamilyKind>(kind)), 20);
+    text += padded_left(family_name(static_cast<FamilyKind>(kind)), 20);
   text += "\n" + padded("", width);
   for (std::size_t kind = 0; kind < kFamilyKinds; ++kind) text += "   metallic    base";
   text += "\n";
@@ -86,13 +65,11 @@ std::string family_text(const std::vector<FamilyLine>& family, std::size_t width
 }
 
 std::string comments_of(const WorkflowsOptions& options) {
-  std::string environments;
-  for (const Environment& environment : options.environments)
-    environments += (environments.empty() ? "" : ", ") + environment.name;
-  return std::string("# tool: remapc ") + remap::kVersion +
-         "\n# resolution: " + std::to_string(options.resolution) +
-         "\n# samples: " + std::to_string(options.samples) + "\n# environments: " + environments +
-         "\n# alphas: " + listed(options.alphas) + "\n";
+  return comment_lines({{"tool", std::string("remapc ") + remap::kVersion},
+                        {"resolution", std::to_string(options.resolution)},
+                        {"samples", std::to_string(options.samples)},
+                        {"environments", environment_names(options.environments)},
+                        {"alphas", listed(options.alphas)}});
 }
 
 // A name that has commas, as CSV quotes it.

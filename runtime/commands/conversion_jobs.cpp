@@ -68,13 +68,15 @@ class TreeJobs {
                    ConversionJob& job);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
   void copy_others(const FoundSet& set, int tile, ConversionJob& job) const;
-  void require_no_collisions(const Discovery& found) const;
+  std::vector<PlannedOutput> outputs(const FoundSet& set, const TargetChoice& choice) const;
+  void require_no_collisions() const;
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
 
   const ConvertOptions& options_;
   const WorkflowChoice& workflow_;
   const TextureSetRequest& stand_ins_;  // for what sets do not have, and factors for all
   fs::path root_;
+  std::vector<FoundSet> converted_;
   JobList jobs_;
 };
 
@@ -95,7 +97,7 @@ JobList TreeJobs::list() {
       for (const std::string& remark : set.remarks)
         jobs_.left_out.push_back({remark, set.state == SetState::kFaulty});
   }
-  require_no_collisions(found);
+  require_no_collisions();
   if (jobs_.jobs.empty() && jobs_.left_out.empty())
     throw Error(ErrorKind::kUsage, root_.string() +
                                        ": has no texture set that is known by its names; expected " +
@@ -110,35 +112,25 @@ bool is_given(const ParameterRequest& request) {
   return map == nullptr || !map->file.empty();
 }
 
-// A map of a set, a bystander or not, and the channels that hold a role.
-struct FoundRole {
-  const FoundMap* map;
-  ChannelMeaning meaning;
-};
-
-std::vector<FoundRole> maps_of_role(const FoundSet& set, Role role) {
-  std::vector<FoundRole> found;
-  for (const std::vector<FoundMap>* maps : {&set.maps, &set.bystanders})
-    for (const FoundMap& map : *maps)
-      for (const ChannelMeaning& entry : map.meaning)
-        if (entry.role == role) found.push_back({&map, entry});
-  return found;
-}
-
-// The roles that can be a parameter, the best first: many a set calls its base colour diffuse, or its diffuse
-// colour albedo.
-std::vector<Role> roles_of(Parameter parameter) {
+// Where a set may have a parameter: in the best role that there is. Many a set calls its base colour diffuse,
+// or its diffuse colour albedo.
+std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
+  const auto is_diffuse = [](Role role) { return role == Role::kDiffuse; };
+  const auto is_base_color = [](Role role) { return role == Role::kBaseColor; };
+  const auto either = [](std::vector<MapUse> best, std::vector<MapUse> other) {
+    return best.empty() ? other : best;
+  };
   switch (parameter) {
     case Parameter::kWidth:
-      return {Role::kRoughness, Role::kGlossiness, Role::kAlphaWidth};
+      return uses(set, tells_width);
     case Parameter::kSpecular:
-      return {Role::kSpecular};
+      return uses(set, [](Role role) { return role == Role::kSpecular; });
     case Parameter::kDiffuse:
-      return {Role::kDiffuse, Role::kBaseColor};
+      return either(uses(set, is_diffuse), uses(set, is_base_color));
     case Parameter::kBaseColor:
-      return {Role::kBaseColor, Role::kDiffuse};
+      return either(uses(set, is_base_color), uses(set, is_diffuse));
     case Parameter::kMetallic:
-      return {Role::kMetallic};
+      return uses(set, [](Role role) { return role == Role::kMetallic; });
     default:
       return {};
   }
@@ -146,15 +138,10 @@ std::vector<Role> roles_of(Parameter parameter) {
 
 void TreeJobs::add(const FoundSet& set) {
   for (const Parameter parameter : workflow_.sources()) {
-    std::vector<FoundRole> found;
-    for (const Role role : roles_of(parameter))
-      if (found.empty()) found = maps_of_role(set, role);
+    const std::vector<MapUse> found = uses_of(set, parameter);
     const std::string name(parameter_name(parameter));
     if (found.size() > 1) {
-      jobs_.left_out.push_back({place(set) + ": has " + std::to_string(found.size()) + " maps for " + name +
-                                    ", " + shown(found[0].map->path.filename()) + " and " +
-                                    shown(found[1].map->path.filename()) + "; expected one",
-                                true});
+      jobs_.left_out.push_back({place(set) + ": " + too_many_text(set, found, name), true});
       return;
     }
     if (!found.empty() || is_given(stand_ins_.parameters.at(parameter))) continue;
@@ -163,28 +150,28 @@ void TreeJobs::add(const FoundSet& set) {
                               true});
     return;
   }
+  converted_.push_back(set);
   for (const int tile : tiles_of(set)) add_tile(set, tile);
 }
 
 // Puts the map of a parameter into the job; false, with a message, where the set lacks the tile.
 bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                            ConversionJob& job) {
-  for (const Role role : roles_of(parameter))
-    for (const FoundRole& found : maps_of_role(set, role)) {
-      const std::optional<fs::path> file = file_of(*found.map, tile);
-      if (!file) {
-        jobs_.left_out.push_back({job.name + (number.empty() ? "" : ", tile " + number) + ": has no " +
-                                      std::string(role_name(role)) + " map; expected a tile " +
-                                      shown(found.map->path.filename()),
-                                  true});
-        return false;
-      }
-      job.request.parameters[parameter].source =
-          MapName{root_ / *file, channel_names(found.meaning.channels)};
-      if (parameter == Parameter::kWidth && options_.encoding.empty() && convention_of(role))
-        job.request.convention = convention_of(role);
-      return true;
-    }
+  const std::vector<MapUse> found = uses_of(set, parameter);
+  if (found.empty()) return true;
+  const MapUse& use = found.front();
+  const FoundMap& map = map_of(set, use);
+  const std::optional<fs::path> file = file_of(map, tile);
+  if (!file) {
+    jobs_.left_out.push_back({job.name + (number.empty() ? "" : ", tile " + number) + ": has no " +
+                                  std::string(role_name(use.role)) + " map; expected a tile " +
+                                  shown(map.path.filename()),
+                              true});
+    return false;
+  }
+  job.request.parameters[parameter].source = MapName{root_ / *file, channel_names(use.channels)};
+  if (parameter == Parameter::kWidth && options_.encoding.empty() && convention_of(use.role))
+    job.request.convention = convention_of(use.role);
   return true;
 }
 
@@ -236,19 +223,35 @@ void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) co
     }
 }
 
-void TreeJobs::require_no_collisions(const Discovery& found) const {
-  const auto outputs = [&](const FoundSet& set) {
-    std::vector<PlannedOutput> planned;
-    std::set<std::size_t> used = {set.width->map};
-    if (set.specular) used.insert(set.specular->map);
-    for (const std::size_t map : used) {
-      fs::path path = set.maps[map].path;
-      if (!options_.format.empty()) path.replace_extension(options_.format);
-      planned.push_back({path, set.maps[map].path});
+// The files that the conversion of a set writes, with one map that each is made from: of all tiles as one.
+std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set, const TargetChoice& choice) const {
+  const FoundMap& first = map_of(set, *set.width);
+  const ResultNames names = {set.name + "_", tiles_of(set).front() == 0 ? "" : ".<UDIM>"};
+  const std::string extension =
+      choice.extension.empty() ? first.path.extension().string() : "." + choice.extension;
+  std::map<fs::path, fs::path> sources;
+  for (const Parameter parameter : choice.parameters) {
+    const std::vector<MapUse> found = uses_of(set, parameter);
+    const fs::path& source = (found.empty() ? first : map_of(set, found.front())).path;
+    fs::path path = set.folder / set_file_name(file_name(parameter, choice) + extension, names);
+    if (choice.layout == Layout::kAsInputs && !found.empty()) {
+      path = source;
+      if (!choice.extension.empty()) path.replace_extension(choice.extension);
     }
-    return planned;
-  };
-  const std::vector<OutputCollision> collisions = output_collisions(found.sets, outputs);
+    sources.emplace(path, source);
+  }
+  if (choice.mask) sources.emplace(set.folder / set_file_name(*choice.mask, names), first.path);
+  for (const MeasureMap& map : choice.measures)
+    sources.emplace(set.folder / set_file_name(map.name, names), first.path);
+  std::vector<PlannedOutput> planned;
+  for (const auto& [path, source] : sources) planned.push_back({path, source});
+  return planned;
+}
+
+void TreeJobs::require_no_collisions() const {
+  const TargetChoice choice = target_choice(options_, workflow_);
+  const std::vector<OutputCollision> collisions =
+      output_collisions(converted_, [&](const FoundSet& set) { return outputs(set, choice); });
   if (collisions.empty()) return;
   const OutputCollision& first = collisions.front();
   throw Error(ErrorKind::kUsage, shown(fs::path(options_.output) / first.path) +

@@ -36,11 +36,6 @@ const std::string& word_of(const ConvertOptions& options, Parameter parameter) {
   }
 }
 
-[[noreturn]] void fail_unknown(const std::string& option, const std::string& word,
-                               const std::vector<std::string>& known) {
-  throw Error(ErrorKind::kUsage, option + ": is " + word + suggestion(word, known));
-}
-
 std::optional<RoughnessConvention> convention_of(const std::string& option, const std::string& word) {
   if (word.empty()) return std::nullopt;
   const auto convention = convention_from_name(word);
@@ -262,6 +257,10 @@ std::optional<RoughnessConvention> given_convention(const ConvertOptions& option
 }
 
 }  // namespace
+
+void fail_unknown(const std::string& option, const std::string& word, const std::vector<std::string>& known) {
+  throw Error(ErrorKind::kUsage, option + ": is " + word + suggestion(word, known));
+}
 
 void add_convert_options(CLI::App& command, ConvertOptions& options) {
   command.add_option("--from", options.from, "Source model, e.g. mitsuba/ward");

@@ -67,6 +67,10 @@ struct ConvertOptions {
 
 void add_convert_options(CLI::App& command, ConvertOptions& options);
 
+// Throws kUsage for a word that `option` does not know.
+[[noreturn]] void fail_unknown(const std::string& option, const std::string& word,
+                               const std::vector<std::string>& known);
+
 struct WorkflowChoice;  // workflow_choice.hpp
 
 // Each throws kUsage, naming the option, for what there is not.

@@ -75,10 +75,6 @@ Json mask_json(const JobReport& report) {
   return {};
 }
 
-std::string key_of(Parameter parameter) {
-  return parameter == Parameter::kWidth ? "roughness" : std::string(parameter_name(parameter));
-}
-
 Json paths_json(const std::vector<std::filesystem::path>& paths) {
   Json names = Json::array();
   for (const std::filesystem::path& path : paths) names.push_back(path.string());
@@ -181,7 +177,7 @@ Json job_json(const ChosenConverter& chosen, const JobReport& report) {
   Json json, values;
   std::vector<Parameter> named = chosen.material->targets();
   for (const Parameter parameter : named)
-    if (parameter != Parameter::kDoubts) json[key_of(parameter)] = file_json(report, parameter);
+    if (parameter != Parameter::kDoubts) json[plain_name(parameter)] = file_json(report, parameter);
   json["mask"] = mask_json(report);
   json["copies"] = paths_json(report.copies);
   json["specular_color_space"] = transfer_name(report.specular_transfer);
@@ -194,8 +190,8 @@ Json job_json(const ChosenConverter& chosen, const JobReport& report) {
   };
   for (const Parameter parameter : named)
     if (parameter != Parameter::kDoubts)
-      values[key_of(parameter)] = {{"source", of(counts.sources, parameter)},
-                                   {"target", of(counts.targets, parameter)}};
+      values[plain_name(parameter)] = {{"source", of(counts.sources, parameter)},
+                                       {"target", of(counts.targets, parameter)}};
   json["values"] = values;
   if (chosen.workflow.is_material()) {
     json["masked"] = counts.masked_count;

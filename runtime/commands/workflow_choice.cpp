@@ -4,16 +4,10 @@
 
 #include "convert/path.hpp"
 #include "error.hpp"
-#include "nearest_name.hpp"
 #include "number_text.hpp"
 
 namespace remap {
 namespace {
-
-[[noreturn]] void fail_unknown(const std::string& option, const std::string& word,
-                               const std::vector<std::string>& known) {
-  throw Error(ErrorKind::kUsage, option + ": is " + word + suggestion(word, known));
-}
 
 std::optional<WorkflowKind> kind_named(const std::string& option, const std::string& word) {
   if (word.empty()) return std::nullopt;
@@ -160,12 +154,6 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
   if (choice.is_material() && !options.only.empty())
     throw Error(ErrorKind::kUsage,
                 "--only: is for width and specular alone; expected no such option beside a workflow");
-}
-
-std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
-  if (kind_of(end) == WorkflowKind::kSpecular)
-    return {Parameter::kWidth, Parameter::kSpecular, Parameter::kDiffuse};
-  return {Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic};
 }
 
 }  // namespace

@@ -53,8 +53,7 @@ bool is_measure(Parameter parameter) {
 }
 
 std::string parameter_option(Parameter parameter) {
-  if (parameter == Parameter::kWidth) return "--roughness";
-  std::string option = "--" + std::string(parameter_name(parameter));
+  std::string option = "--" + plain_name(parameter);
   std::replace(option.begin(), option.end(), '_', '-');
   return option;
 }
@@ -62,6 +61,12 @@ std::string parameter_option(Parameter parameter) {
 bool is_color(Parameter parameter) {
   return parameter == Parameter::kSpecular || parameter == Parameter::kDiffuse ||
          parameter == Parameter::kBaseColor;
+}
+
+std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
+  if (kind_of(end) == WorkflowKind::kSpecular)
+    return {Parameter::kWidth, Parameter::kSpecular, Parameter::kDiffuse};
+  return {Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic};
 }
 
 bool MaterialConverter::has_source(Parameter parameter) const noexcept {

@@ -51,6 +51,9 @@ class MaterialConverter {
 // Width and specular alone. `converter` must outlive the result.
 std::unique_ptr<MaterialConverter> make_material_converter(const Converter& converter);
 
+// What materials of a workflow are made of, in the order of Parameter.
+std::vector<Parameter> parameters_of(const WorkflowEnd& end);
+
 // What leads from a material of one workflow to one of another.
 struct WorkflowStages {
   WorkflowEnd source, target;

@@ -40,6 +40,8 @@ inline constexpr float kDarkTexel = 0.06f;
 // `width`, `specular`, `diffuse`, `base_color`, `metallic`, `metal_mask`, `nearby_metallic`, `residual`,
 // `metallic_width`, `doubts`.
 std::string_view parameter_name(Parameter parameter);
+// `base_color`, as for files and messages; `roughness` for the width, whatever its parameter.
+std::string plain_name(Parameter parameter);
 // `--base-color`; `--roughness` for the width.
 std::string parameter_option(Parameter parameter);
 // Whether it is said of the result, and no parameter of it: kResidual, kMetallicWidth, kDoubts.

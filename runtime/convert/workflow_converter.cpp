@@ -67,12 +67,6 @@ void scale_up(std::size_t count, const ColorRows& diffuse, const ColorRows& spec
   }
 }
 
-std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
-  if (kind_of(end) == WorkflowKind::kSpecular)
-    return {Parameter::kWidth, Parameter::kSpecular, Parameter::kDiffuse};
-  return {Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic};
-}
-
 std::vector<Parameter> targets_of(const WorkflowEnd& end) {
   std::vector<Parameter> targets = parameters_of(end);
   if (kind_of(end) == WorkflowKind::kMetallic)

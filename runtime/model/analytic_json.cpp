@@ -57,14 +57,11 @@ NetworkTraining read_training(const Field& field) {
 
 AnalyticFit read_analytic(const Field& root) {
   AnalyticFit fit;
-  fit.id = root["id"].text();
-  root["id"].require(is_valid_id(fit.id), "a C++ identifier without leading or doubled underscore");
+  fit.id = read_id(root["id"]);
   fit.conversion = read_conversion(root);
-  fit.remarks = root["remarks"].list(0, [](const Field& entry) { return entry.text(); });
+  fit.remarks = read_texts(root["remarks"]);
   if (is_learned(fit.conversion.formula)) fit.training = read_training(root["training"]);
-  const std::string tool = root["tool"].text();
-  root["tool"].require(tool.starts_with("remapc "), "remapc and its version");
-  fit.tool_version = tool.substr(7);
+  fit.tool_version = read_tool_version(root["tool"]);
   return fit;
 }
 
@@ -92,7 +89,7 @@ AnyFit any_fit_from_json(std::string_view text, const std::string& place) {
   const Field root(json, place);
   require_fit_format(root);
   if (is_of_materials(root)) return read_analytic(root);
-  return fit_from_json(text, place);
+  return read_fit(root);
 }
 
 AnyFit load_any_fit(const std::filesystem::path& path) {

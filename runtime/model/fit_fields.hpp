@@ -27,6 +27,23 @@ inline ModelSide read_side(const Field& field) {
   return {model, *convention, specular};
 }
 
+inline std::string read_id(const Field& field) {
+  const std::string id = field.text();
+  field.require(is_valid_id(id), "a C++ identifier without leading or doubled underscore");
+  return id;
+}
+
+inline std::vector<std::string> read_texts(const Field& field) {
+  return field.list(0, [](const Field& entry) { return entry.text(); });
+}
+
+// Of `remapc 1.2.3`.
+inline std::string read_tool_version(const Field& field) {
+  const std::string tool = field.text();
+  field.require(tool.starts_with("remapc "), "remapc and its version");
+  return tool.substr(7);
+}
+
 // Whether the root of a fit file is that of a fit of whole materials: its ends name their workflows.
 inline bool is_of_materials(const Field& root) {
   return root.json().contains("source") && root["source"].json().contains("workflow");
@@ -40,5 +57,8 @@ inline void require_fit_format(const Field& root) {
     root.fail("has format version " + std::to_string(version) + "; this program reads version " +
               std::to_string(kFitFormatVersion));
 }
+
+// The fit of width and specular whose file has that root. Throws kInput.
+Fit read_fit(const Field& root);
 
 }  // namespace remap

@@ -210,15 +210,9 @@ std::string fit_to_json(const Fit& fit) {
   return json.dump(2) + "\n";
 }
 
-Fit fit_from_json(std::string_view text, const std::string& place) {
-  const Json json = parse_json(text, place);
-  const Field root(json, place);
-  require_fit_format(root);
-  if (is_of_materials(root)) require_width_and_specular(AnyFit{AnalyticFit{}}, ErrorKind::kInput, place);
-
+Fit read_fit(const Field& root) {
   Fit fit;
-  fit.id = root["id"].text();
-  root["id"].require(is_valid_id(fit.id), "a C++ identifier without leading or doubled underscore");
+  fit.id = read_id(root["id"]);
   fit.source = read_side(root["source"]);
   fit.target = read_side(root["target"]);
   fit.domain = {read_range(root["domain"]["alpha"]), read_range(root["domain"]["specular"])};
@@ -230,13 +224,19 @@ Fit fit_from_json(std::string_view text, const std::string& place) {
   fit.roughness_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
   fit.specular_error = read_figures(root["error_on_held_out_rows"]["specular"]);
   fit.likeness = read_likeness(root["likeness"]);
-  fit.remarks = root["remarks"].list(0, [](const Field& entry) { return entry.text(); });
+  fit.remarks = read_texts(root["remarks"]);
   fit.split = read_split(root["split"]);
   fit.table = read_table_record(root["table"]);
-  const std::string tool = root["tool"].text();
-  root["tool"].require(tool.starts_with("remapc "), "remapc and its version");
-  fit.tool_version = tool.substr(7);
+  fit.tool_version = read_tool_version(root["tool"]);
   return fit;
+}
+
+Fit fit_from_json(std::string_view text, const std::string& place) {
+  const Json json = parse_json(text, place);
+  const Field root(json, place);
+  require_fit_format(root);
+  if (is_of_materials(root)) require_width_and_specular(AnyFit{AnalyticFit{}}, ErrorKind::kInput, place);
+  return read_fit(root);
 }
 
 Fit load_fit(const std::filesystem::path& path) { return fit_from_json(read_file(path), path.string()); }

@@ -70,26 +70,6 @@ bool takes_part(const ChannelMeaning& entry) {
   return tells_width(entry.role) || entry.role == Role::kSpecular;
 }
 
-std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role)) {
-  std::vector<MapUse> found;
-  for (std::size_t i = 0; i < set.maps.size(); ++i)
-    for (const ChannelMeaning& entry : set.maps[i].meaning)
-      if (wanted(entry.role)) found.push_back({i, entry.channels, entry.role});
-  return found;
-}
-
-// `a.png (roughness), a_orm.png (roughness in G)`.
-std::string list_candidates(const FoundSet& set, const std::vector<MapUse>& candidates) {
-  std::string text;
-  for (const MapUse& use : candidates) {
-    text += (text.empty() ? "" : ", ") + shown(set.maps[use.map].path.filename()) + " (";
-    text += role_name(use.role);
-    if (use.channels != Channels::kWhole) text += " in " + std::string(channels_name(use.channels));
-    text += ")";
-  }
-  return text;
-}
-
 std::string place_of(const FoundSet& set) { return shown(set.folder / set.name); }
 
 // The one candidate for a role; several make the set faulty.
@@ -98,8 +78,7 @@ std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std:
   if (candidates.size() == 1) return candidates.front();
   if (candidates.size() > 1) {
     set.state = SetState::kFaulty;
-    set.remarks.push_back(place_of(set) + ": " + std::to_string(candidates.size()) + " maps for " + what +
-                          ": " + list_candidates(set, candidates) + "; expected one");
+    set.remarks.push_back(place_of(set) + ": " + too_many_text(set, candidates, what));
   }
   return std::nullopt;
 }
@@ -170,6 +149,29 @@ std::string last_name(const fs::path& path) {
 }
 
 }  // namespace
+
+std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role)) {
+  std::vector<MapUse> found;
+  for (std::size_t i = 0; i < set.maps.size() + set.bystanders.size(); ++i)
+    for (const ChannelMeaning& entry : map_of(set, {i}).meaning)
+      if (wanted(entry.role)) found.push_back({i, entry.channels, entry.role});
+  return found;
+}
+
+const FoundMap& map_of(const FoundSet& set, const MapUse& use) {
+  return use.map < set.maps.size() ? set.maps[use.map] : set.bystanders[use.map - set.maps.size()];
+}
+
+std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what) {
+  std::string text;
+  for (const MapUse& use : found) {
+    text += (text.empty() ? "" : ", ") + shown(map_of(set, use).path.filename()) + " (";
+    text += role_name(use.role);
+    if (use.channels != Channels::kWhole) text += " in " + std::string(channels_name(use.channels));
+    text += ")";
+  }
+  return std::to_string(found.size()) + " maps for " + what + ": " + text + "; expected one";
+}
 
 Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {
   const Naming& naming = options.naming != nullptr ? *options.naming : built_in_naming();

@@ -27,7 +27,7 @@ struct FoundMap {
 
 // Where a role of a set is found.
 struct MapUse {
-  std::size_t map = 0;  // in FoundSet::maps
+  std::size_t map = 0;  // in FoundSet::maps, and FoundSet::bystanders after those
   Channels channels = Channels::kWhole;
   Role role = Role::kRoughness;
 };
@@ -48,6 +48,12 @@ struct FoundSet {
   std::optional<MapUse> specular;    // where there is one
   std::vector<std::string> remarks;  // of a skipped or faulty set: one message of one line each
 };
+
+// Every place in the maps and bystanders of a set that holds a role which `wanted` accepts.
+std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
+const FoundMap& map_of(const FoundSet& set, const MapUse& use);
+// `2 maps for specular: a_spec.png (specular), a_orm.png (specular in R); expected one`.
+std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what);
 
 struct DiscoveryOptions {
   bool recursive = true;

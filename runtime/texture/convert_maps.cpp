@@ -105,10 +105,6 @@ std::size_t channel_count(const SourceParameter& parameter) {
   return parameter.channels.empty() ? parameter.constants.size() : parameter.channels.size();
 }
 
-std::string name_of_parameter(Parameter parameter) {
-  return parameter == Parameter::kWidth ? "roughness" : std::string(parameter_name(parameter));
-}
-
 Conversion::Conversion(const MaterialConverter& converter, const MapConversion& maps)
     : converter_(converter),
       maps_(maps),
@@ -124,7 +120,7 @@ void Conversion::require_fitting() const {
   for (const Parameter parameter : sources_) {
     const auto found = maps_.sources.find(parameter);
     const std::size_t count = found == maps_.sources.end() ? 0 : channel_count(found->second);
-    const std::string name = name_of_parameter(parameter);
+    const std::string name = plain_name(parameter);
     if (!is_color(parameter) && (count == 0 || (found->second.channels.empty() && count > 1)))
       fail("the " + name + " has no channel; expected one, or one constant");
     if (is_color(parameter) && count != 1 && count != kMaxChannels)
@@ -140,9 +136,9 @@ void Conversion::require_fitting() const {
                       given = converter_.target_channels(parameter, channels);
     if (written == 0) continue;
     if (!converter_.has_target(parameter))
-      fail("there is no " + name_of_parameter(parameter) + " in the result; expected other targets");
+      fail("there is no " + plain_name(parameter) + " in the result; expected other targets");
     if (is_color(parameter) && written != given && !(given == 1 && written == kMaxChannels))
-      fail("the " + name_of_parameter(parameter) + " to write has " + std::to_string(written) +
+      fail("the " + plain_name(parameter) + " to write has " + std::to_string(written) +
            " channels; expected the " + std::to_string(given) + " of the source");
   }
 }

@@ -75,13 +75,10 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
     const auto found = std::find(values.channels.begin(), values.channels.end(), place);
     if (found == values.channels.end()) continue;
     const ImageReader& reader = set.maps[place.map];
-    const auto name = [](Parameter p) {
-      return p == Parameter::kWidth ? std::string("roughness") : std::string(parameter_name(p));
-    };
     if (held)
       throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
                                          reader.layout().channels[place.channel].name + " is both " +
-                                         name(*held) + " and " + name(parameter) +
+                                         plain_name(*held) + " and " + plain_name(parameter) +
                                          "; expected FILE:CHANNEL to tell them apart");
     held = parameter;
     const auto index = static_cast<std::size_t>(found - values.channels.begin());
@@ -146,7 +143,8 @@ PlannedMap new_map(const std::string& name, const std::vector<std::string>& chan
 }
 
 PlannedMap width_map(const TextureSet& set, const TargetChoice& choice) {
-  return new_map(choice.width_name, kGrey, {TargetChannel::of(Parameter::kWidth)}, set, choice);
+  return new_map(file_name(Parameter::kWidth, choice), kGrey, {TargetChannel::of(Parameter::kWidth)}, set,
+                 choice);
 }
 
 // Three channels, or that of the source where the parameter has one there and stays what it is.
@@ -168,8 +166,7 @@ PlannedMap color_map(const TextureSet& set, Parameter parameter, const TargetCho
     channels.push_back(TargetChannel::copy(*set.coverage));
     names.push_back("A");
   }
-  PlannedMap planned =
-      new_map(std::string(parameter_name(parameter)), names, std::move(channels), set, choice);
+  PlannedMap planned = new_map(file_name(parameter, choice), names, std::move(channels), set, choice);
   if (const SetParameter* model = model_of(set, parameter))
     planned.parts.front().model = model->channels.front().map;
   return planned;
@@ -239,7 +236,7 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan) {
 PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   if (is_color(parameter)) return color_map(set, parameter, choice);
   if (parameter == Parameter::kWidth) return width_map(set, choice);
-  return new_map(std::string(parameter_name(parameter)), kGrey, {TargetChannel::of(parameter)}, set, choice);
+  return new_map(file_name(parameter, choice), kGrey, {TargetChannel::of(parameter)}, set, choice);
 }
 
 TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
@@ -301,7 +298,8 @@ std::vector<PlannedMap> specgloss_maps(const TextureSet& set, const TargetChoice
   std::vector<TargetChannel> channels = color_channels(set, Parameter::kSpecular, choice);
   channels.resize(3, channels.front());  // grey in every colour
   channels.push_back(TargetChannel::of(Parameter::kWidth));
-  std::vector<PlannedMap> all = {new_map("specular_glossiness", kColourAndAlpha, channels, set, choice)};
+  std::vector<PlannedMap> all = {
+      new_map(file_name(Parameter::kSpecular, choice), kColourAndAlpha, channels, set, choice)};
   if (is_wanted(choice, Parameter::kDiffuse)) all.push_back(color_map(set, Parameter::kDiffuse, choice));
   for (const CarriedParameter& carried : set.carried) all.push_back(carried_map(set, carried, choice));
   return all;
@@ -320,7 +318,7 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
                 "--only: leaves a channel of --layout " + layout + " empty; expected both");
   if (is_specgloss) return specgloss_maps(set, choice);
   std::vector<PlannedMap> all = {
-      new_map(layout, kColour,
+      new_map(file_name(Parameter::kWidth, choice), kColour,
               {packed_channel(set, "occlusion", 1.0f, choice), TargetChannel::of(Parameter::kWidth),
                packed_channel(set, "metallic", 0.0f, choice)},
               set, choice)};
@@ -337,11 +335,25 @@ constexpr NamedValues<Layout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
 
 }  // namespace
 
+std::string set_file_name(const fs::path& file, const ResultNames& names) {
+  return names.before + file.stem().string() + names.after + file.extension().string();
+}
+
 std::string_view layout_name(Layout layout) { return name_of(kLayouts, layout); }
 
 std::optional<Layout> layout_from_name(std::string_view name) { return value_named(kLayouts, name); }
 
 std::vector<std::string> layout_names() { return names_of(kLayouts); }
+
+std::string file_name(Parameter parameter, const TargetChoice& choice) {
+  const bool is_width = parameter == Parameter::kWidth;
+  if (choice.layout == Layout::kSpecGloss && (is_width || parameter == Parameter::kSpecular))
+    return "specular_glossiness";
+  if ((choice.layout == Layout::kOrm || choice.layout == Layout::kArm) &&
+      (is_width || parameter == Parameter::kMetallic))
+    return std::string(layout_name(choice.layout));
+  return is_width ? choice.width_name : std::string(parameter_name(parameter));
+}
 
 TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
   if (!choice.extension.empty()) require_known_extension(choice.extension);
@@ -354,9 +366,7 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
   }
   const auto add_named = [&](const std::string& file, const TargetChannel& channel) {
     PlannedMap map = new_map("mask", kGrey, {channel}, set, choice);
-    const fs::path name = file;
-    map.path = choice.folder /
-               (choice.names.before + name.stem().string() + choice.names.after + name.extension().string());
+    map.path = choice.folder / set_file_name(file, choice.names);
     map.parts.front().changes.type = std::nullopt;
     plan.maps.push_back(map);
   };

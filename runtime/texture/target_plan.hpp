@@ -55,6 +55,9 @@ struct ResultNames {
   std::string after;
 };
 
+// `wood_mask.1001.png` of mask.png.
+std::string set_file_name(const std::filesystem::path& file, const ResultNames& names);
+
 // A map of what a conversion says of its result.
 struct MeasureMap {
   Parameter measure = Parameter::kResidual;
@@ -76,6 +79,10 @@ struct TargetChoice {
   bool force = false;  // may replace files that exist
   Metadata metadata;
 };
+
+// The file that holds a parameter in the layouts that name their files, and where a parameter has no input to
+// be named after; without what stands around it.
+std::string file_name(Parameter parameter, const TargetChoice& choice);
 
 // As inputs: every map of the set that holds something converted gives a file of its name, in which only that
 // is changed; a constant gives a map of its own (`roughness`, `specular`), and files of what is carried are

@@ -1,19 +1,13 @@
 #include "bench/builds.hpp"
 
+#include <type_traits>
+
 namespace remap_bench {
 
-#define REMAP_PASS(name, code, flags)                                                     \
-  std::size_t name(std::size_t, const float*, const std::array<const float*, 3>&, float*, \
-                   const std::array<float*, 3>&);
-#define REMAP_MATERIAL(name, code, flags) std::size_t name(std::size_t, const float* const*, float* const*);
-#define REMAP_NETWORK(name, code, flags) void name(std::size_t, const float*, float*);
-#define REMAP_PRODUCTS(name, code, flags) \
-  void name(const NetworkProducts&, std::size_t, const float*, float*);
+// What CMake built.
+#define REMAP_BUILD(Function, name, code, flags) std::remove_pointer_t<Function> name;
 #include "builds.inc"
-#undef REMAP_PASS
-#undef REMAP_MATERIAL
-#undef REMAP_NETWORK
-#undef REMAP_PRODUCTS
+#undef REMAP_BUILD
 
 namespace {
 
@@ -27,71 +21,26 @@ bool can_run(const std::string& flags) {
   return flags == "o2" || flags == "o3";
 }
 
+// Those of one kind that this processor can run.
 template <typename Function>
-std::vector<Build<Function>> runnable(const std::vector<Build<Function>>& builds) {
+std::vector<Build<Function>> runnable() {
   std::vector<Build<Function>> found;
-  for (const Build<Function>& build : builds)
-    if (can_run(build.flags)) found.push_back(build);
+  const auto consider = [&](const std::string& code, const std::string& flags, auto function) {
+    if constexpr (std::is_same_v<decltype(function), Function>)
+      if (can_run(flags)) found.push_back({code, flags, function});
+  };
+#define REMAP_BUILD(Function, name, code, flags) consider(#code, #flags, &name);
+#include "builds.inc"
+#undef REMAP_BUILD
   return found;
 }
 
 }  // namespace
 
-std::vector<Build<Pass>> pass_builds() {
-  return runnable<Pass>({
-#define REMAP_PASS(name, code, flags) {#code, #flags, name},
-#define REMAP_MATERIAL(name, code, flags)
-#define REMAP_NETWORK(name, code, flags)
-#define REMAP_PRODUCTS(name, code, flags)
-#include "builds.inc"
-#undef REMAP_PASS
-#undef REMAP_MATERIAL
-#undef REMAP_NETWORK
-#undef REMAP_PRODUCTS
-  });
-}
-
-std::vector<Build<MaterialPass>> material_builds() {
-  return runnable<MaterialPass>({
-#define REMAP_PASS(name, code, flags)
-#define REMAP_MATERIAL(name, code, flags) {#code, #flags, name},
-#define REMAP_NETWORK(name, code, flags)
-#define REMAP_PRODUCTS(name, code, flags)
-#include "builds.inc"
-#undef REMAP_PASS
-#undef REMAP_MATERIAL
-#undef REMAP_NETWORK
-#undef REMAP_PRODUCTS
-  });
-}
-
-std::vector<Build<NetworkPass>> network_builds() {
-  return runnable<NetworkPass>({
-#define REMAP_PASS(name, code, flags)
-#define REMAP_MATERIAL(name, code, flags)
-#define REMAP_NETWORK(name, code, flags) {#code, #flags, name},
-#define REMAP_PRODUCTS(name, code, flags)
-#include "builds.inc"
-#undef REMAP_PASS
-#undef REMAP_MATERIAL
-#undef REMAP_NETWORK
-#undef REMAP_PRODUCTS
-  });
-}
-
-std::vector<Build<ProductsPass>> products_builds() {
-  return runnable<ProductsPass>({
-#define REMAP_PASS(name, code, flags)
-#define REMAP_MATERIAL(name, code, flags)
-#define REMAP_NETWORK(name, code, flags)
-#define REMAP_PRODUCTS(name, code, flags) {#code, #flags, name},
-#include "builds.inc"
-#undef REMAP_PASS
-#undef REMAP_MATERIAL
-#undef REMAP_NETWORK
-#undef REMAP_PRODUCTS
-  });
-}
+std::vector<Build<Pass>> pass_builds() { return runnable<Pass>(); }
+std::vector<Build<MaterialPass>> material_builds() { return runnable<MaterialPass>(); }
+std::vector<Build<NetworkPass>> network_builds() { return runnable<NetworkPass>(); }
+std::vector<Build<ProductsPass>> products_builds() { return runnable<ProductsPass>(); }
 
 std::string flags_text(const std::string& flags) {
   if (flags == "o2") return "-O2";

@@ -68,30 +68,22 @@ void add_networks() {
 
 Section network_section(const Medians& medians) {
   Section section{"Exact MLP 6 x 300 x 4 against Eigen's products (GEMM) at the same flags, one core", {}};
-  for (const Build<NetworkPass>& build : network_builds()) {
-    const std::string name = build.code + "_" + build.flags, rival = best_products(medians, build.flags);
+  const auto add = [&](const std::string& what, const std::string& name, const std::string& flags) {
+    const std::string rival = best_products(medians, flags);
     Row row;
-    row.what = build.code.substr(build.code.find('_') + 1) + " at " + flags_text(build.flags);
+    row.what = what + " at " + flags_text(flags);
     row.value = mega_items(medians, name);
     row.unit = "Mtexel/s";
     row.ratio = speed_ratio(medians, name, rival);
     row.rival = "Eigen, batches of " + rival.substr(rival.find('/') + 1);
-    if (build.flags != "o3") row.goal = 0.8;
+    if (flags != "o3") row.goal = 0.8;
     section.rows.push_back(row);
-  }
-  for (const Build<MaterialPass>& build : material_builds()) {
-    if (build.code != kNetworkHeader || build.flags == "o2") continue;
-    const std::string name = build.code + "_" + build.flags + "/small",
-                      rival = best_products(medians, build.flags);
-    Row row;
-    row.what = "the header of whole materials at " + flags_text(build.flags);
-    row.value = mega_items(medians, name);
-    row.unit = "Mtexel/s";
-    row.ratio = speed_ratio(medians, name, rival);
-    row.rival = "Eigen, batches of " + rival.substr(rival.find('/') + 1);
-    if (build.flags != "o3") row.goal = 0.8;
-    section.rows.push_back(row);
-  }
+  };
+  for (const Build<NetworkPass>& build : network_builds())
+    add(build.code.substr(build.code.find('_') + 1), build.code + "_" + build.flags, build.flags);
+  for (const Build<MaterialPass>& build : material_builds())
+    if (build.code == kNetworkHeader && build.flags != "o2")
+      add("the header of whole materials", build.code + "_" + build.flags + "/small", build.flags);
   return section;
 }
 

@@ -374,6 +374,33 @@ TEST_CASE("texremap workflows: a folder of sets goes from one workflow to anothe
   CHECK(std::filesystem::exists(session.path("out/wood_base_color.png")));
 }
 
+TEST_CASE("texremap workflows: two sets of one name in a folder are refused before anything is written") {
+  const Session session;
+  std::filesystem::create_directories(session.path("in/wood"));
+  for (const std::string set : {"", "wood_"}) {
+    write_colors(session, "in/wood/" + set + "basecolor.png", base_color, OIIO::TypeUInt8);
+    write_grey(session, "in/wood/" + set + "metallic.png", metallic, OIIO::TypeUInt8);
+    write_grey(session, "in/wood/" + set + "roughness.png", roughness, OIIO::TypeUInt8);
+  }
+  const auto check_refused = [&](const std::vector<std::string>& words, const std::string& message) {
+    const ProcessResult result = convert(session, with({session.path("in"), "--recursive"}, words));
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.last_error(), Contains(message));
+    CHECK_FALSE(std::filesystem::exists(session.path("out")));
+  };
+  const auto made_from = [&](const std::string& result, const std::string& map) {
+    return session.path("out/wood/wood_" + result) + ": would be made from both " +
+           session.path("in/wood/" + map) + " and " + session.path("in/wood/wood_" + map);
+  };
+  check_refused({"--from", "gltf", "--to", "gltf-specgloss"}, made_from("diffuse.png", "basecolor.png"));
+  // Under the names of the inputs there would be room for both.
+  const std::vector<std::string> to_ward = {"--from",       "gltf",          "--to",
+                                            "mitsuba/ward", "--to-workflow", "metallic"};
+  check_refused(with(to_ward, {"--layout", "separate"}), made_from("base_color.png", "basecolor.png"));
+  check_refused(with(to_ward, {"--residual", "residual.png"}), "wood_residual.png: would be made from both ");
+  CHECK(convert(session, with({session.path("in"), "--recursive"}, to_ward)).exit_code == 0);
+}
+
 TEST_CASE("texremap workflows: list and path know them") {
   const Session session;
   const ProcessResult list = session.texremap({"list", "--workflows", "--json"});

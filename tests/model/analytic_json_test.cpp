@@ -3,6 +3,7 @@
 
 #include "error.hpp"
 #include "model/fit_json.hpp"
+#include "support/replaced.hpp"
 
 using namespace remap;
 
@@ -14,12 +15,6 @@ AnalyticFit example(const WorkflowFormula& formula) {
   fit.conversion.metallic = {"b", 0.05, DiffuseConvention::kScaled, RoughnessConvention::kAlpha};
   fit.conversion.formula = formula;
   return fit;
-}
-
-std::string replaced(std::string text, const std::string& part, const std::string& other) {
-  const std::size_t at = text.find(part);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, part.size(), other);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "error.hpp"
+#include "support/replaced.hpp"
 
 using namespace remap;
 
@@ -54,12 +55,6 @@ Fit mlp_fit() {
   const Network of_both{Activation::kSilu, {alpha, specular}, {output}, {{2, {0.25, 1e-17}, {0.0}}}};
   fit.mapping = Mlp{of_alpha, of_both};
   return fit;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t start = text.find(from);
-  REQUIRE(start != std::string::npos);
-  return text.replace(start, from.size(), to);
 }
 
 }  // namespace

@@ -42,24 +42,6 @@ std::vector<Build> builds() {
   return all;
 }
 
-// A network of two hidden layers, since the one that ships has one; glTF's convention.
-AnalyticFit random_network() {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> weight(-0.7, 0.7);
-  Network network{Activation::kTanh,
-                  std::vector<Scaling>(6, {0.5, 2.0, 0.0}),
-                  std::vector<Scaling>(4, {0.4, 1.5, 0.0}),
-                  {}};
-  const std::size_t sizes[] = {6, 13, 9, 4};
-  for (std::size_t l = 0; l < 3; ++l) {
-    Layer layer{sizes[l], {}, {}};
-    for (std::size_t i = 0; i < sizes[l] * sizes[l + 1]; ++i) layer.weights.push_back(weight(random));
-    for (std::size_t i = 0; i < sizes[l + 1]; ++i) layer.biases.push_back(weight(random));
-    network.layers.push_back(layer);
-  }
-  return {"random_network", workflow_test::gltf(LearnedNetwork{network}), {}, {}, "0"};
-}
-
 // What ships, and conventions that nothing shipped has.
 std::vector<AnalyticFit> subjects() {
   std::vector<AnalyticFit> all;
@@ -68,7 +50,8 @@ std::vector<AnalyticFit> subjects() {
       if (const AnyFit fit = load_any_fit(entry.path()); std::holds_alternative<AnalyticFit>(fit))
         all.push_back(std::get<AnalyticFit>(fit));
   REQUIRE(all.size() >= 8);
-  all.push_back(random_network());
+  // The network that ships has one hidden layer.
+  all.push_back({"random_network", workflow_test::gltf(workflow_test::random_network()), {}, {}, "0"});
   AnalyticFit mixed{"mixed_conventions", workflow_test::gltf(Projection{kNoisyPrior}), {}, {}, "0"};
   mixed.conversion.specular.diffuse = DiffuseConvention::kPlain;
   mixed.conversion.specular.width = RoughnessConvention::kAlpha;

@@ -37,6 +37,24 @@ inline remap::WorkflowConversion gltf(remap::WorkflowFormula formula) {
   return conversion;
 }
 
+// Of two hidden layers.
+inline remap::LearnedNetwork random_network() {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> weight(-0.7, 0.7);
+  remap::Network network{remap::Activation::kTanh,
+                         std::vector<remap::Scaling>(6, {0.5, 2.0, 0.0}),
+                         std::vector<remap::Scaling>(4, {0.4, 1.5, 0.0}),
+                         {}};
+  const std::size_t sizes[] = {6, 13, 9, 4};
+  for (std::size_t l = 0; l < 3; ++l) {
+    remap::Layer layer{sizes[l], {}, {}};
+    for (std::size_t i = 0; i < sizes[l] * sizes[l + 1]; ++i) layer.weights.push_back(weight(random));
+    for (std::size_t i = 0; i < sizes[l + 1]; ++i) layer.biases.push_back(weight(random));
+    network.layers.push_back(layer);
+  }
+  return {network};
+}
+
 inline remap::MetallicMaterial random_metallic(std::mt19937& random) {
   std::uniform_real_distribution<float> share(0.0f, 1.0f);
   return {{share(random), share(random), share(random)}, share(random), share(random)};

@@ -1,0 +1,17 @@
+// Files that are wrong in one place.
+#pragma once
+
+#include <string>
+
+#include <catch2/catch.hpp>
+
+namespace remap {
+
+// `text` with `other` in the place of the first `part`, which must be there.
+inline std::string replaced(std::string text, const std::string& part, const std::string& other) {
+  const std::size_t start = text.find(part);
+  REQUIRE(start != std::string::npos);
+  return text.replace(start, part.size(), other);
+}
+
+}  // namespace remap
