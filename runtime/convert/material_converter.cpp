@@ -52,6 +52,10 @@ bool is_measure(Parameter parameter) {
          parameter == Parameter::kDoubts;
 }
 
+std::string plain_name(Parameter parameter) {
+  return parameter == Parameter::kWidth ? "roughness" : std::string(parameter_name(parameter));
+}
+
 std::string parameter_option(Parameter parameter) {
   std::string option = "--" + plain_name(parameter);
   std::replace(option.begin(), option.end(), '_', '-');
