@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <catch2/catch.hpp>
 
@@ -61,6 +62,11 @@ struct Scene {
   }
 };
 
+std::optional<WorkflowEnd> workflow_end(const char* name) {
+  const WorkflowModel* model = find_workflow_model(name);
+  return model != nullptr ? std::optional(model->end) : std::nullopt;
+}
+
 void check_every_texel(const Scene& scene, const Converter& converter) {
   const TestImage in = read_image(scene.specular), width_in = read_image(scene.roughness);
   const TestImage out = read_image(scene.specular_out), width_out = read_image(scene.roughness_out);
@@ -107,6 +113,61 @@ TEST_CASE("texture pass: the compiled converters give in a map what they give al
     scene.pass(*converter, {});
     check_every_texel(scene, *converter);
   }
+}
+
+TEST_CASE("texture pass: whole materials do not depend on threads and bands, smoothed ones neither") {
+  const bool is_smooth = GENERATE(false, true);
+  const TemporaryFolder folder;
+  const auto write = [&](const char* name, std::vector<std::string> channels, const TexelFunction& texel) {
+    write_image(folder.path() / name, test_spec(kWidth, kHeight, channels, OIIO::TypeFloat), texel);
+    return MapName{folder.path() / name, {}};
+  };
+  // Dark texels, of which metallic is a guess, in stripes between metal and plastic.
+  TextureSetRequest request;
+  request.parameters[Parameter::kDiffuse].source = write("d.exr", {"R", "G", "B"}, [](int, int y, int c) {
+    return y % 60 < 20 ? 0.0f : y % 60 < 40 ? 0.015f : 0.2f + 0.1f * noise(y, 0, c);
+  });
+  request.parameters[Parameter::kSpecular].source = write("s.exr", {"R", "G", "B"}, [](int x, int y, int c) {
+    return y % 60 < 20   ? 0.5f + 0.4f * noise(x, y, c)
+           : y % 60 < 40 ? 0.039f + 0.002f * noise(x, y, 0)
+                         : 0.04f;
+  });
+  request.parameters[Parameter::kWidth].source = write("r.exr", {"Y"}, noise);
+  WorkflowStages stages;
+  stages.source = *workflow_end("specular");
+  stages.target = *workflow_end("metallic");
+  const auto converter = make_workflow_converter(stages);
+  TargetChoice choice;
+  choice.layout = Layout::kSeparate;
+  choice.parameters = {Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic};
+  choice.measures = {{Parameter::kDoubts, "doubts.exr"}};
+  choice.force = true;
+  std::optional<MapStatistics> first;
+  for (const int threads : {1, 3})
+    for (const std::size_t bytes : {std::size_t{64} << 20, std::size_t{1}}) {
+      PassOptions options;
+      options.thread_count = threads;
+      options.band_bytes = bytes;
+      options.metallic_statistics = true;
+      options.smooth_metallic = is_smooth;
+      choice.folder = folder.path() / (first ? "again" : "first");
+      TextureSet set = open_texture_set(request);
+      std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice), choice);
+      const MapStatistics statistics = run_texture_pass(set, targets, *converter, options);
+      if (!first) {
+        first = statistics;
+        CHECK(statistics.metallic.guess.count > 1000);
+        continue;
+      }
+      for (const char* name : {"base_color.exr", "metallic.exr", "doubts.exr"})
+        REQUIRE(read_image(folder.path() / "again" / name).bytes ==
+                read_image(folder.path() / "first" / name).bytes);
+      CHECK(statistics.metallic.residual_squares == first->metallic.residual_squares);
+      CHECK(statistics.metallic.guess.count == first->metallic.guess.count);
+      REQUIRE(statistics.metallic.guess.first);
+      CHECK(statistics.metallic.guess.first->x == first->metallic.guess.first->x);
+      CHECK(statistics.metallic.guess.first->y == first->metallic.guess.first->y);
+    }
 }
 
 TEST_CASE("texture pass: odd values are counted by texel") {
