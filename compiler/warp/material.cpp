@@ -1,0 +1,84 @@
+#include "warp/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "error.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+void require_strokes(const WarpMaterial& material, const std::vector<StrokePair>& strokes,
+                     std::vector<std::uint32_t> StrokePair::*side) {
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    const std::string place = material.name + ", stroke " + std::to_string(k + 1);
+    bool has_finite = false;
+    for (const std::uint32_t texel : strokes[k].*side) {
+      if (texel >= material.texels.size())
+        throw Error(ErrorKind::kInput, place + ": texel " + std::to_string(texel) + "; expected one of " +
+                                           std::to_string(material.texels.size()));
+      has_finite = has_finite || is_finite(material.texels[texel]);
+    }
+    if (!has_finite)
+      throw Error(ErrorKind::kInput,
+                  place + ": marks no texel with finite values; expected a painted region");
+  }
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    const Overlap overlap = largest_overlap(strokes, side, k, material.texels.size());
+    if (overlap.share == 1.0)
+      throw Error(ErrorKind::kInput, material.name + ", stroke " + std::to_string(k + 1) +
+                                         ": lies within stroke " + std::to_string(overlap.other + 1) +
+                                         "; expected another region (erase one of the two there)");
+  }
+}
+
+}  // namespace
+
+Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std::uint32_t> StrokePair::*side,
+                        std::size_t stroke, std::size_t texel_count) {
+  std::vector<char> own(texel_count, 0);
+  double size = 0.0;
+  for (const std::uint32_t texel : strokes[stroke].*side) {
+    size += own[texel] == 0 ? 1.0 : 0.0;
+    own[texel] = 1;
+  }
+  Overlap largest;
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    if (k == stroke) continue;
+    std::vector<char> shared = own;
+    double count = 0.0;
+    for (const std::uint32_t texel : strokes[k].*side) {
+      count += shared[texel] != 0 ? 1.0 : 0.0;
+      shared[texel] = 0;
+    }
+    if (count / size > largest.share) largest = {k, count / size};
+  }
+  return largest;
+}
+
+remap::WarpTexel held(const remap::WarpTexel& texel) noexcept {
+  remap::WarpTexel result = texel;
+  for (float& value : result) value = value < 0.0f ? 0.0f : value > 1.0f ? 1.0f : value;
+  return result;
+}
+
+bool is_finite(const remap::WarpTexel& texel) noexcept {
+  return std::all_of(texel.begin(), texel.end(), [](float value) { return std::isfinite(value); });
+}
+
+void require_valid(const WarpMaterial& source, const WarpMaterial& target,
+                   const std::vector<StrokePair>& strokes) {
+  for (const WarpMaterial* material : {&source, &target})
+    if (std::none_of(material->texels.begin(), material->texels.end(), is_finite))
+      throw Error(ErrorKind::kInput,
+                  material->name + ": has no texel with finite values; expected a material");
+  if (strokes.empty())
+    throw Error(ErrorKind::kUsage, source.name + ": no stroke; expected at least one pair of marked regions");
+  require_strokes(source, strokes, &StrokePair::source);
+  require_strokes(target, strokes, &StrokePair::target);
+}
+
+}  // namespace remapc

@@ -1,0 +1,147 @@
+#include "warp/registration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+namespace remapc {
+namespace {
+
+constexpr double kAxesPrior = 0.3;
+constexpr Eigen::Index kCentres = 80;
+constexpr double kWidth = 1.2;  // RMS radii
+constexpr int kSteps = 25;
+constexpr double kFirstSigma = 0.4, kLastSigma = 0.05;
+constexpr int kScalingRounds = 8;
+constexpr double kScalingExponent = 0.8;
+constexpr double kStrokeWeight = 1.5;
+constexpr double kBending = 10.0;
+
+// Spread over the set: the first is the one farthest from the mean, each further one the farthest from all
+// before.
+Points farthest_points(const Points& points, Eigen::Index wanted) {
+  const Eigen::Index count = std::min(wanted, points.rows());
+  Points chosen(count, points.cols());
+  Eigen::VectorXd distance = (points.rowwise() - points.colwise().mean()).rowwise().squaredNorm();
+  for (Eigen::Index c = 0; c < count; ++c) {
+    Eigen::Index farthest = 0;
+    distance.maxCoeff(&farthest);
+    chosen.row(c) = points.row(farthest);
+    const Eigen::VectorXd next = (points.rowwise() - chosen.row(c)).rowwise().squaredNorm();
+    distance = c == 0 ? next : Eigen::VectorXd(distance.cwiseMin(next));
+  }
+  return chosen;
+}
+
+Points rows_of(const Points& points, const std::vector<int>& rows) { return points(rows, Eigen::all); }
+
+// What points are drawn to: the sum of weights and of weighted targets of each.
+struct Pull {
+  Eigen::VectorXd weight;
+  Points weighted;
+};
+
+// Every point of a stroke weighs the same, whichever stroke it is of. Masses are taken as they are: strokes
+// far from their partners, and points without any, pull less.
+Pull pull_of(const PointSets& sets, const Points& moved, double sigma) {
+  const SoftMatch all = match_softly(moved, sets.target.points, sigma);
+  Pull pull{all.mass, all.mass.asDiagonal() * all.target};
+  const std::vector<std::vector<int>>& strokes = sets.source.strokes;
+  std::size_t total = 0;
+  for (const std::vector<int>& members : strokes) total += members.size();
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    const std::vector<int>& members = strokes[k];
+    const SoftMatch own =
+        match_softly(rows_of(moved, members), rows_of(sets.target.points, sets.target.strokes[k]), sigma);
+    const double scale = kStrokeWeight * static_cast<double>(members.size()) / static_cast<double>(total);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      pull.weight[members[i]] += scale * own.mass[row];
+      pull.weighted.row(members[i]) += scale * own.mass[row] * own.target.row(row);
+    }
+  }
+  return pull;
+}
+
+}  // namespace
+
+Eigen::MatrixXd common_axes(const AppearanceSpace& source, const AppearanceSpace& target, int dimension) {
+  const Eigen::MatrixXd product =
+      source.axes.leftCols(dimension).transpose() * target.axes.leftCols(dimension);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+Points stroke_centres(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes) {
+  Points centres = Points::Zero(static_cast<Eigen::Index>(strokes.size()), positions.cols());
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    double count = 0.0;
+    for (const std::uint32_t texel : strokes[k]) {
+      const Eigen::RowVectorXd position = positions.row(static_cast<Eigen::Index>(texel));
+      if (!position.allFinite()) continue;
+      centres.row(static_cast<Eigen::Index>(k)) += position;
+      count += 1.0;
+    }
+    centres.row(static_cast<Eigen::Index>(k)) /= std::max(count, 1.0);
+  }
+  return centres;
+}
+
+AffineMap affine_from_strokes(const PointSets& sets) {
+  const Eigen::RowVectorXd from_mean = sets.source_centres.colwise().mean();
+  const Eigen::RowVectorXd to_mean = sets.target_centres.colwise().mean();
+  const Points from = sets.source_centres.rowwise() - from_mean, to = sets.target_centres.rowwise() - to_mean;
+  const Eigen::Index n = from.cols();
+  const Eigen::MatrixXd left = from.transpose() * from + kAxesPrior * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd linear = left.ldlt().solve(from.transpose() * to + kAxesPrior * sets.common_axes);
+  return {linear, to_mean - from_mean * linear};
+}
+
+SoftMatch match_softly(const Points& moved, const Points& goal, double sigma) {
+  const Eigen::MatrixXd kernel = gaussians(moved, goal, sigma);
+  const double row_mass = 1.0 / static_cast<double>(moved.rows());
+  const double column_mass = 1.0 / static_cast<double>(goal.rows());
+  const auto scaling = [](double mass, const Eigen::VectorXd& sums) -> Eigen::VectorXd {
+    return (mass / sums.array().max(1e-300)).pow(kScalingExponent);
+  };
+  Eigen::VectorXd rows = Eigen::VectorXd::Ones(moved.rows()), columns = Eigen::VectorXd::Ones(goal.rows());
+  for (int round = 0; round < kScalingRounds; ++round) {
+    rows = scaling(row_mass, kernel * columns);
+    columns = scaling(column_mass, kernel.transpose() * rows);
+  }
+  SoftMatch match;
+  const Eigen::VectorXd sums = kernel * columns;
+  match.mass = rows.cwiseProduct(sums);
+  match.target = kernel * (columns.asDiagonal() * goal);
+  match.target.array().colwise() /= sums.array().max(1e-300);
+  return match;
+}
+
+SmoothWarp register_points(const PointSets& sets, const AffineMap& start) {
+  const Points& points = sets.source.points;
+  SmoothWarp warp{start, farthest_points(points, kCentres), {}, kWidth};
+  const Eigen::Index n = points.cols(), centres = warp.centres.rows(), unknowns = centres + n + 1;
+  warp.weights = Eigen::MatrixXd::Zero(centres, n);
+  Eigen::MatrixXd design(points.rows(), unknowns);
+  design << gaussians(points, warp.centres, kWidth), points, Eigen::VectorXd::Ones(points.rows());
+  const Eigen::MatrixXd kernel = gaussians(warp.centres, warp.centres, kWidth);
+  Points moved = images_of(AppearanceWarp(start), points);
+  for (int step = 0; step < kSteps; ++step) {
+    const double share = static_cast<double>(step) / static_cast<double>(kSteps - 1);
+    const double sigma = kFirstSigma * std::pow(kLastSigma / kFirstSigma, share);
+    const Pull pull = pull_of(sets, moved, sigma);
+    const Eigen::MatrixXd weighted = design.transpose() * pull.weight.asDiagonal();
+    Eigen::MatrixXd left = weighted * design;
+    left.topLeftCorner(centres, centres) +=
+        kBending * sigma * sigma / 0.05 / static_cast<double>(kCentres) * kernel;
+    left.diagonal().array() += 1e-9 * left.trace() / static_cast<double>(unknowns);
+    const Eigen::MatrixXd solution = left.ldlt().solve(design.transpose() * pull.weighted);
+    warp.weights = solution.topRows(centres);
+    warp.affine = {solution.middleRows(centres, n), solution.row(unknowns - 1)};
+    moved = design * solution;
+  }
+  return warp;
+}
+
+}  // namespace remapc

@@ -1,0 +1,119 @@
+#include "warp/warp_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace remapc {
+namespace {
+
+struct Box {
+  std::vector<float> low, high;
+};
+
+Box box_of(const Points& positions) {
+  Box box;
+  for (Eigen::Index k = 0; k < positions.cols(); ++k) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (Eigen::Index i = 0; i < positions.rows(); ++i) {
+      low = std::min(low, positions(i, k));  // NaN leaves both
+      high = std::max(high, positions(i, k));
+    }
+    // A material without width along an axis has a table all the same.
+    const double margin = std::max(1e-3 - 0.5 * (high - low), 0.0);
+    box.low.push_back(static_cast<float>(low - margin));
+    box.high.push_back(static_cast<float>(high + margin));
+  }
+  return box;
+}
+
+// Positions of the nodes along one axis.
+Eigen::VectorXd axis_nodes(const Box& box, std::size_t axis, std::size_t nodes) {
+  return Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(nodes), static_cast<double>(box.low[axis]),
+                                    static_cast<double>(box.high[axis]));
+}
+
+Points node_positions(const Box& box, std::size_t nodes) {
+  const std::size_t dimension = box.low.size();
+  std::size_t count = 1;
+  for (std::size_t k = 0; k < dimension; ++k) count *= nodes;
+  Points positions(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(dimension));
+  std::size_t run = 1;
+  for (std::size_t k = 0; k < dimension; ++k, run *= nodes) {
+    const Eigen::VectorXd axis = axis_nodes(box, k, nodes);
+    for (std::size_t i = 0; i < count; ++i)
+      positions(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          axis[static_cast<Eigen::Index>(i / run % nodes)];
+  }
+  return positions;
+}
+
+Points images_of_nodes(const AppearanceWarp& warp, const Box& box, std::size_t nodes) {
+  return images_of(warp, node_positions(box, nodes));
+}
+
+// A Gaussian on a grid is a product of one factor an axis: this is where most of the time of a table would
+// go.
+Points images_of_nodes(const SmoothWarp& warp, const Box& box, std::size_t nodes) {
+  const std::size_t dimension = box.low.size();
+  Points images = images_of(AppearanceWarp(warp.affine), node_positions(box, nodes));
+  std::vector<Eigen::MatrixXd> factors;  // nodes x centres, for each axis
+  for (std::size_t k = 0; k < dimension; ++k)
+    factors.push_back(
+        gaussians(axis_nodes(box, k, nodes), warp.centres.col(static_cast<Eigen::Index>(k)), warp.width));
+  const auto run = static_cast<Eigen::Index>(nodes);
+  for (Eigen::Index start = 0; start < images.rows(); start += run) {
+    Eigen::RowVectorXd factor = Eigen::RowVectorXd::Ones(warp.centres.rows());
+    Eigen::Index rest = start / run;
+    for (std::size_t k = 1; k < dimension; ++k, rest /= run)
+      factor.array() *= factors[k].row(rest % run).array();
+    images.middleRows(start, run) += factors[0] * (factor.transpose().asDiagonal() * warp.weights);
+  }
+  return images;
+}
+
+std::uint8_t encoded(float value, float least, float largest) {
+  if (!(largest > least)) return 0;
+  const float share = std::clamp((value - least) / (largest - least), 0.0f, 1.0f);
+  return static_cast<std::uint8_t>(std::lround(255.0f * std::sqrt(share)));
+}
+
+}  // namespace
+
+std::size_t default_nodes(int dimension) noexcept {
+  return dimension == 1 ? 1024 : dimension == 2 ? 128 : 32;
+}
+
+remap::ParameterTable compile_table(const AppearanceWarp& warp, const Points& positions,
+                                    const NearestTexel& nearest, const WarpMaterial& target,
+                                    std::size_t nodes) {
+  const Box box = box_of(positions);
+  const Points images = std::visit(
+      [&](const auto& kind) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, SmoothWarp>)
+          return images_of_nodes(kind, box, nodes);
+        else
+          return images_of_nodes(AppearanceWarp(kind), box, nodes);
+      },
+      warp);
+  const std::vector<std::uint32_t> texels = nearest.find(images);
+  remap::ParameterTable table;
+  table.nodes = nodes;
+  table.low = box.low;
+  table.high = box.high;
+  table.codes.resize(texels.size() * remap::kWarpParameters);
+  for (std::size_t p = 0; p < remap::kWarpParameters; ++p) {
+    table.least[p] = table.largest[p] = target.texels[texels[0]][p];
+    for (const std::uint32_t texel : texels) {
+      table.least[p] = std::min(table.least[p], target.texels[texel][p]);
+      table.largest[p] = std::max(table.largest[p], target.texels[texel][p]);
+    }
+    for (std::size_t i = 0; i < texels.size(); ++i)
+      table.codes[i * remap::kWarpParameters + p] =
+          encoded(target.texels[texels[i]][p], table.least[p], table.largest[p]);
+  }
+  return table;
+}
+
+}  // namespace remapc

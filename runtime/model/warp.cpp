@@ -1,0 +1,148 @@
+#include "model/warp.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "error.hpp"
+
+namespace remap {
+namespace {
+
+// A position between two neighbours of `count` evenly spaced nodes.
+struct NodePosition {
+  std::size_t first = 0;
+  double fraction = 0.0;
+};
+
+NodePosition position_of(double place, std::size_t count) noexcept {
+  const double held = std::clamp(place, 0.0, static_cast<double>(count - 1));
+  const std::size_t first = std::min(static_cast<std::size_t>(held), count - 2);
+  return {first, held - static_cast<double>(first)};
+}
+
+NodePosition width_position(const AppearanceCoordinates& space, float alpha) noexcept {
+  const double held = std::clamp(alpha, space.least_alpha, space.largest_alpha);
+  const double start = std::log(static_cast<double>(space.least_alpha));
+  const double length = std::log(static_cast<double>(space.largest_alpha)) - start;
+  return position_of((std::log(held) - start) / length * static_cast<double>(space.node_count() - 1),
+                     space.node_count());
+}
+
+double held_reflectance(float value) noexcept { return std::clamp(static_cast<double>(value), 0.0, 1.0); }
+
+bool has_nan(const WarpTexel& texel) noexcept {
+  return std::any_of(texel.begin(), texel.end(), [](float value) { return std::isnan(value); });
+}
+
+bool all_finite(const std::vector<float>& values) {
+  return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+}
+
+std::size_t power(std::size_t base, std::size_t exponent) noexcept {
+  std::size_t result = 1;
+  for (std::size_t i = 0; i < exponent; ++i) result *= base;
+  return result;
+}
+
+void require(bool holds, const std::string& place, const char* found_and_expected) {
+  if (!holds) throw Error(ErrorKind::kInput, place + ": " + found_and_expected);
+}
+
+}  // namespace
+
+std::array<double, kLargestWarpDimension> coordinates_of(const AppearanceCoordinates& space,
+                                                         const WarpTexel& texel) noexcept {
+  std::array<double, kLargestWarpDimension> position{};
+  const std::size_t n = space.dimension;
+  if (has_nan(texel)) {
+    std::fill_n(position.begin(), n, std::numeric_limits<double>::quiet_NaN());
+    return position;
+  }
+  const NodePosition node = width_position(space, texel[6]);
+  const float* specular = space.specular.data() + node.first * n * 3;
+  const float* offset = space.offset.data() + node.first * n;
+  const auto between = [&](const float* value, std::size_t stride) {
+    const double first = static_cast<double>(value[0]), second = static_cast<double>(value[stride]);
+    return first + node.fraction * (second - first);
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    position[k] = between(offset + k, n);
+    for (std::size_t c = 0; c < 3; ++c)
+      position[k] += held_reflectance(texel[c]) * static_cast<double>(space.diffuse[3 * k + c]) +
+                     held_reflectance(texel[3 + c]) * between(specular + 3 * k + c, 3 * n);
+  }
+  return position;
+}
+
+float decoded(const ParameterTable& table, std::size_t parameter, std::uint8_t code) noexcept {
+  const float share = static_cast<float>(code) / 255.0f;
+  return table.least[parameter] + (table.largest[parameter] - table.least[parameter]) * (share * share);
+}
+
+WarpTexel evaluate_warp(const CompiledWarp& warp, const WarpTexel& texel) noexcept {
+  WarpTexel result;
+  if (has_nan(texel)) {
+    result.fill(std::numeric_limits<float>::quiet_NaN());
+    return result;
+  }
+  const ParameterTable& table = warp.table;
+  const std::size_t n = warp.coordinates.dimension;
+  const auto position = coordinates_of(warp.coordinates, texel);
+  std::array<NodePosition, kLargestWarpDimension> node{};
+  for (std::size_t k = 0; k < n; ++k) {
+    const double low = static_cast<double>(table.low[k]), high = static_cast<double>(table.high[k]);
+    node[k] =
+        position_of((position[k] - low) / (high - low) * static_cast<double>(table.nodes - 1), table.nodes);
+  }
+  std::array<double, kWarpParameters> sum{};
+  for (std::size_t corner = 0; corner < (std::size_t{1} << n); ++corner) {
+    double weight = 1.0;
+    std::size_t index = 0;
+    for (std::size_t k = n; k-- > 0;) {
+      const std::size_t upper = corner >> k & 1;
+      weight *= upper != 0 ? node[k].fraction : 1.0 - node[k].fraction;
+      index = index * table.nodes + node[k].first + upper;
+    }
+    for (std::size_t p = 0; p < kWarpParameters; ++p)
+      sum[p] += weight * static_cast<double>(decoded(table, p, table.codes[index * kWarpParameters + p]));
+  }
+  for (std::size_t p = 0; p < kWarpParameters; ++p) result[p] = static_cast<float>(sum[p]);
+  return result;
+}
+
+std::size_t byte_count(const CompiledWarp& warp) noexcept {
+  const AppearanceCoordinates& space = warp.coordinates;
+  const std::size_t floats = space.diffuse.size() + space.specular.size() + space.offset.size() +
+                             warp.table.low.size() + warp.table.high.size() + 2 * kWarpParameters + 2;
+  return floats * sizeof(float) + warp.table.codes.size();
+}
+
+void require_valid(const CompiledWarp& warp, const std::string& place) {
+  const AppearanceCoordinates& space = warp.coordinates;
+  const ParameterTable& table = warp.table;
+  const std::size_t n = space.dimension;
+  require(n >= 1 && n <= kLargestWarpDimension, place, "another number of dimensions; expected 1 to 3");
+  require(space.least_alpha > 0.0f && space.largest_alpha > space.least_alpha && space.largest_alpha <= 1.0f,
+          place, "an empty range of alpha; expected one within 0 and 1");
+  require(space.diffuse.size() == 3 * n && all_finite(space.diffuse), place,
+          "other weights of diffuse; expected three finite numbers a dimension");
+  require(
+      space.node_count() >= 2 && space.offset.size() == n * space.node_count() && all_finite(space.offset),
+      place, "other offsets; expected a finite number a node and dimension, for two nodes or more");
+  require(space.specular.size() == 3 * space.offset.size() && all_finite(space.specular), place,
+          "other weights of specular; expected three finite numbers a node and dimension");
+  require(table.low.size() == n && table.high.size() == n && all_finite(table.low) && all_finite(table.high),
+          place, "another box of coordinates; expected two finite corners");
+  for (std::size_t k = 0; k < n; ++k)
+    require(table.low[k] < table.high[k], place, "an empty box of coordinates; expected low below high");
+  require(table.nodes >= 2 && table.nodes <= 4096 &&
+              table.codes.size() == power(table.nodes, n) * kWarpParameters,
+          place, "another size of the table; expected seven codes for each of 2 to 4096 nodes a dimension");
+  for (std::size_t p = 0; p < kWarpParameters; ++p)
+    require(std::isfinite(table.least[p]) && std::isfinite(table.largest[p]) &&
+                table.least[p] <= table.largest[p] && table.least[p] >= 0.0f,
+            place, "an empty range of a parameter; expected finite numbers from 0");
+}
+
+}  // namespace remap

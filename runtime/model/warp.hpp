@@ -1,0 +1,78 @@
+// A compiled appearance warp (An et al. 2011): texels of one material become reflectances found in another.
+// Plain data that a fit holds: coordinates in closed form, and a table of the template's parameters over
+// them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace remap {
+
+// One texel of a diffuse lobe and a specular one: diffuse reflectance (R, G, B), specular reflectance at
+// normal incidence or scale (R, G, B), both linear, and alpha, the microfacet width.
+using WarpTexel = std::array<float, 7>;
+inline constexpr std::size_t kWarpParameters = std::tuple_size_v<WarpTexel>;
+
+inline constexpr std::size_t kLargestWarpDimension = 3;
+
+// Where a reflectance lies in the appearance space of its material. A lobe whose specular parameter enters
+// linearly, rho = d / pi + s slope(alpha) + base(alpha), has principal coordinates (An et al. 2011, section
+// 3, by distances)
+//   x_k = sum_c d_c diffuse[k][c] + s_c specular[k][c](alpha) + offset[k](alpha)
+// where the functions of alpha are straight lines between nodes even in log(alpha); reflectances are held
+// within 0 and 1. Unit: the RMS distance of the material's texels from their mean.
+struct AppearanceCoordinates {
+  std::size_t dimension = 0;    // 1 to 3
+  float least_alpha = 0.0f;     // of the first node, above 0; alpha is held in between
+  float largest_alpha = 0.0f;   // of the last one
+  std::vector<float> diffuse;   // dimension x 3
+  std::vector<float> specular;  // nodes x dimension x 3, at least two nodes
+  std::vector<float> offset;    // nodes x dimension
+
+  std::size_t node_count() const noexcept { return dimension == 0 ? 0 : offset.size() / dimension; }
+  bool operator==(const AppearanceCoordinates&) const = default;
+};
+
+// Parameters of the template over a box of the source's coordinates, multilinear in between, held at its
+// faces beyond.
+struct ParameterTable {
+  std::size_t nodes = 0;                                  // along each dimension, at least 2
+  std::vector<float> low, high;                           // of the box, one each a dimension, low < high
+  std::array<float, kWarpParameters> least{}, largest{};  // of each parameter
+  // nodes^dimension x 7, the first dimension runs fastest. A parameter is least + (largest - least) (code /
+  // 255)^2: steps are finer where values are dark.
+  std::vector<std::uint8_t> codes;
+
+  bool operator==(const ParameterTable&) const = default;
+};
+
+struct CompiledWarp {
+  AppearanceCoordinates coordinates;  // of the source
+  ParameterTable table;
+
+  bool operator==(const CompiledWarp&) const = default;
+};
+
+// The position of a texel, `dimension` values; the others are 0. NaN in the texel gives NaN.
+std::array<double, kLargestWarpDimension> coordinates_of(const AppearanceCoordinates& space,
+                                                         const WarpTexel& texel) noexcept;
+
+// The value that a code stands for.
+float decoded(const ParameterTable& table, std::size_t parameter, std::uint8_t code) noexcept;
+
+// The template's parameters for a texel of the source, in double precision: the oracle of faster ways. NaN in
+// the texel gives NaN in all parameters. `warp` must be valid.
+WarpTexel evaluate_warp(const CompiledWarp& warp, const WarpTexel& texel) noexcept;
+
+// Bytes of the numbers that the converter consists of.
+std::size_t byte_count(const CompiledWarp& warp) noexcept;
+
+// Throws kInput, opened by `place`, for counts that do not fit each other, an empty box, numbers that are not
+// finite.
+void require_valid(const CompiledWarp& warp, const std::string& place);
+
+}  // namespace remap

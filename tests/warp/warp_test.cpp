@@ -1,0 +1,275 @@
+// Warps against truth that is known, quadrature by brute force, and cases that have an exact answer.
+#include "warp/warp.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "error.hpp"
+#include "warp/quadrature.hpp"
+#include "warp/warp_sets.hpp"
+
+namespace {
+
+using namespace remapc;
+using warp_test::WarpSet;
+
+// Distance by the quadrature itself, with the BRDF evaluated at both widths: shares nothing with the tables.
+double brute_distance(const Eigen::VectorXd& weights, const remap::WarpTexel& a, const remap::WarpTexel& b) {
+  const auto directions = half_vector_quadrature();
+  const auto reflectance = [](const remap::WarpTexel& texel, std::size_t c, const LocalGeometry& geometry) {
+    const Lobe lobe = evaluate_lobe(Brdf::kGgx, Fresnel::kSchlick, static_cast<double>(texel[6]), geometry);
+    return static_cast<double>(texel[c]) / 3.14159265358979 + lobe.base +
+           static_cast<double>(texel[3 + c]) * lobe.slope;
+  };
+  double sum = 0.0;
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      sum += std::pow(weights[static_cast<Eigen::Index>(i)] * (reflectance(a, c, directions[i].geometry) -
+                                                               reflectance(b, c, directions[i].geometry)),
+                      2.0);
+  return std::sqrt(sum);
+}
+
+// Of a fit on a set, in % of the template's spread where not said otherwise.
+struct Figures {
+  double error = 0.0;        // exact copy against the truth
+  double table_error = 0.0;  // compiled converter against the exact copy
+  double bins = 0.0;         // share of the template's occupied bins that the copy uses
+  double folds = 0.0;        // share of texels
+  std::vector<Eigen::VectorXd> result;
+};
+
+Figures measure(const WarpSet& set, const WarpFit& fit) {
+  const FeaturePair features = appearance_features(set.source, set.target);
+  const auto copy = copy_exactly(fit, set.source, set.target);
+  const Points positions = positions_of(fit.target_coordinates, set.target.texels);
+  const BinGrid grid(positions, occupancy_of(positions, {}).spacing);
+  std::vector<int> count(grid.size(), 0), used(grid.size(), 0);
+  for (Eigen::Index i = 0; i < positions.rows(); ++i)
+    ++count[static_cast<std::size_t>(grid.bin_of(positions, i))];
+  for (const std::uint32_t texel : copy) used[static_cast<std::size_t>(grid.bin_of(positions, texel))] = 1;
+  double occupied = 0.0, reached = 0.0;
+  for (std::size_t bin = 0; bin < count.size(); ++bin)
+    if (count[bin] >= 4) {
+      occupied += 1.0;
+      reached += used[bin];
+    }
+  Figures figures;
+  figures.bins = reached / occupied;
+  std::vector<remap::WarpTexel> some;
+  for (std::size_t i = 0; i < copy.size(); i += 13) {
+    some.push_back(set.source.texels[i]);
+    const auto own = features_of(features.target, set.target.texels[copy[i]]);
+    const auto compiled =
+        features_of(features.target, remap::evaluate_warp(fit.compiled, set.source.texels[i]));
+    figures.error += (own - features_of(features.target, set.truth[i])).norm();
+    figures.table_error += (own - compiled).norm();
+    figures.result.push_back(own);
+  }
+  const double scale = 100.0 / fit.target_radius / static_cast<double>(some.size());
+  figures.error *= scale;
+  figures.table_error *= scale;
+  const Points points = positions_of(fit.compiled.coordinates, some);
+  figures.folds = fold_share(fit.warp, points, Eigen::VectorXd::Ones(points.rows()));
+  return figures;
+}
+
+// Share of texels whose neighbour in the source's appearance space lands more than a quarter of the spread
+// apart.
+double tears(const WarpSet& set, const WarpFit& fit) {
+  const FeaturePair features = appearance_features(set.source, set.target);
+  const auto copy = copy_exactly(fit, set.source, set.target);
+  const Points positions = positions_of(fit.compiled.coordinates, set.source.texels);
+  Points beside = positions;
+  beside.col(0).array() += 0.02;
+  const auto neighbours = NearestTexel(positions).find(beside);
+  double torn = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < copy.size(); i += 13, count += 1.0) {
+    const auto own = features_of(features.target, set.target.texels[copy[i]]);
+    const auto other = features_of(features.target, set.target.texels[copy[neighbours[i]]]);
+    torn += (own - other).norm() > 0.25 * fit.target_radius ? 1.0 : 0.0;
+  }
+  return torn / count;
+}
+
+double change(const Figures& a, const Figures& b, double radius) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.result.size(); ++i) sum += (a.result[i] - b.result[i]).norm();
+  return 100.0 * sum / radius / static_cast<double>(a.result.size());
+}
+
+WarpSet small_leaf() { return warp_test::leaf_set(64); }
+
+}  // namespace
+
+TEST_CASE("features: distances are those of the quadrature", "[warp]") {
+  const WarpSet set = warp_test::rust_set(64);
+  const FeaturePair features = appearance_features(set.source, set.target);
+  const Eigen::VectorXd weights = direction_weights(set.source, set.target, AppearanceDistance::kRelative);
+  for (std::size_t i = 0; i < 40; ++i) {
+    const auto &a = set.source.texels[97 * i], &b = set.target.texels[53 * i + 7];
+    const double distance = (features_of(features.source, a) - features_of(features.target, b)).norm();
+    // Straight lines between the 64 nodes of alpha err by 1e-3 of a lobe, the basis of 14 by less.
+    CHECK(distance == Approx(brute_distance(weights, a, b)).epsilon(5e-3));
+  }
+}
+
+TEST_CASE("coordinates: closed form is the projection of features", "[warp]") {
+  const WarpSet set = warp_test::rust_set(64);
+  const FeaturePair features = appearance_features(set.source, set.target);
+  const AppearanceSpace space = appearance_space(set.source, features.source);
+  const auto coordinates = closed_form(space, features.source, 3);
+  for (std::size_t i = 0; i < set.source.texels.size(); i += 101) {
+    const Eigen::VectorXd projected = space.axes.transpose() *
+                                      (features_of(features.source, set.source.texels[i]) - space.mean) /
+                                      space.radius;
+    const auto position = remap::coordinates_of(coordinates, set.source.texels[i]);
+    for (std::size_t k = 0; k < 3; ++k)  // float tables
+      CHECK(position[k] == Approx(projected[static_cast<Eigen::Index>(k)]).margin(1e-5));
+  }
+  CHECK(dimension_of(space) == 3);
+  CHECK(space.stress[2] < 0.01);
+  const WarpSet leaf = small_leaf();
+  const FeaturePair leaf_features = appearance_features(leaf.source, leaf.target);
+  const AppearanceSpace leaf_space = appearance_space(leaf.source, leaf_features.source);
+  CHECK(dimension_of(leaf_space) == 2);
+  CHECK(leaf_space.stress[1] < 0.03);
+}
+
+TEST_CASE("affine: strokes that an affine map joins give that map", "[warp]") {
+  PointSets sets;
+  sets.common_axes = Eigen::MatrixXd::Identity(2, 2);
+  sets.source_centres = Points(4, 2);
+  sets.source_centres << -90, -80, 100, -70, -60, 110, 80, 90;  // large, so that the prior does not count
+  Eigen::MatrixXd linear(2, 2);
+  linear << 0.5, 1.25, -2.0, 0.75;
+  const Eigen::RowVectorXd offset = Eigen::RowVector2d(3.0, -4.0);
+  sets.target_centres = (sets.source_centres * linear).rowwise() + offset;
+  const AffineMap found = affine_from_strokes(sets);
+  CHECK((found.linear - linear).norm() < 1e-4);
+  CHECK((found.offset - offset).norm() < 1e-2);
+}
+
+TEST_CASE("affine: one stroke leaves the common axes", "[warp]") {
+  PointSets sets;
+  sets.common_axes = Eigen::MatrixXd::Identity(2, 2);
+  sets.source_centres = Eigen::RowVector2d(0.5, 0.25);
+  sets.target_centres = Eigen::RowVector2d(-0.5, 0.75);
+  const AffineMap found = affine_from_strokes(sets);
+  CHECK((found.linear - sets.common_axes).norm() < 1e-12);
+  CHECK((found.offset - Eigen::RowVector2d(-1.0, 0.5)).norm() < 1e-12);
+}
+
+TEST_CASE("warp: near the truth, without tears and folds", "[warp]") {
+  for (const WarpSet& set : {warp_test::leaf_set(128), warp_test::rust_set(128)}) {
+    CAPTURE(set.name);
+    std::vector<Figures> figures;
+    double error = 0.0, bins = 0.0, moved = 0.0, radius = 0.0;
+    for (std::uint32_t seed = 0; seed < 3; ++seed) {
+      const WarpFit fit = fit_warp(set.source, set.target, strokes_of(set, seed));
+      figures.push_back(measure(set, fit));
+      CHECK(figures.back().folds == 0.0);
+      CHECK(tears(set, fit) <= 0.01);
+      CHECK(figures.back().table_error <
+            3.0);  // few texels: neighbours are farther apart than in a map of 256^2
+      CHECK(remap::byte_count(fit.compiled) <= 250000);
+      error += figures.back().error / 3.0;
+      bins += figures.back().bins / 3.0;
+      radius = fit.target_radius;
+    }
+    for (std::size_t k = 0; k < 3; ++k) moved += change(figures[k], figures[(k + 1) % 3], radius) / 3.0;
+    CAPTURE(error, bins, moved);
+    CHECK(error < 24.0);  // unrelated texels: 141
+    CHECK(bins > 0.8);
+    CHECK(moved < 14.0);
+  }
+}
+
+TEST_CASE("warp: nearer than histogram matching and affine", "[warp]") {
+  const WarpSet set = warp_test::rust_set(128);
+  const auto strokes = warp_test::strokes_of(set, 0);
+  const auto error_by = [&](WarpMethod method) {
+    WarpOptions options;
+    options.method = method;
+    return measure(set, fit_warp(set.source, set.target, strokes, options)).error;
+  };
+  const double own = error_by(WarpMethod::kRegistration);
+  CHECK(own < error_by(WarpMethod::kAffine));
+  CHECK(own < error_by(WarpMethod::kHistogram));
+  CHECK(error_by(WarpMethod::kPaper) < 60.0);
+}
+
+TEST_CASE("warp: the same bits every time", "[warp]") {
+  const WarpSet set = small_leaf();
+  const auto strokes = warp_test::strokes_of(set, 0);
+  CHECK(fit_warp(set.source, set.target, strokes).compiled ==
+        fit_warp(set.source, set.target, strokes).compiled);
+}
+
+TEST_CASE("warp: other BRDF models keep the appearance", "[warp]") {
+  WarpSet set = small_leaf();
+  set.source.model = {Brdf::kBeckmann, Fresnel::kSchlick};
+  const WarpFit fit = fit_warp(set.source, set.target, warp_test::strokes_of(set, 0));
+  CHECK(measure(set, fit).folds == 0.0);
+}
+
+TEST_CASE("warp: texels that are not finite take no part", "[warp]") {
+  WarpSet set = small_leaf();
+  const auto strokes = warp_test::strokes_of(set, 0);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  set.source.texels[5][2] = nan;
+  set.target.texels[9][6] = std::numeric_limits<float>::infinity();
+  const WarpFit fit = fit_warp(set.source, set.target, strokes);
+  CHECK(fit.diagnostics.source_left_out == 1);
+  CHECK(fit.diagnostics.target_left_out == 1);
+  CHECK_FALSE(warnings_of(fit.diagnostics).empty());
+  CHECK(std::isnan(remap::evaluate_warp(fit.compiled, set.source.texels[5])[0]));
+}
+
+TEST_CASE("warp: one stroke leaves directions open and says so", "[warp]") {
+  const WarpSet set = small_leaf();
+  const WarpFit fit = fit_warp(set.source, set.target, {warp_test::strokes_of(set, 0)[0]});
+  CHECK(fit.diagnostics.fixed_directions == 0);
+  const auto warnings = warnings_of(fit.diagnostics);
+  CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("strokes do not fix direction 1 of 2") != std::string::npos;
+  }));
+}
+
+TEST_CASE("warp: input that cannot be used is refused", "[warp]") {
+  const WarpSet set = small_leaf();
+  const auto strokes = warp_test::strokes_of(set, 0);
+  const auto message = [](const auto& call) {
+    try {
+      call();
+    } catch (const remap::Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  using Catch::Contains;
+  CHECK_THAT(message([&] { fit_warp(set.source, set.target, {}); }), Contains("no stroke"));
+  CHECK_THAT(message([&] {
+               fit_warp(set.source, set.target, {{{}, {1}}});
+             }),
+             Contains("stroke 1: marks no texel"));
+  CHECK_THAT(message([&] { fit_warp(set.source, set.target, {{{1}, {99999}}}); }), Contains("texel 99999"));
+  CHECK_THAT(message([&] {
+               fit_warp(set.source, set.target, {{{1, 2}, {1}}, {{2}, {7}}});
+             }),
+             Contains("stroke 2: lies within stroke 1"));
+  WarpMaterial black = set.source, plain = set.target;
+  for (auto& texel : black.texels) texel = {0, 0, 0, 0, 0, 0, 0.3f};
+  for (auto& texel : plain.texels) texel = plain.texels[0];
+  CHECK_THAT(message([&] { fit_warp(black, set.target, strokes); }),
+             Contains("leaf source: all texels look alike"));
+  CHECK_THAT(message([&] { fit_warp(set.source, plain, strokes); }),
+             Contains("leaf template: all texels look alike"));
+  WarpOptions options;
+  options.dimensions = 4;
+  CHECK_THAT(message([&] { fit_warp(set.source, set.target, strokes, options); }),
+             Contains("expected 1 to 3"));
+}
