@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,7 @@ void warn(const ConvertOptions& options, const std::string& message) {
 
 // A fit that cannot be lowered is still converted: as it is, slowly.
 std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const WorkflowChoice& workflow,
-                                            InstructionSet set) {
-  Fit fit = load_fit(options.fit);
+                                            Fit fit, InstructionSet set) {
   require_agreement("--from", workflow.source_brdf, options.fit, fit.source.model);
   require_agreement("--to", workflow.target_brdf, options.fit, fit.target.model);
   try {
@@ -50,11 +50,18 @@ std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const
   return make_interpreted_converter(std::move(fit));
 }
 
+// What --fit names.
+using GivenFit = std::optional<AnyFit>;
+
+const WarpMapFit* warp_in(const GivenFit& fit) { return fit ? std::get_if<WarpMapFit>(&*fit) : nullptr; }
+
 // The converter of width and specular; none where both workflows stand on one BRDF.
-void choose_brdf(const ConvertOptions& options, InstructionSet set, ChosenConverter& chosen) {
+void choose_brdf(const ConvertOptions& options, const GivenFit& fit, InstructionSet set,
+                 ChosenConverter& chosen) {
   const WorkflowChoice& workflow = chosen.workflow;
-  if (!options.fit.empty()) {
-    chosen.owned = converter_of_fit(options, workflow, set);
+  if (fit) {
+    chosen.owned = converter_of_fit(options, workflow,
+                                    require_width_and_specular(*fit, ErrorKind::kInput, options.fit), set);
     chosen.path = {{chosen.owned.get()}, expected_error(chosen.owned->info())};
   } else {
     if (options.from.empty() || options.to.empty())
@@ -71,11 +78,16 @@ void choose_brdf(const ConvertOptions& options, InstructionSet set, ChosenConver
                 chosen.brdf->info().id + ": fails its self-test; expected the values it was made with");
 }
 
-ChosenConverter choose_converter(const ConvertOptions& options, WorkflowChoice workflow) {
+ChosenConverter choose_converter(const ConvertOptions& options, const GivenFit& fit,
+                                 WorkflowChoice workflow) {
   ChosenConverter chosen;
   const InstructionSet set = chosen_instructions(options);
   chosen.workflow = std::move(workflow);
-  choose_brdf(options, set, chosen);
+  if (const WarpMapFit* warp = warp_in(fit)) {
+    chosen.material = make_warp_converter(*warp, set);
+    return chosen;
+  }
+  choose_brdf(options, fit, set, chosen);
   chosen.material = chosen.workflow.is_material() ? make_workflow_converter(stages_of(chosen), set)
                                                   : make_material_converter(*chosen.brdf);
   return chosen;
@@ -125,7 +137,7 @@ void convert_values(const ConvertOptions& options, const ChosenConverter& chosen
       maps.targets[parameter].channels.push_back(float_channel(&value, 1));
   }
   values.in_domain = convert_maps(*chosen.material, maps).out_of_domain_count == 0;
-  if (!values.in_domain) warn(options, "the values are outside " + domain_text(chosen.brdf->info()));
+  if (!values.in_domain) warn(options, "the values are outside " + domain_text(chosen.domain()));
   print_values(chosen, values, options.json);
 }
 
@@ -165,11 +177,13 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
 }
 
 void convert(const ConvertOptions& options) {
-  WorkflowChoice workflow = workflow_choice(options);
+  const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_any_fit(options.fit));
+  const WarpMapFit* warp = warp_in(fit);
+  WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
   (void)pass_options(options);  // wrong words before anything is looked at
   (void)target_choice(options, workflow);
   const TextureSetRequest request = set_request(options, workflow);
-  const ChosenConverter chosen = choose_converter(options, std::move(workflow));
+  const ChosenConverter chosen = choose_converter(options, fit, std::move(workflow));
   for (const std::string& assumption : chosen.workflow.assumptions) warn(options, assumption);
   if (options.folder.empty() && are_constants(request))
     convert_values(options, chosen, request);

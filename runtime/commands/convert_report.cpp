@@ -31,6 +31,8 @@ std::string material_text(const ChosenConverter& chosen) {
   };
   std::string text = end_text(*workflow.source) + " to " + end_text(*workflow.target);
   if (workflow.is_to_metallic()) text += " by " + std::string(formula_name(workflow.formula));
+  for (const std::string& step : chosen.info().steps)
+    if (chosen.path.steps.empty()) text += " by " + step;
   if (chosen.brdf != nullptr)
     text += ", " + models_text(chosen.path) + " (expected error " +
             expected_text(chosen.path.expected_error) + ")";
@@ -46,7 +48,7 @@ std::string converter_text(const ChosenConverter& chosen) {
 
 // What texels were outside of.
 std::string outside_text(const ChosenConverter& chosen) {
-  const std::string domain = chosen.brdf == nullptr ? "" : domain_text(chosen.brdf->info());
+  const std::string domain = domain_text(chosen.domain());
   if (chosen.path.steps.size() <= 1) return domain;
   return "what one of the steps covers (the path: " + domain + ")";
 }

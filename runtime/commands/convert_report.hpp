@@ -26,6 +26,8 @@ struct ChosenConverter {
   std::unique_ptr<MaterialConverter> material;  // all of it
 
   const ConverterInfo& info() const noexcept { return material->info(); }
+  // What tells its domain.
+  const ConverterInfo& domain() const noexcept { return brdf != nullptr ? brdf->info() : info(); }
 };
 
 // The stages of a conversion between workflows.

@@ -197,6 +197,37 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
   return choice;
 }
 
+WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
+  const std::pair<const char*, bool> refused[] = {
+      {"--from-workflow", !options.from_workflow.empty()},
+      {"--to-workflow", !options.to_workflow.empty()},
+      {"--dielectric-f0", !options.dielectric_f0.empty()},
+      {"--diffuse-convention", !options.diffuse_convention.empty()}};
+  for (const auto& [option, given] : refused)
+    if (given)
+      throw Error(ErrorKind::kUsage, std::string(option) + ": means nothing to the warp " + options.fit +
+                                         ", which has seen its maps; expected no such option");
+  const auto require_model = [&](const char* option, const std::string& asked, const std::string& own) {
+    if (!asked.empty() && asked != own)
+      throw Error(ErrorKind::kUsage,
+                  options.fit + ": is a warp of " + own + "; expected " + asked + " of " + option);
+  };
+  require_model("--from", options.from, fit.source_model);
+  require_model("--to", options.to, fit.template_model);
+  RoughnessConvention width = RoughnessConvention::kAlpha;
+  if (!options.glossiness.empty())
+    width = RoughnessConvention::kGlossiness;
+  else if (const auto named = convention_from_name(options.encoding))
+    width = *named;
+  WorkflowChoice choice;
+  choice.source_brdf = fit.source_model;
+  choice.target_brdf = fit.template_model;
+  choice.source = SpecularWorkflow{fit.source_model, DiffuseConvention::kPlain, width};
+  choice.target = SpecularWorkflow{fit.template_model, DiffuseConvention::kPlain, width};
+  require_workflow(options, choice);
+  return choice;
+}
+
 WorkflowChoice workflow_between(const std::string& from, const std::string& to) {
   ConvertOptions options;
   options.from = from;

@@ -34,6 +34,10 @@ struct WorkflowChoice {
 // workflow that a named model does not have, and for options that need a workflow where there is none.
 WorkflowChoice workflow_choice(const ConvertOptions& options);
 
+// What a warp converts: diffuse, specular and a width of both ends, in the encoding that the options name.
+// Throws kUsage for options that mean nothing beside it, and for models that are not the warp's.
+WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit);
+
 // The same for two names alone.
 WorkflowChoice workflow_between(const std::string& from, const std::string& to);
 

@@ -10,6 +10,7 @@
 
 #include "convert/converter.hpp"
 #include "convert/material_rows.hpp"
+#include "model/warp_fit.hpp"
 #include "workflow/workflow_models.hpp"
 
 namespace remap {
@@ -71,5 +72,10 @@ struct WorkflowStages {
 // it beside the new specular. Throws kInput as require_valid() does.
 std::unique_ptr<MaterialConverter> make_workflow_converter(const WorkflowStages& stages,
                                                            InstructionSet set = best_instruction_set());
+
+// Diffuse, specular and alpha of the source of a warp to those of its template, all rows wanted. Specular in
+// one row stands for grey. Throws kInput as require_valid() does.
+std::unique_ptr<MaterialConverter> make_warp_converter(const WarpMapFit& fit,
+                                                       InstructionSet set = best_instruction_set());
 
 }  // namespace remap

@@ -1,0 +1,27 @@
+// The pass of a compiled warp over rows of texels.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#if defined(__clang__)  // a loop that cannot be vectorised is no fault
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wpass-failed"
+#endif
+
+namespace remap::warp_code {
+// Each needs those before it.
+// clang-format off
+#include "workflow/code/floats.inc"
+#include "workflow/code/rows.inc"
+#include "warp/code/appearance_table.inc"
+// clang-format on
+}  // namespace remap::warp_code
+
+#if defined(__clang__)
+#pragma clang diagnostic pop
+#endif

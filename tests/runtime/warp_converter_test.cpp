@@ -1,0 +1,141 @@
+// The pass of a compiled warp against the same warp in double precision, one texel at a time.
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "convert/material_converter.hpp"
+#include "convert/warp_kernel.hpp"
+#include "support/random_warp.hpp"
+
+using namespace remap;
+
+namespace {
+
+struct WarpRows {
+  explicit WarpRows(std::size_t count) { row.fill(std::vector<float>(count)); }
+  std::array<std::vector<float>, kWarpParameters> row;
+
+  std::array<const float*, kWarpParameters> sources() const {
+    std::array<const float*, kWarpParameters> all{};
+    for (std::size_t r = 0; r < all.size(); ++r) all[r] = row[r].data();
+    return all;
+  }
+  std::array<float*, kWarpParameters> targets() {
+    std::array<float*, kWarpParameters> all{};
+    for (std::size_t r = 0; r < all.size(); ++r) all[r] = row[r].data();
+    return all;
+  }
+  WarpTexel texel(std::size_t i) const {
+    WarpTexel values{};
+    for (std::size_t r = 0; r < values.size(); ++r) values[r] = row[r][i];
+    return values;
+  }
+};
+
+// A few values are beyond 0 to 1.
+WarpRows random_rows(std::size_t count) {
+  WarpRows rows(count);
+  std::mt19937 engine(3);
+  for (auto& row : rows.row)
+    for (float& value : row) value = static_cast<float>(engine() >> 8) * 0x1.1p-24f - 0.02f;
+  return rows;
+}
+
+bool is_within(float value) { return value >= 0.0f && value <= 1.0f; }
+
+std::vector<InstructionSet> available_sets() {
+  std::vector<InstructionSet> sets = {InstructionSet::kBaseline};
+  for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512})
+    if (set <= best_instruction_set()) sets.push_back(set);
+  return sets;
+}
+
+}  // namespace
+
+TEST_CASE("warp converter: every texel is that of the warp in double precision") {
+  const std::size_t dimension = GENERATE(1, 2, 3), count = GENERATE(1, 63, 64, 1000);
+  const CompiledWarp warp = random_warp(dimension, 11);
+  const PackedWarp pass = packed(warp);
+  const WarpRows rows = random_rows(count);
+  WarpRows found(count);
+  const std::size_t outside =
+      warp_kernel(InstructionSet::kBaseline)(pass, count, rows.sources(), found.targets());
+  std::size_t expected_outside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const WarpTexel texel = rows.texel(i), expected = evaluate_warp(warp, texel);
+    bool within = true;
+    for (std::size_t r = 0; r < texel.size(); ++r) {
+      REQUIRE(found.row[r][i] == Approx(expected[r]).margin(1e-4));
+      within = within && is_within(texel[r]);
+    }
+    expected_outside += !within;
+  }
+  CHECK(outside == expected_outside);
+}
+
+TEST_CASE("warp converter: every instruction set gives the same bits, in place too") {
+  constexpr std::size_t kCount = 517;
+  const std::size_t dimension = GENERATE(1, 2, 3);
+  const PackedWarp pass = packed(random_warp(dimension, 5, 17));
+  WarpRows expected(kCount);
+  const WarpRows rows = random_rows(kCount);
+  warp_kernel(InstructionSet::kBaseline)(pass, kCount, rows.sources(), expected.targets());
+  for (const InstructionSet set : available_sets()) {
+    WarpRows found = rows;
+    warp_kernel(set)(pass, kCount, found.sources(), found.targets());
+    for (std::size_t r = 0; r < found.row.size(); ++r)
+      REQUIRE(std::memcmp(found.row[r].data(), expected.row[r].data(), kCount * sizeof(float)) == 0);
+  }
+}
+
+TEST_CASE("warp converter: NaN stays NaN, infinity and negative values are held") {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity(),
+                  kNan = std::numeric_limits<float>::quiet_NaN();
+  const CompiledWarp warp = random_warp(3, 2);
+  const PackedWarp pass = packed(warp);
+  for (const InstructionSet set : available_sets())
+    for (const float odd : {kNan, -kNan, kInfinity, -kInfinity, -1e30f, 0.0f, -0.0f, 1e-40f})
+      for (std::size_t r = 0; r < kWarpParameters; ++r) {
+        WarpRows rows = random_rows(70), found(70);
+        rows.row[r][66] = odd;
+        warp_kernel(set)(pass, 70, rows.sources(), found.targets());
+        const WarpTexel expected = evaluate_warp(warp, rows.texel(66));
+        for (std::size_t p = 0; p < kWarpParameters; ++p) {
+          CAPTURE(odd, r, p);
+          if (std::isnan(odd))
+            REQUIRE(std::isnan(found.row[p][66]));
+          else
+            REQUIRE(found.row[p][66] == Approx(expected[p]).margin(1e-4));
+          REQUIRE(std::isfinite(found.row[p][65]));
+        }
+      }
+}
+
+TEST_CASE("warp converter: materials go by parameter, grey specular stands for three channels") {
+  WarpMapFit fit;
+  fit.id = "stone";
+  fit.source_model = fit.template_model = "mitsuba/ggx";
+  fit.warp = random_warp(2, 8);
+  const auto converter = make_warp_converter(fit, InstructionSet::kBaseline);
+  REQUIRE(converter->sources().size() == 3);
+  CHECK(converter->target_channels(Parameter::kSpecular, 1) == 3);
+  const std::array<float, 3> diffuse = {0.2f, 0.3f, 0.4f};
+  const float specular = 0.04f, alpha = 0.3f;
+  std::array<float, 7> result{};
+  MaterialRows<const float> in;
+  MaterialRows<float> out;
+  in[Parameter::kDiffuse] = {{&diffuse[0], &diffuse[1], &diffuse[2]}, 3};
+  in[Parameter::kSpecular] = {{&specular}, 1};
+  in[Parameter::kWidth] = {{&alpha}, 1};
+  out[Parameter::kDiffuse] = {{&result[0], &result[1], &result[2]}, 3};
+  out[Parameter::kSpecular] = {{&result[3], &result[4], &result[5]}, 3};
+  out[Parameter::kWidth] = {{&result[6]}, 1};
+  CHECK(converter->convert(1, in, out) == 0);
+  const WarpTexel expected =
+      evaluate_warp(fit.warp, {diffuse[0], diffuse[1], diffuse[2], specular, specular, specular, alpha});
+  for (std::size_t p = 0; p < expected.size(); ++p) CHECK(result[p] == Approx(expected[p]).margin(1e-4));
+}
