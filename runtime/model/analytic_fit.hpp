@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/fit.hpp"
+#include "model/warp_fit.hpp"
 #include "workflow/workflow.hpp"
 
 namespace remap {
@@ -41,7 +42,7 @@ inline const char* material_kind(const AnalyticFit& fit) {
 }
 
 // What a fit file can hold.
-using AnyFit = std::variant<Fit, AnalyticFit>;
+using AnyFit = std::variant<Fit, AnalyticFit, WarpMapFit>;
 
 inline const std::string& fit_id(const AnyFit& fit) {
   return std::visit([](const auto& any) -> const std::string& { return any.id; }, fit);

@@ -91,6 +91,7 @@ AnyFit any_fit_from_json(std::string_view text, const std::string& place) {
   const Json json = parse_json(text, place);
   const Field root(json, place);
   require_fit_format(root);
+  if (is_of_materials(root) && root["mapping"]["kind"].text() == kWarpKind) return read_warp_fit(root);
   if (is_of_materials(root)) return read_analytic(root);
   return fit_from_json(text, place);
 }

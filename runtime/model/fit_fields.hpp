@@ -32,6 +32,9 @@ inline bool is_of_materials(const Field& root) {
   return root.json().contains("source") && root["source"].json().contains("workflow");
 }
 
+// The fit of kind `warp` of a root whose format has been looked at (warp_json.cpp). Throws kInput.
+WarpMapFit read_warp_fit(const Field& root);
+
 // Throws kInput where the root of a file is not that of a fit of kFitFormatVersion.
 inline void require_fit_format(const Field& root) {
   if (root["format"].text() != "remap-fit") root.fail("is no fit file; expected \"format\": \"remap-fit\"");

@@ -19,6 +19,7 @@ inline constexpr int kFitFormatVersion = 3;
 // analytic fit that require_valid() refuses.
 std::string fit_to_json(const Fit& fit);
 std::string fit_to_json(const AnalyticFit& fit);
+std::string fit_to_json(const WarpMapFit& fit);
 
 // The fit that `json` holds. `place` (a file name) opens every message. Throws kInput for text that is no
 // JSON, another format version, a missing or mistyped field, an unknown kind, an id that is no identifier, a
@@ -32,8 +33,8 @@ Fit load_fit(const std::filesystem::path& path);
 AnyFit any_fit_from_json(std::string_view json, const std::string& place);
 AnyFit load_any_fit(const std::filesystem::path& path);
 
-// The fit of width and specular that `fit` is. Throws an error of `kind`, opened by `place`, for an analytic
-// one, which says what can be done with it.
+// The fit of width and specular that `fit` is. Throws an error of `kind`, opened by `place`, for one of
+// whole materials, which says what can be done with it.
 const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& place);
 
 }  // namespace remap
