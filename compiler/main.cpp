@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   remapc::add_sample_command(app);
   remapc::add_check_command(app);
   remapc::add_fit_command(app);
+  remapc::add_warp_command(app);
   remapc::add_emit_command(app);
   remapc::add_build_command(app);
   remapc::add_chain_command(app);

@@ -255,6 +255,11 @@ class Builder {
   }
   static std::string header_of(const remap::AnalyticFit& fit, LockedItem*) { return emit_header(fit); }
 
+  [[noreturn]] static std::string header_of(const remap::WarpMapFit& fit, LockedItem*) {
+    throw Error(ErrorKind::kInput,
+                fit.id + ": is a fit of kind warp, which has no header; expected it in another folder");
+  }
+
   Table table_of(const ManifestItem& item) const {
     if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
       const std::string bytes = remap::read_file(paths_of(folders_, inverse->of).fit);

@@ -24,11 +24,14 @@ FitFolder load_fit_folder(const std::filesystem::path& folder) {
                                          "; expected the file to be named after it");
     if (auto* analytic = std::get_if<remap::AnalyticFit>(&fit))
       loaded.analytic.push_back(std::move(*analytic));
+    else if (auto* warp = std::get_if<remap::WarpMapFit>(&fit))
+      loaded.warps.push_back(std::move(*warp));
     else
       loaded.fits.push_back(std::move(std::get<remap::Fit>(fit)));
   }
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
   std::sort(loaded.fits.begin(), loaded.fits.end(), by_id);
+  std::sort(loaded.warps.begin(), loaded.warps.end(), by_id);
   std::sort(loaded.analytic.begin(), loaded.analytic.end(), by_id);
   return loaded;
 }
@@ -46,6 +49,7 @@ remap::AnyFit find_any_fit(const std::string& name, const std::filesystem::path&
     const FitFolder loaded = load_fit_folder(folder);
     for (const remap::Fit& fit : loaded.fits) known.push_back(fit.id);
     for (const remap::AnalyticFit& fit : loaded.analytic) known.push_back(fit.id);
+    for (const remap::WarpMapFit& fit : loaded.warps) known.push_back(fit.id);
   }
   throw Error(ErrorKind::kUsage,
               name + ": is neither a file nor a fit in " + folder.string() + remap::suggestion(name, known));

@@ -12,6 +12,7 @@ namespace remapc {
 struct FitFolder {
   std::vector<remap::Fit> fits;  // of width and specular
   std::vector<remap::AnalyticFit> analytic;
+  std::vector<remap::WarpMapFit> warps;
 };
 
 // Every `*.json` of `folder` but its manifest as a fit. Throws kInput for a folder that cannot be read, a

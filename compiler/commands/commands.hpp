@@ -11,6 +11,7 @@ void add_sweep_command(CLI::App& app);
 void add_sample_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_fit_command(CLI::App& app);
+void add_warp_command(CLI::App& app);
 void add_emit_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_eval_command(CLI::App& app);

@@ -37,6 +37,10 @@ FitFolder chosen_fits(const EmitCommand& options) {
     const remap::AnyFit fit = find_any_fit(name, options.fit_folder);
     if (const auto* analytic = std::get_if<remap::AnalyticFit>(&fit))
       chosen.analytic.push_back(*analytic);
+    else if (std::holds_alternative<remap::WarpMapFit>(fit))
+      throw Error(ErrorKind::kUsage, name +
+                                         ": is a fit of kind warp, which has no header; expected a fit of "
+                                         "width and specular, or of workflows");
     else
       chosen.fits.push_back(std::get<remap::Fit>(fit));
   }

@@ -43,7 +43,7 @@ void list_fits(const ListOptions& options) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   const FitFolder folder = load_fit_folder(options.fit_folder);
   const std::vector<remap::Fit>& fits = folder.fits;
-  if (fits.empty() && folder.analytic.empty())
+  if (fits.empty() && folder.analytic.empty() && folder.warps.empty())
     std::cerr << options.fit_folder.string() << ": holds no fits (*.json)\n";
   for (const remap::Fit& fit : fits) {
     list.push_back({{"id", fit.id},
@@ -66,6 +66,15 @@ void list_fits(const ListOptions& options) {
     if (!options.json)
       std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << remap::material_kind(fit)
                 << formula << ", whole materials\n";
+  }
+  for (const remap::WarpMapFit& fit : folder.warps) {
+    list.push_back({{"id", fit.id},
+                    {"source", fit.source_model},
+                    {"target", fit.template_model},
+                    {"kind", remap::kWarpKind}});
+    if (!options.json)
+      std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << remap::kWarpKind
+                << "appearance of a template, whole materials\n";
   }
   if (options.json) std::cout << list.dump(2) << "\n";
 }

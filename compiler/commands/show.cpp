@@ -229,6 +229,16 @@ void show_card(const remap::AnalyticFit& fit, const ShowOptions&) {
   if (fit.training) print_training(*fit.training);
 }
 
+void show_card(const remap::WarpMapFit& fit, const ShowOptions&) {
+  const remap::ParameterTable& table = fit.warp.table;
+  std::cout << fit.id << "\n  from    " << fit.source_model << "\n  to      " << fit.template_model
+            << "\n  kind    " << remap::kWarpKind << ", by remapc " << fit.tool_version << "\n";
+  for (const std::string& remark : fit.remarks) std::cout << "  " << remark << "\n";
+  std::cout << "Mapping\n  " << fit.warp.coordinates.dimension << " appearance coordinates, " << table.nodes
+            << " nodes each, " << byte_count(fit.warp) << " bytes\nMethod\n";
+  for (const auto& [key, value] : fit.method) std::cout << "  " << key << ": " << value << "\n";
+}
+
 void show(const ShowOptions& options) {
   const remap::AnyFit fit = find_any_fit(options.fit, options.fit_folder);
   std::visit(

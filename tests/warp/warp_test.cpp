@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "error.hpp"
+#include "model/fit_json.hpp"
 #include "warp/quadrature.hpp"
 #include "warp/warp_sets.hpp"
 
@@ -272,4 +273,30 @@ TEST_CASE("warp: input that cannot be used is refused", "[warp]") {
   options.dimensions = 4;
   CHECK_THAT(message([&] { fit_warp(set.source, set.target, strokes, options); }),
              Contains("expected 1 to 3"));
+}
+
+TEST_CASE("warp fits: files hold every bit, and damaged ones are refused", "[warp]") {
+  const WarpSet set = small_leaf();
+  remap::WarpMapFit fit;
+  fit.id = "leaf";
+  fit.source_model = fit.template_model = "mitsuba/ggx";
+  fit.warp = fit_warp(set.source, set.target, warp_test::strokes_of(set, 0)).compiled;
+  fit.method = {{"method", "registration"}};
+  fit.remarks = {"A remark."};
+  fit.tool_version = "0";
+  const std::string text = fit_to_json(fit);
+  CHECK(text.size() < 250000);
+  const remap::AnyFit read = remap::any_fit_from_json(text, "x");
+  REQUIRE(std::holds_alternative<remap::WarpMapFit>(read));
+  CHECK(std::get<remap::WarpMapFit>(read) == fit);
+  CHECK_THROWS_AS(remap::fit_from_json(text, "x"), remap::Error);
+  const auto damaged = [&](const std::string& found, const std::string& other) {
+    std::string copy = text;
+    copy.replace(copy.find(found), found.size(), other);
+    return copy;
+  };
+  CHECK_THROWS_AS(remap::any_fit_from_json(damaged("\"nodes\": 128", "\"nodes\": 127"), "x"), remap::Error);
+  CHECK_THROWS_AS(remap::any_fit_from_json(damaged("\"codes\": \"", "\"codes\": \"A"), "x"), remap::Error);
+  CHECK_THROWS_AS(remap::any_fit_from_json(damaged("\"dimension\": 2", "\"dimension\": 3"), "x"),
+                  remap::Error);
 }

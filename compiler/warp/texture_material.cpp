@@ -1,0 +1,156 @@
+#include "warp/texture_material.hpp"
+
+#include "convert/material_converter.hpp"
+#include "error.hpp"
+#include "sets/discovery.hpp"
+#include "texture/convert_maps.hpp"
+#include "texture/texture_set.hpp"
+
+namespace remapc {
+namespace {
+
+namespace fs = std::filesystem;
+using remap::Error;
+using remap::ErrorKind;
+using remap::Parameter;
+using remap::Role;
+
+remap::FoundSet only_set(const fs::path& folder) {
+  remap::DiscoveryOptions options;
+  options.recursive = false;
+  remap::Discovery found = find_sets(folder, options);
+  std::erase_if(found.sets,
+                [](const remap::FoundSet& set) { return set.state == remap::SetState::kSkipped; });
+  if (found.sets.size() != 1)
+    throw Error(ErrorKind::kInput, folder.string() + ": has " + std::to_string(found.sets.size()) +
+                                       " texture sets that are known by their names; expected one, with maps "
+                                       "named diffuse, specular and roughness");
+  if (found.sets[0].state == remap::SetState::kFaulty)
+    throw Error(ErrorKind::kInput, found.sets[0].remarks.empty() ? folder.string() + ": is ambiguous"
+                                                                 : found.sets[0].remarks[0]);
+  return found.sets[0];
+}
+
+std::vector<std::string> channel_names(remap::Channels channels) {
+  using remap::Channels;
+  if (channels == Channels::kWhole) return {};
+  if (channels == Channels::kRgb) return {"R", "G", "B"};
+  return {std::string(channels_name(channels))};
+}
+
+std::optional<remap::RoughnessConvention> convention_of(Role role) {
+  if (role == Role::kGlossiness) return remap::RoughnessConvention::kGlossiness;
+  if (role == Role::kAlphaWidth) return remap::RoughnessConvention::kAlpha;
+  return remap::RoughnessConvention::kRoughness;
+}
+
+// Puts the map of the first role that the set has into the request; false where it has none.
+bool add_map(const remap::FoundSet& set, const fs::path& root, Parameter parameter,
+             const std::vector<Role>& roles, remap::TextureSetRequest& request) {
+  for (const Role role : roles)
+    for (const auto* maps : {&set.maps, &set.bystanders})
+      for (const remap::FoundMap& map : *maps)
+        for (const remap::ChannelMeaning& entry : map.meaning) {
+          if (entry.role != role) continue;
+          request.parameters[parameter].source =
+              remap::MapName{root / map.path, channel_names(entry.channels)};
+          if (parameter == Parameter::kWidth) request.convention = convention_of(role);
+          return true;
+        }
+  return false;
+}
+
+// What the set has: maps of the specular workflow, else of the metallic one.
+remap::TextureSetRequest request_of(const fs::path& folder, bool* is_metallic) {
+  const remap::FoundSet set = only_set(folder);
+  remap::TextureSetRequest request;
+  const auto add = [&](Parameter parameter, const std::vector<Role>& roles) {
+    return add_map(set, folder, parameter, roles, request);
+  };
+  if (!add(Parameter::kWidth, {Role::kRoughness, Role::kGlossiness, Role::kAlphaWidth}))
+    throw Error(ErrorKind::kInput, folder.string() + ": has no roughness map; expected one");
+  *is_metallic = false;
+  if (add(Parameter::kSpecular, {Role::kSpecular})) {
+    if (add(Parameter::kDiffuse, {Role::kDiffuse, Role::kBaseColor})) return request;
+    throw Error(ErrorKind::kInput, folder.string() + ": has no diffuse map; expected one beside specular");
+  }
+  *is_metallic = add(Parameter::kMetallic, {Role::kMetallic}) &&
+                 add(Parameter::kBaseColor, {Role::kBaseColor, Role::kDiffuse});
+  if (!*is_metallic)
+    throw Error(ErrorKind::kInput,
+                folder.string() +
+                    ": has neither diffuse and specular nor base colour and metallic maps; "
+                    "expected either pair");
+  return request;
+}
+
+// All texels of a map in memory.
+std::vector<std::byte> texels_of(remap::ImageReader& map) {
+  const remap::ImageLayout& layout = map.layout();
+  std::vector<std::byte> texels(static_cast<std::size_t>(layout.height) * layout.row_bytes());
+  map.read_rows(0, layout.height, texels.data());
+  return texels;
+}
+
+remap::SourceParameter source_of(const remap::SetParameter& parameter, const remap::TextureSet& set,
+                                 const std::vector<std::vector<std::byte>>& texels) {
+  remap::SourceParameter source;
+  source.constants = parameter.constants;
+  source.factors = parameter.factors;
+  source.transfer = parameter.transfer;
+  source.grey_tolerance = 1.0f;
+  for (const remap::ChannelPlace& place : parameter.channels) {
+    const remap::ImageLayout& layout = set.maps[place.map].layout();
+    const remap::Channel& channel = layout.channels[place.channel];
+    source.name = set.maps[place.map].path().string();
+    source.channel_names.push_back(channel.name);
+    source.channels.push_back({texels[place.map].data() + channel.offset, channel.type,
+                               static_cast<std::ptrdiff_t>(layout.texel_bytes),
+                               static_cast<std::ptrdiff_t>(layout.row_bytes())});
+  }
+  return source;
+}
+
+}  // namespace
+
+TextureMaterial read_texture_material(const fs::path& folder, const std::string& model) {
+  TextureMaterial result;
+  result.material.name = folder.string();
+  result.material.model = builtin_brdf(model);
+  bool is_metallic = false;
+  remap::TextureSet set = open_texture_set(request_of(folder, &is_metallic));
+  remap::WorkflowStages stages;
+  stages.target = remap::SpecularWorkflow{};
+  if (is_metallic)
+    stages.source = remap::MetallicWorkflow{};
+  else
+    stages.source = remap::SpecularWorkflow{};
+  const auto converter = make_workflow_converter(stages);
+
+  std::vector<std::vector<std::byte>> texels;
+  for (remap::ImageReader& map : set.maps) texels.push_back(texels_of(map));
+  const remap::ImageLayout& layout = set.maps[set.first_map()].layout();
+  result.width = static_cast<std::size_t>(layout.width);
+  result.height = static_cast<std::size_t>(layout.height);
+  result.material.texels.resize(result.width * result.height);
+  float* first = result.material.texels.data()->data();
+  remap::MapConversion conversion;
+  conversion.width = result.width;
+  conversion.height = result.height;
+  conversion.source_convention = set.convention;
+  conversion.target_convention = remap::RoughnessConvention::kAlpha;
+  for (const auto& [parameter, found] : set.parameters)
+    conversion.sources[parameter] = source_of(found, set, texels);
+  const auto want = [&](Parameter parameter, std::size_t from, std::size_t count) {
+    for (std::size_t c = 0; c < count; ++c)
+      conversion.targets[parameter].channels.push_back(
+          remap::float_channel(first + from + c, result.width, remap::kWarpParameters));
+  };
+  want(Parameter::kDiffuse, 0, 3);
+  want(Parameter::kSpecular, 3, 3);
+  want(Parameter::kWidth, 6, 1);
+  convert_maps(*converter, conversion);
+  return result;
+}
+
+}  // namespace remapc

@@ -1,0 +1,24 @@
+// A fit of kind `warp`: a compiled appearance warp with what a person should know of it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model/warp.hpp"
+
+namespace remap {
+
+struct WarpMapFit {
+  std::string id;                            // as of every fit
+  std::string source_model, template_model;  // what texels hold before and after; `mitsuba/ggx`
+  CompiledWarp warp;
+  std::map<std::string, std::string> method;  // how it was made
+  std::vector<std::string> remarks;           // warnings of the fit, a line each
+  std::string tool_version;
+  bool operator==(const WarpMapFit&) const = default;
+};
+
+inline constexpr const char* kWarpKind = "warp";
+
+}  // namespace remap

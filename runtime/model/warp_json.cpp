@@ -1,0 +1,144 @@
+// Warp fits as JSON. The codes of the table are base64 (RFC 4648): 150 KB for 128^2 nodes where numbers would
+// take 400.
+#include <nlohmann/json.hpp>
+
+#include "error.hpp"
+#include "model/fit_fields.hpp"
+#include "model/fit_json.hpp"
+#include "number_text.hpp"
+
+namespace remap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+  }
+  return text;
+}
+
+std::vector<std::uint8_t> read_base64(const Field& field) {
+  const std::string text = field.text();
+  field.require(text.size() % 4 == 0, "base64 in whole groups of four");
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(text.size() / 4 * 3);
+  for (std::size_t i = 0; i < text.size(); i += 4) {
+    std::uint32_t group = 0;
+    std::size_t count = 3;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool pads =
+          text[i + k] == '=' && i + 4 == text.size() && (k == 3 || (k == 2 && text[i + 3] == '='));
+      const std::size_t digit = pads ? 0 : kDigits.find(text[i + k]);
+      field.require(digit != std::string_view::npos, "base64 (A-Z a-z 0-9 + /)");
+      if (pads) --count;
+      group = group << 6 | static_cast<std::uint32_t>(digit);
+    }
+    for (std::size_t k = 0; k < count; ++k)
+      bytes.push_back(static_cast<std::uint8_t>(group >> (16 - 8 * k) & 255u));
+  }
+  return bytes;
+}
+
+template <typename Floats>
+Json floats_json(const Floats& values) {
+  Json list = Json::array();
+  for (const float value : values) list.push_back(decimal_value(value));
+  return list;
+}
+
+std::vector<float> read_floats(const Field& field) {
+  return field.list(1, [](const Field& entry) { return static_cast<float>(entry.number()); });
+}
+
+std::array<float, kWarpParameters> read_parameters(const Field& field) {
+  std::array<float, kWarpParameters> values{};
+  for (std::size_t p = 0; p < values.size(); ++p)
+    values[p] = static_cast<float>(field.at(p, values.size()).number());
+  return values;
+}
+
+CompiledWarp read_compiled(const Field& mapping) {
+  CompiledWarp warp;
+  const Field space = mapping["coordinates"], table = mapping["table"];
+  warp.coordinates.dimension = static_cast<std::size_t>(space["dimension"].count());
+  warp.coordinates.least_alpha = static_cast<float>(space["alpha"].at(0, 2).number());
+  warp.coordinates.largest_alpha = static_cast<float>(space["alpha"].at(1, 2).number());
+  warp.coordinates.diffuse = read_floats(space["diffuse"]);
+  warp.coordinates.specular = read_floats(space["specular"]);
+  warp.coordinates.offset = read_floats(space["offset"]);
+  warp.table.nodes = static_cast<std::size_t>(table["nodes"].count());
+  warp.table.low = read_floats(table["low"]);
+  warp.table.high = read_floats(table["high"]);
+  warp.table.least = read_parameters(table["least"]);
+  warp.table.largest = read_parameters(table["largest"]);
+  warp.table.codes = read_base64(table["codes"]);
+  return warp;
+}
+
+std::string read_warp_model(const Field& side) {
+  const std::string model = side["model"].text();
+  side["model"].require(is_valid_model(model), "letters, digits and _ - . /");
+  return model;
+}
+
+}  // namespace
+
+std::string fit_to_json(const WarpMapFit& fit) {
+  require_valid(fit.warp, fit.id);
+  const AppearanceCoordinates& space = fit.warp.coordinates;
+  const ParameterTable& table = fit.warp.table;
+  const auto side = [](const std::string& model) {
+    return Json{{"model", model}, {"workflow", "specular"}, {"diffuse", "plain"}, {"roughness", "alpha"}};
+  };
+  const Json json = {{"format", "remap-fit"},
+                     {"version", kFitFormatVersion},
+                     {"id", fit.id},
+                     {"source", side(fit.source_model)},
+                     {"target", side(fit.template_model)},
+                     {"mapping",
+                      {{"kind", kWarpKind},
+                       {"coordinates",
+                        {{"dimension", space.dimension},
+                         {"alpha", floats_json(std::array{space.least_alpha, space.largest_alpha})},
+                         {"diffuse", floats_json(space.diffuse)},
+                         {"specular", floats_json(space.specular)},
+                         {"offset", floats_json(space.offset)}}},
+                       {"table",
+                        {{"nodes", table.nodes},
+                         {"low", floats_json(table.low)},
+                         {"high", floats_json(table.high)},
+                         {"least", floats_json(table.least)},
+                         {"largest", floats_json(table.largest)},
+                         {"codes", base64(table.codes)}}}}},
+                     {"method", fit.method},
+                     {"remarks", fit.remarks},
+                     {"tool", "remapc " + fit.tool_version}};
+  return json.dump(1) + "\n";
+}
+
+WarpMapFit read_warp_fit(const Field& root) {
+  WarpMapFit fit;
+  fit.id = root["id"].text();
+  root["id"].require(is_valid_id(fit.id), "a C++ identifier without leading or doubled underscore");
+  fit.source_model = read_warp_model(root["source"]);
+  fit.template_model = read_warp_model(root["target"]);
+  fit.warp = read_compiled(root["mapping"]);
+  require_valid(fit.warp, root.place());
+  fit.method = root["method"].dictionary<std::string>([](const Field& entry) { return entry.text(); });
+  fit.remarks = root["remarks"].list(0, [](const Field& entry) { return entry.text(); });
+  const std::string tool = root["tool"].text();
+  root["tool"].require(tool.starts_with("remapc "), "remapc and its version");
+  fit.tool_version = tool.substr(7);
+  return fit;
+}
+
+}  // namespace remap
