@@ -214,7 +214,7 @@ WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit&
   };
   require_model("--from", options.from, fit.source_model);
   require_model("--to", options.to, fit.template_model);
-  RoughnessConvention width = RoughnessConvention::kAlpha;
+  RoughnessConvention width = RoughnessConvention::kRoughness;  // as the warp was made from such maps
   if (!options.glossiness.empty())
     width = RoughnessConvention::kGlossiness;
   else if (const auto named = convention_from_name(options.encoding))

@@ -38,7 +38,7 @@ using Pair = std::pair<float, float>;
 }  // namespace
 
 TEST_CASE("metallic field: one texel that can tell speaks for all") {
-  const std::size_t width = GENERATE(1, 5, 77), height = GENERATE(1, 50);
+  const auto width = GENERATE(as<std::size_t>{}, 1, 5, 77), height = GENERATE(as<std::size_t>{}, 1, 50);
   MetallicField field(width, height);
   REQUIRE(fill(field, width, height, [&](std::size_t x, std::size_t y) {
     return x == width / 2 && y == height / 2 ? Pair{0.75f, kSure} : Pair{0.1f, kGuess};

@@ -57,7 +57,8 @@ std::vector<InstructionSet> available_sets() {
 }  // namespace
 
 TEST_CASE("warp converter: every texel is that of the warp in double precision") {
-  const std::size_t dimension = GENERATE(1, 2, 3), count = GENERATE(1, 63, 64, 1000);
+  const auto dimension = GENERATE(as<std::size_t>{}, 1, 2, 3),
+             count = GENERATE(as<std::size_t>{}, 1, 63, 64, 1000);
   const CompiledWarp warp = random_warp(dimension, 11);
   const PackedWarp pass = packed(warp);
   const WarpRows rows = random_rows(count);
@@ -79,7 +80,7 @@ TEST_CASE("warp converter: every texel is that of the warp in double precision")
 
 TEST_CASE("warp converter: every instruction set gives the same bits, in place too") {
   constexpr std::size_t kCount = 517;
-  const std::size_t dimension = GENERATE(1, 2, 3);
+  const auto dimension = GENERATE(as<std::size_t>{}, 1, 2, 3);
   const PackedWarp pass = packed(random_warp(dimension, 5, 17));
   WarpRows expected(kCount);
   const WarpRows rows = random_rows(kCount);
