@@ -29,7 +29,7 @@ inline code::WarpView<kDimension> view_of(const PackedWarp& warp) noexcept {
   code::WarpView<kDimension> view{};
   view.diffuse = warp.diffuse.data();
   view.width_nodes = warp.specular.data();
-  view.codes = warp.codes.data();
+  view.entries = warp.entries.data();
   view.last_width = static_cast<std::int32_t>(warp.width_nodes) - 2;
   view.nodes = static_cast<std::int32_t>(warp.nodes);
   view.least_alpha = warp.least_alpha;
@@ -39,10 +39,6 @@ inline code::WarpView<kDimension> view_of(const PackedWarp& warp) noexcept {
   for (std::size_t k = 0; k < kDimension; ++k) {
     view.low[k] = warp.low[k];
     view.scale[k] = static_cast<float>(warp.nodes - 1) / (warp.high[k] - warp.low[k]);
-  }
-  for (std::size_t l = 0; l < code::kWarpLanes; ++l) {
-    view.least[l] = warp.least[l];
-    view.range[l] = (warp.largest[l] - warp.least[l]) / (255.0f * 255.0f);
   }
   return view;
 }
@@ -99,13 +95,12 @@ PackedWarp packed(const CompiledWarp& warp) {
     result.specular[4 * i + 3] = space.offset[i];
   }
   const std::size_t entries = table.codes.size() / kWarpParameters;
-  result.codes.resize(entries * code::kWarpLanes);
+  result.entries.resize(entries * code::kWarpLanes);
   for (std::size_t i = 0; i < entries; ++i)
-    std::copy_n(&table.codes[i * kWarpParameters], kWarpParameters, &result.codes[i * code::kWarpLanes]);
+    for (std::size_t p = 0; p < kWarpParameters; ++p)
+      result.entries[i * code::kWarpLanes + p] = decoded(table, p, table.codes[i * kWarpParameters + p]);
   std::copy(table.low.begin(), table.low.end(), result.low.begin());
   std::copy(table.high.begin(), table.high.end(), result.high.begin());
-  std::copy(table.least.begin(), table.least.end(), result.least.begin());
-  std::copy(table.largest.begin(), table.largest.end(), result.largest.begin());
   return result;
 }
 

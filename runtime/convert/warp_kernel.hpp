@@ -16,11 +16,10 @@ struct PackedWarp {
   std::size_t dimension = 0;
   std::size_t width_nodes = 0, nodes = 0;
   float least_alpha = 0.0f, largest_alpha = 0.0f;
-  std::vector<float> diffuse;       // dimension x 4
-  std::vector<float> specular;      // width_nodes x dimension x 4
-  std::vector<std::uint8_t> codes;  // nodes^dimension x 8
+  std::vector<float> diffuse;   // dimension x 4
+  std::vector<float> specular;  // width_nodes x dimension x 4
+  std::vector<float> entries;   // nodes^dimension x 8: parameters as they are
   std::array<float, kLargestWarpDimension> low{}, high{};
-  std::array<float, 8> least{}, largest{};
 };
 
 // `warp` must be valid (require_valid).

@@ -47,6 +47,9 @@ void add_workflows();
 Section workflow_section(const Medians& medians);
 Section workflow_error_section(const Medians& medians);
 
+void add_warps();
+Section warp_section(const Medians& medians);
+
 void add_fits();
 Section fit_section(const Medians& medians);
 

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   add_rivals();
   add_networks();
   add_workflows();
+  add_warps();
   add_compilations();
   add_fits();
   Medians medians;
@@ -43,6 +44,7 @@ int main(int argc, char** argv) {
       other_pass_section(medians),
       workflow_section(medians),
       workflow_error_section(medians),
+      warp_section(medians),
       header_section(medians),
       fit_section(medians)};
   if (json)
