@@ -57,7 +57,11 @@ std::vector<fs::path*> files_of(ConversionJob& job) {
 class TreeJobs {
  public:
   TreeJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& stand_ins)
-      : options_(options), workflow_(workflow), stand_ins_(stand_ins), root_(options.folder) {}
+      : options_(options),
+        workflow_(workflow),
+        choice_(target_choice(options, workflow)),
+        stand_ins_(stand_ins),
+        root_(options.folder) {}
 
   JobList list();
 
@@ -68,12 +72,13 @@ class TreeJobs {
                    ConversionJob& job);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
   void copy_others(const FoundSet& set, int tile, ConversionJob& job) const;
-  std::vector<PlannedOutput> outputs(const FoundSet& set, const TargetChoice& choice) const;
+  std::vector<PlannedOutput> outputs(const FoundSet& set) const;
   void require_no_collisions() const;
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
 
   const ConvertOptions& options_;
   const WorkflowChoice& workflow_;
+  TargetChoice choice_;
   const TextureSetRequest& stand_ins_;  // for what sets do not have, and factors for all
   fs::path root_;
   std::vector<FoundSet> converted_;
@@ -185,8 +190,7 @@ void TreeJobs::add_tile(const FoundSet& set, int tile) {
                     {}};
   for (const Parameter parameter : workflow_.sources())
     if (!find_source(set, parameter, number, tile, job)) return;
-  if (!options_.layout.empty() && options_.layout != layout_name(Layout::kAsInputs))
-    carry(set, tile, job.request);
+  if (choice_.layout != Layout::kAsInputs) carry(set, tile, job.request);
   if (options_.copy_others) copy_others(set, tile, job);
   jobs_.jobs.push_back(std::move(job));
 }
@@ -224,24 +228,24 @@ void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) co
 }
 
 // The files that the conversion of a set writes, with one map that each is made from: of all tiles as one.
-std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set, const TargetChoice& choice) const {
+std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set) const {
   const FoundMap& first = map_of(set, *set.width);
   const ResultNames names = {set.name + "_", tiles_of(set).front() == 0 ? "" : ".<UDIM>"};
   const std::string extension =
-      choice.extension.empty() ? first.path.extension().string() : "." + choice.extension;
+      choice_.extension.empty() ? first.path.extension().string() : "." + choice_.extension;
   std::map<fs::path, fs::path> sources;
-  for (const Parameter parameter : choice.parameters) {
+  for (const Parameter parameter : choice_.parameters) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const fs::path& source = (found.empty() ? first : map_of(set, found.front())).path;
-    fs::path path = set.folder / set_file_name(file_name(parameter, choice) + extension, names);
-    if (choice.layout == Layout::kAsInputs && !found.empty()) {
+    fs::path path = set.folder / set_file_name(file_name(parameter, choice_) + extension, names);
+    if (choice_.layout == Layout::kAsInputs && !found.empty()) {
       path = source;
-      if (!choice.extension.empty()) path.replace_extension(choice.extension);
+      if (!choice_.extension.empty()) path.replace_extension(choice_.extension);
     }
     sources.emplace(path, source);
   }
-  if (choice.mask) sources.emplace(set.folder / set_file_name(*choice.mask, names), first.path);
-  for (const MeasureMap& map : choice.measures)
+  if (choice_.mask) sources.emplace(set.folder / set_file_name(*choice_.mask, names), first.path);
+  for (const MeasureMap& map : choice_.measures)
     sources.emplace(set.folder / set_file_name(map.name, names), first.path);
   std::vector<PlannedOutput> planned;
   for (const auto& [path, source] : sources) planned.push_back({path, source});
@@ -249,9 +253,8 @@ std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set, const TargetCh
 }
 
 void TreeJobs::require_no_collisions() const {
-  const TargetChoice choice = target_choice(options_, workflow_);
   const std::vector<OutputCollision> collisions =
-      output_collisions(converted_, [&](const FoundSet& set) { return outputs(set, choice); });
+      output_collisions(converted_, [&](const FoundSet& set) { return outputs(set); });
   if (collisions.empty()) return;
   const OutputCollision& first = collisions.front();
   throw Error(ErrorKind::kUsage, shown(fs::path(options_.output) / first.path) +

@@ -84,7 +84,7 @@ ChosenConverter choose_converter(const ConvertOptions& options, const GivenFit& 
   const InstructionSet set = chosen_instructions(options);
   chosen.workflow = std::move(workflow);
   if (const WarpMapFit* warp = warp_in(fit)) {
-    chosen.material = make_warp_converter(*warp, set);
+    chosen.material = make_warp_converter(*warp, *chosen.workflow.source, set);
     return chosen;
   }
   choose_brdf(options, fit, set, chosen);

@@ -199,7 +199,6 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
 
 WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
   const std::pair<const char*, bool> refused[] = {
-      {"--from-workflow", !options.from_workflow.empty()},
       {"--to-workflow", !options.to_workflow.empty()},
       {"--dielectric-f0", !options.dielectric_f0.empty()},
       {"--diffuse-convention", !options.diffuse_convention.empty()}};
@@ -222,7 +221,11 @@ WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit&
   WorkflowChoice choice;
   choice.source_brdf = fit.source_model;
   choice.target_brdf = fit.template_model;
-  choice.source = SpecularWorkflow{fit.source_model, DiffuseConvention::kPlain, width};
+  // As `remapc warp` reads metallic sets: by equation (2), diffuse plain.
+  if (kind_named("--from-workflow", options.from_workflow) == WorkflowKind::kMetallic)
+    choice.source = MetallicWorkflow{fit.source_model, kCommonDielectricF0, DiffuseConvention::kPlain, width};
+  else
+    choice.source = SpecularWorkflow{fit.source_model, DiffuseConvention::kPlain, width};
   choice.target = SpecularWorkflow{fit.template_model, DiffuseConvention::kPlain, width};
   require_workflow(options, choice);
   return choice;

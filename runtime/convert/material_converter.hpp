@@ -73,9 +73,10 @@ struct WorkflowStages {
 std::unique_ptr<MaterialConverter> make_workflow_converter(const WorkflowStages& stages,
                                                            InstructionSet set = best_instruction_set());
 
-// Diffuse, specular and alpha of the source of a warp to those of its template, all rows wanted. Specular in
-// one row stands for grey. Throws kInput as require_valid() does.
-std::unique_ptr<MaterialConverter> make_warp_converter(const WarpMapFit& fit,
+// Diffuse, specular and width of the source of a warp to those of its template, all rows wanted. A metallic
+// source becomes a specular one first, by equation (2). Colours in one row stand for grey. Throws kInput as
+// require_valid() does.
+std::unique_ptr<MaterialConverter> make_warp_converter(const WarpMapFit& fit, const WorkflowEnd& source,
                                                        InstructionSet set = best_instruction_set());
 
 }  // namespace remap

@@ -1,9 +1,12 @@
 // Materials by a compiled warp: diffuse, specular and alpha of the source to those of the template.
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <optional>
 
 #include "convert/material_converter.hpp"
 #include "convert/warp_kernel.hpp"
+#include "convert/workflow_kernel.hpp"
 #include "model/warp_fit.hpp"
 
 namespace remap {
@@ -20,12 +23,31 @@ ConverterInfo info_of(const WarpMapFit& fit, InstructionSet set) {
   return info;
 }
 
+// Texels converted by both stages before the next.
+constexpr std::size_t kBlock = 1024;
+using Block = std::array<std::array<float, kBlock>, kWarpParameters>;
+
+// Grey stands for three equal channels.
+void set_color(const ParameterRows<const float>& rows, std::size_t start, const float** color) {
+  for (std::size_t c = 0; c < 3; ++c) color[c] = rows.row[rows.count == 1 ? 0 : c] + start;
+}
+
 class WarpConverter final : public MaterialConverter {
  public:
-  WarpConverter(const WarpMapFit& fit, InstructionSet set)
-      : MaterialConverter(info_of(fit, set), parameters(), parameters()),
+  WarpConverter(const WarpMapFit& fit, const WorkflowEnd& source, InstructionSet set)
+      : MaterialConverter(info_of(fit, set), parameters_of(source), parameters_of(SpecularWorkflow{})),
         warp_(packed(fit.warp)),
-        kernel_(warp_kernel(set)) {}
+        kernel_(warp_kernel(set)),
+        workflows_(workflow_kernels(set)) {
+    const auto* metallic = std::get_if<MetallicWorkflow>(&source);
+    if (metallic == nullptr) return;
+    to_specular_.emplace();
+    to_specular_->metallic = *metallic;
+    to_specular_->formula = Equation2{};
+    // The width goes by as it is; alpha, as what neither end changes.
+    to_specular_->specular.width = to_specular_->metallic.width = RoughnessConvention::kAlpha;
+    require_valid(*to_specular_, fit.id);
+  }
 
   std::size_t target_channels(Parameter parameter, std::size_t) const override {
     return is_color(parameter) ? 3 : 1;
@@ -33,39 +55,59 @@ class WarpConverter final : public MaterialConverter {
 
   std::size_t convert(std::size_t count, const MaterialRows<const float>& in,
                       const MaterialRows<float>& out) const override {
-    std::array<const float*, kWarpParameters> from{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      from[c] = row(in[Parameter::kDiffuse], c);
-      from[3 + c] = row(in[Parameter::kSpecular], c);
+    const auto block = to_specular_ ? std::make_unique<Block>() : nullptr;
+    std::size_t outside = 0;
+    for (std::size_t start = 0; start < count; start += kBlock) {
+      const std::size_t size = std::min(kBlock, count - start);
+      outside += kernel_(warp_, size, source_rows(size, start, in, block.get()), target_rows(start, out));
     }
-    from[6] = in[Parameter::kWidth].row[0];
-    std::array<float*, kWarpParameters> to{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      to[c] = out[Parameter::kDiffuse].row[c];
-      to[3 + c] = out[Parameter::kSpecular].row[c];
-    }
-    to[6] = out[Parameter::kWidth].row[0];
-    return kernel_(warp_, count, from, to);
+    return outside;
   }
 
  private:
-  static std::vector<Parameter> parameters() {
-    return {Parameter::kWidth, Parameter::kSpecular, Parameter::kDiffuse};
+  std::array<const float*, kWarpParameters> source_rows(std::size_t size, std::size_t start,
+                                                        const MaterialRows<const float>& in,
+                                                        Block* block) const {
+    std::array<const float*, kWarpParameters> rows{};
+    const float* const width = in[Parameter::kWidth].row[0] + start;
+    if (!to_specular_) {
+      set_color(in[Parameter::kDiffuse], start, &rows[0]);
+      set_color(in[Parameter::kSpecular], start, &rows[3]);
+      rows[6] = width;
+      return rows;
+    }
+    MetallicRows<const float> metallic{};
+    set_color(in[Parameter::kBaseColor], start, &metallic[0]);
+    metallic[3] = in[Parameter::kMetallic].row[0] + start;
+    metallic[4] = width;
+    SpecularRows<float> specular{};
+    for (std::size_t r = 0; r < rows.size(); ++r) rows[r] = specular[r] = (*block)[r].data();
+    workflows_.to_specular(*to_specular_, size, metallic, specular);
+    return rows;
   }
-  // Grey stands for three equal channels.
-  static const float* row(const ParameterRows<const float>& rows, std::size_t channel) {
-    return rows.row[rows.count == 1 ? 0 : channel];
+
+  static std::array<float*, kWarpParameters> target_rows(std::size_t start, const MaterialRows<float>& out) {
+    std::array<float*, kWarpParameters> rows{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      rows[c] = out[Parameter::kDiffuse].row[c] + start;
+      rows[3 + c] = out[Parameter::kSpecular].row[c] + start;
+    }
+    rows[6] = out[Parameter::kWidth].row[0] + start;
+    return rows;
   }
 
   PackedWarp warp_;
   WarpKernel kernel_;
+  std::optional<WorkflowConversion> to_specular_;
+  const WorkflowKernels& workflows_;
 };
 
 }  // namespace
 
-std::unique_ptr<MaterialConverter> make_warp_converter(const WarpMapFit& fit, InstructionSet set) {
+std::unique_ptr<MaterialConverter> make_warp_converter(const WarpMapFit& fit, const WorkflowEnd& source,
+                                                       InstructionSet set) {
   require_valid(fit.warp, fit.id);
-  return std::make_unique<WarpConverter>(fit, set);
+  return std::make_unique<WarpConverter>(fit, source, set);
 }
 
 }  // namespace remap

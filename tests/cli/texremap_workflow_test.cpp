@@ -401,6 +401,18 @@ TEST_CASE("texremap workflows: two sets of one name in a folder are refused befo
   CHECK(convert(session, with({session.path("in"), "--recursive"}, to_ward)).exit_code == 0);
 }
 
+TEST_CASE("texremap workflows: occlusion packed beside metallic of a folder's set gets a file of its own") {
+  const Session session;
+  std::filesystem::create_directories(session.path("sets"));
+  write_colors(session, "sets/box_base_color.png", base_color, OIIO::TypeUInt8);
+  write_colors(
+      session, "sets/box_orm.png",
+      [](int x, int, int c) { return c == 0 ? static_cast<float>(x) / 255.0f : 0.5f; }, OIIO::TypeUInt8);
+  require_success(convert(session, {session.path("sets"), "--from", "gltf", "--to", "gltf-specgloss"}));
+  const TestImage occlusion = read_image(session.path("out/box_occlusion.png"));
+  for (int x = 0; x < kSize; ++x) REQUIRE(occlusion.at(x, 5, 0) == static_cast<float>(x) / 255.0f);
+}
+
 TEST_CASE("texremap workflows: list and path know them") {
   const Session session;
   const ProcessResult list = session.texremap({"list", "--workflows", "--json"});

@@ -121,7 +121,7 @@ TEST_CASE("warp converter: materials go by parameter, grey specular stands for t
   fit.id = "stone";
   fit.source_model = fit.template_model = "mitsuba/ggx";
   fit.warp = random_warp(2, 8);
-  const auto converter = make_warp_converter(fit, InstructionSet::kBaseline);
+  const auto converter = make_warp_converter(fit, SpecularWorkflow{}, InstructionSet::kBaseline);
   REQUIRE(converter->sources().size() == 3);
   CHECK(converter->target_channels(Parameter::kSpecular, 1) == 3);
   const std::array<float, 3> diffuse = {0.2f, 0.3f, 0.4f};
@@ -139,4 +139,41 @@ TEST_CASE("warp converter: materials go by parameter, grey specular stands for t
   const WarpTexel expected =
       evaluate_warp(fit.warp, {diffuse[0], diffuse[1], diffuse[2], specular, specular, specular, alpha});
   for (std::size_t p = 0; p < expected.size(); ++p) CHECK(result[p] == Approx(expected[p]).margin(1e-4));
+}
+
+TEST_CASE("warp converter: a metallic source goes by equation (2) first") {
+  constexpr std::size_t kCount = 1500;
+  WarpMapFit fit;
+  fit.id = "stone";
+  fit.source_model = fit.template_model = "mitsuba/ggx";
+  fit.warp = random_warp(2, 8);
+  const auto converter = make_warp_converter(fit, MetallicWorkflow{});
+  CHECK(converter->sources() ==
+        std::vector<Parameter>{Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic});
+  WarpRows rows(kCount), found(kCount);
+  std::mt19937 engine(4);
+  for (auto& row : rows.row)
+    for (float& value : row) value = static_cast<float>(engine() >> 8) * 0x1p-24f;
+  MaterialRows<const float> in;
+  MaterialRows<float> out;
+  in[Parameter::kBaseColor] = {{rows.row[0].data(), rows.row[1].data(), rows.row[2].data()}, 3};
+  in[Parameter::kMetallic] = {{rows.row[3].data()}, 1};
+  in[Parameter::kWidth] = {{rows.row[4].data()}, 1};
+  const auto to = found.targets();
+  out[Parameter::kDiffuse] = {{to[0], to[1], to[2]}, 3};
+  out[Parameter::kSpecular] = {{to[3], to[4], to[5]}, 3};
+  out[Parameter::kWidth] = {{to[6]}, 1};
+  CHECK(converter->convert(kCount, in, out) == 0);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const float metallic = rows.row[3][i];
+    WarpTexel texel{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      texel[c] = rows.row[c][i] * (1.0f - metallic);
+      texel[3 + c] = 0.04f * (1.0f - metallic) + rows.row[c][i] * metallic;
+    }
+    texel[6] = rows.row[4][i];
+    const WarpTexel expected = evaluate_warp(fit.warp, texel);
+    for (std::size_t p = 0; p < kWarpParameters; ++p)
+      REQUIRE(found.row[p][i] == Approx(expected[p]).margin(2e-4));
+  }
 }
