@@ -86,6 +86,7 @@ nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
           {"stroke_distance", found.stroke_distance},
           {"stroke_distance_affine", found.stroke_contradiction},
           {"worst_stroke", found.worst_stroke + 1},
+          {"largest_overlap", found.shared.overlap.share},
           {"source_texels_left_out", found.source_left_out},
           {"template_texels_left_out", found.target_left_out}};
 }

@@ -102,6 +102,19 @@ double coverage_of(const AppearanceWarp& warp, const PointSets& sets) {
   return static_cast<double>(std::count(used.begin(), used.end(), 1)) / static_cast<double>(used.size());
 }
 
+WarpDiagnostics::SharedStroke most_shared(const WarpMaterial& source, const WarpMaterial& target,
+                                          const std::vector<StrokePair>& strokes) {
+  WarpDiagnostics::SharedStroke most;
+  for (std::size_t k = 0; k < strokes.size(); ++k)
+    for (const bool in_template : {false, true}) {
+      const Overlap overlap = in_template
+                                  ? largest_overlap(strokes, &StrokePair::target, k, target.texels.size())
+                                  : largest_overlap(strokes, &StrokePair::source, k, source.texels.size());
+      if (overlap.share > most.overlap.share) most = {k, overlap, in_template};
+    }
+  return most;
+}
+
 void require_options(const WarpOptions& options) {
   if (options.dimensions < 0 || options.dimensions > static_cast<int>(remap::kLargestWarpDimension))
     throw Error(ErrorKind::kUsage, "dimensions: " + std::to_string(options.dimensions) +
@@ -132,6 +145,7 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
 
   WarpFit fit;
   WarpDiagnostics& found = fit.diagnostics;
+  found.shared = most_shared(source, target, strokes);
   found.source_left_out = from.left_out;
   found.target_left_out = to.left_out;
   found.source_dimensions = dimension_of(from_space);
@@ -184,6 +198,12 @@ std::vector<std::string> warnings_of(const WarpDiagnostics& found) {
     warnings.push_back(std::to_string(found.source_left_out) + " texels of the source and " +
                        std::to_string(found.target_left_out) +
                        " of the template are not finite and take no part");
+  if (found.shared.overlap.share > 0.5)
+    warnings.push_back("stroke " + std::to_string(found.shared.overlap.other + 1) + " covers " +
+                       percent(found.shared.overlap.share) + " of stroke " +
+                       std::to_string(found.shared.stroke + 1) + " in the " +
+                       (found.shared.in_template ? "template" : "source") +
+                       ": the two mean one region there; erase one of them");
   if (found.source_dimensions < found.target_dimensions)
     warnings.push_back(
         "the source varies in " + std::to_string(found.source_dimensions) + " ways and the template in " +

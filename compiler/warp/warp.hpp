@@ -43,6 +43,12 @@ struct WarpDiagnostics {
   double stroke_contradiction = 0.0;  // RMS, the same after the affine map of the strokes alone
   std::size_t worst_stroke = 0;       // index of the stroke that is farthest off
   std::size_t source_left_out = 0, target_left_out = 0;  // texels that are not finite
+  // The stroke of which another one covers most, over both materials.
+  struct SharedStroke {
+    std::size_t stroke = 0;  // index
+    Overlap overlap;
+    bool in_template = false;
+  } shared;
 };
 
 struct WarpFit {

@@ -148,3 +148,14 @@ TEST_CASE("remapc warp: what cannot be a stroke is refused, and no file is writt
   CHECK(lost.exit_code != 0);
   CHECK(lost.errors.find("nothing") != std::string::npos);
 }
+
+TEST_CASE("remapc warp: strokes that share most of a region are warned of") {
+  const Session session;
+  write_materials(session);
+  const ProcessResult result =
+      session.remapc(warp_words(session, {"--box", "0,0,20,10", "0,0,20,10", "--box", "5,0,40,10",
+                                          "50,50,70,60", "--box", "0,60,30,90", "10,70,40,90"}));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.errors.find("stroke 2 covers 75 % of stroke 1 in the source") != std::string::npos);
+}
