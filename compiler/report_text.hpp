@@ -28,6 +28,11 @@ inline std::string padded_left(const std::string& text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
 }
 
+// `12 %`, two digits.
+inline std::string percent(double share) {
+  return remap::number_text(remap::rounded(100.0 * share, 2)) + " %";
+}
+
 // `0.1, 0.2`.
 inline std::string listed(const std::vector<double>& values) {
   std::string text;

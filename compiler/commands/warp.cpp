@@ -12,7 +12,7 @@
 #include "error.hpp"
 #include "files.hpp"
 #include "model/fit_json.hpp"
-#include "number_text.hpp"
+#include "report_text.hpp"
 #include "version.hpp"
 #include "warp/stroke_masks.hpp"
 
@@ -49,7 +49,7 @@ std::vector<StrokePair> strokes_of(const WarpCommand& command, const TextureMate
 WarpOptions options_of(const WarpCommand& command) {
   WarpOptions options;
   options.method = *method_from_name(command.method);
-  options.distance = command.distance == "plain" ? AppearanceDistance::kPlain : AppearanceDistance::kRelative;
+  options.distance = *distance_from_name(command.distance);
   options.dimensions = command.dimensions;
   return options;
 }
@@ -90,8 +90,6 @@ nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
           {"source_texels_left_out", found.source_left_out},
           {"template_texels_left_out", found.target_left_out}};
 }
-
-std::string percent(double share) { return remap::number_text(remap::rounded(100.0 * share, 2)) + " %"; }
 
 void run(const WarpCommand& command) {
   const TextureMaterial source = read_texture_material(command.source, command.source_model);
@@ -146,7 +144,7 @@ void add_warp_command(CLI::App& app) {
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
   command->add_option("--distance", options->distance, "How reflectances are compared")
-      ->check(CLI::IsMember({"relative", "plain"}))
+      ->check(CLI::IsMember(distance_names()))
       ->capture_default_str();
   command
       ->add_option("--dimensions", options->dimensions,

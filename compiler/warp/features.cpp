@@ -83,6 +83,10 @@ Eigen::VectorXd weights_of(const std::vector<QuadratureDirection>& directions,
 }  // namespace
 
 std::string_view distance_name(AppearanceDistance distance) { return remap::name_of(kDistances, distance); }
+std::optional<AppearanceDistance> distance_from_name(std::string_view name) {
+  return remap::value_named(kDistances, name);
+}
+std::vector<std::string> distance_names() { return remap::names_of(kDistances); }
 
 WidthPosition width_position(double alpha) noexcept {
   static const double start = std::log(kLeastWidth), length = std::log(kLargestWidth) - start;

@@ -2,6 +2,7 @@
 // from.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ enum class AppearanceDistance { kRelative, kPlain };
 
 // `relative`, `plain`; empty for other values.
 std::string_view distance_name(AppearanceDistance distance);
+std::optional<AppearanceDistance> distance_from_name(std::string_view name);
+std::vector<std::string> distance_names();
 
 inline constexpr std::size_t kWidthNodes = 64;  // even in log(alpha) between these
 inline constexpr double kLeastWidth = 0.04, kLargestWidth = 1.0;

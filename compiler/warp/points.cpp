@@ -16,12 +16,8 @@ constexpr double kCoarsest = 20.0, kFinest = 120.0;  // bins along the largest e
 double largest_extent(const Points& positions) {
   double extent = 0.0;
   for (Eigen::Index k = 0; k < positions.cols(); ++k) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-      low = std::min(low, positions(i, k));  // NaN leaves both
-      high = std::max(high, positions(i, k));
-    }
-    extent = std::max(extent, high - low);
+    const Extent own = extent_of(positions, k);
+    extent = std::max(extent, own.high - own.low);
   }
   return extent;
 }
@@ -54,6 +50,17 @@ int nearest_point(const Points& points, const Eigen::RowVectorXd& position) {
   return static_cast<int>(nearest);
 }
 
+}  // namespace
+
+Extent extent_of(const Points& positions, Eigen::Index axis) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (Eigen::Index i = 0; i < positions.rows(); ++i) {
+    low = std::min(low, positions(i, axis));  // NaN leaves both
+    high = std::max(high, positions(i, axis));
+  }
+  return {low, high};
+}
+
 Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uint32_t>& texels) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(positions.cols());
   double count = 0.0;
@@ -66,18 +73,12 @@ Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uin
   return sum / std::max(count, 1.0);
 }
 
-}  // namespace
-
 BinGrid::BinGrid(const Points& positions, double spacing) : dimension_(positions.cols()), spacing_(spacing) {
   for (Eigen::Index k = 0; k < dimension_; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-      low = std::min(low, positions(i, k));
-      high = std::max(high, positions(i, k));
-    }
-    low_[axis] = low;
-    cells_[axis] = static_cast<long>((high - low) / spacing) + 1;
+    const Extent extent = extent_of(positions, k);
+    low_[axis] = extent.low;
+    cells_[axis] = static_cast<long>((extent.high - extent.low) / spacing) + 1;
     size_ *= static_cast<std::size_t>(cells_[axis]);
   }
 }

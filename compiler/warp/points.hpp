@@ -2,11 +2,21 @@
 // as much as a frequent one (An et al. 2011, section 3.2).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "warp/coordinates.hpp"
 
 namespace remapc {
+
+// The least and the largest coordinate along an axis; NaN takes no part.
+struct Extent {
+  double low = 0.0, high = 0.0;
+};
+Extent extent_of(const Points& positions, Eigen::Index axis);
+
+// The mean position of these texels; those that are not finite take no part. None left: the origin.
+Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uint32_t>& texels);
 
 struct Occupancy {
   Points points;                          // centroids of the bins that hold four texels or more

@@ -75,16 +75,8 @@ Eigen::MatrixXd common_axes(const AppearanceSpace& source, const AppearanceSpace
 
 Points stroke_centres(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes) {
   Points centres = Points::Zero(static_cast<Eigen::Index>(strokes.size()), positions.cols());
-  for (std::size_t k = 0; k < strokes.size(); ++k) {
-    double count = 0.0;
-    for (const std::uint32_t texel : strokes[k]) {
-      const Eigen::RowVectorXd position = positions.row(static_cast<Eigen::Index>(texel));
-      if (!position.allFinite()) continue;
-      centres.row(static_cast<Eigen::Index>(k)) += position;
-      count += 1.0;
-    }
-    centres.row(static_cast<Eigen::Index>(k)) /= std::max(count, 1.0);
-  }
+  for (std::size_t k = 0; k < strokes.size(); ++k)
+    centres.row(static_cast<Eigen::Index>(k)) = centre_of(positions, strokes[k]);
   return centres;
 }
 

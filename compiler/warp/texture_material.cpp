@@ -31,51 +31,37 @@ remap::FoundSet only_set(const fs::path& folder) {
   return found.sets[0];
 }
 
-std::vector<std::string> channel_names(remap::Channels channels) {
-  using remap::Channels;
-  if (channels == Channels::kWhole) return {};
-  if (channels == Channels::kRgb) return {"R", "G", "B"};
-  return {std::string(channels_name(channels))};
-}
-
-std::optional<remap::RoughnessConvention> convention_of(Role role) {
-  if (role == Role::kGlossiness) return remap::RoughnessConvention::kGlossiness;
-  if (role == Role::kAlphaWidth) return remap::RoughnessConvention::kAlpha;
-  return remap::RoughnessConvention::kRoughness;
-}
-
-// Puts the map of the first role that the set has into the request; false where it has none.
-bool add_map(const remap::FoundSet& set, const fs::path& root, Parameter parameter,
-             const std::vector<Role>& roles, remap::TextureSetRequest& request) {
-  for (const Role role : roles)
-    for (const auto* maps : {&set.maps, &set.bystanders})
-      for (const remap::FoundMap& map : *maps)
-        for (const remap::ChannelMeaning& entry : map.meaning) {
-          if (entry.role != role) continue;
-          request.parameters[parameter].source =
-              remap::MapName{root / map.path, channel_names(entry.channels)};
-          if (parameter == Parameter::kWidth) request.convention = convention_of(role);
-          return true;
-        }
-  return false;
+// Puts the first map whose role is wanted into the request; false where the set has none.
+bool add_map(const remap::FoundSet& set, const fs::path& root, Parameter parameter, bool (*wanted)(Role),
+             remap::TextureSetRequest& request) {
+  const std::vector<remap::MapUse> found = remap::uses(set, wanted);
+  if (found.empty()) return false;
+  const remap::MapUse& use = found.front();
+  request.parameters[parameter].source =
+      remap::MapName{root / map_of(set, use).path, remap::channel_names(use.channels)};
+  if (parameter == Parameter::kWidth)
+    request.convention = remap::convention_of(use.role).value_or(remap::RoughnessConvention::kRoughness);
+  return true;
 }
 
 // What the set has: maps of the specular workflow, else of the metallic one.
 remap::TextureSetRequest request_of(const fs::path& folder, bool* is_metallic) {
   const remap::FoundSet set = only_set(folder);
   remap::TextureSetRequest request;
-  const auto add = [&](Parameter parameter, const std::vector<Role>& roles) {
-    return add_map(set, folder, parameter, roles, request);
+  const auto add = [&](Parameter parameter, bool (*wanted)(Role)) {
+    return add_map(set, folder, parameter, wanted, request);
   };
-  if (!add(Parameter::kWidth, {Role::kRoughness, Role::kGlossiness, Role::kAlphaWidth}))
+  const auto is_diffuse = [](Role role) { return role == Role::kDiffuse; };
+  const auto is_base_color = [](Role role) { return role == Role::kBaseColor; };
+  if (!add(Parameter::kWidth, remap::tells_width))
     throw Error(ErrorKind::kInput, folder.string() + ": has no roughness map; expected one");
   *is_metallic = false;
-  if (add(Parameter::kSpecular, {Role::kSpecular})) {
-    if (add(Parameter::kDiffuse, {Role::kDiffuse, Role::kBaseColor})) return request;
+  if (add(Parameter::kSpecular, [](Role role) { return role == Role::kSpecular; })) {
+    if (add(Parameter::kDiffuse, is_diffuse) || add(Parameter::kDiffuse, is_base_color)) return request;
     throw Error(ErrorKind::kInput, folder.string() + ": has no diffuse map; expected one beside specular");
   }
-  *is_metallic = add(Parameter::kMetallic, {Role::kMetallic}) &&
-                 add(Parameter::kBaseColor, {Role::kBaseColor, Role::kDiffuse});
+  *is_metallic = add(Parameter::kMetallic, [](Role role) { return role == Role::kMetallic; }) &&
+                 (add(Parameter::kBaseColor, is_base_color) || add(Parameter::kBaseColor, is_diffuse));
   if (!*is_metallic)
     throw Error(ErrorKind::kInput,
                 folder.string() +

@@ -7,7 +7,7 @@
 
 #include "error.hpp"
 #include "named_values.hpp"
-#include "number_text.hpp"
+#include "report_text.hpp"
 #include "warp/warp_table.hpp"
 
 namespace remapc {
@@ -122,8 +122,6 @@ void require_options(const WarpOptions& options) {
   if (options.nodes == 1 || options.nodes > 1024)
     throw Error(ErrorKind::kUsage, "nodes: " + std::to_string(options.nodes) + "; expected 2 to 1024");
 }
-
-std::string percent(double share) { return remap::number_text(remap::rounded(100.0 * share, 2)) + " %"; }
 
 }  // namespace
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <type_traits>
+
+#include "warp/points.hpp"
 
 namespace remapc {
 namespace {
@@ -15,11 +17,7 @@ struct Box {
 Box box_of(const Points& positions) {
   Box box;
   for (Eigen::Index k = 0; k < positions.cols(); ++k) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-      low = std::min(low, positions(i, k));  // NaN leaves both
-      high = std::max(high, positions(i, k));
-    }
+    const auto [low, high] = extent_of(positions, k);
     // A material without width along an axis has a table all the same.
     const double margin = std::max(1e-3 - 0.5 * (high - low), 0.0);
     box.low.push_back(static_cast<float>(low - margin));

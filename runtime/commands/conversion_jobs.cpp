@@ -12,19 +12,6 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-std::vector<std::string> channel_names(Channels channels) {
-  if (channels == Channels::kWhole) return {};
-  if (channels == Channels::kRgb) return {"R", "G", "B"};
-  return {std::string(channels_name(channels))};
-}
-
-// What a map of this role holds; none: what the model calls roughness.
-std::optional<RoughnessConvention> convention_of(Role role) {
-  if (role == Role::kGlossiness) return RoughnessConvention::kGlossiness;
-  if (role == Role::kAlphaWidth) return RoughnessConvention::kAlpha;
-  return std::nullopt;
-}
-
 // The file of `map` for a tile; a map that is one file serves every tile. None where the tile is missing.
 std::optional<fs::path> file_of(const FoundMap& map, int tile) {
   if (map.tiles.empty()) return map.path;

@@ -31,9 +31,9 @@ std::string material_text(const ChosenConverter& chosen) {
   };
   std::string text = end_text(*workflow.source) + " to " + end_text(*workflow.target);
   if (workflow.is_to_metallic()) text += " by " + std::string(formula_name(workflow.formula));
-  for (const std::string& step : chosen.info().steps)
-    if (chosen.path.steps.empty()) text += " by " + step;
-  if (chosen.brdf != nullptr)
+  if (chosen.brdf == nullptr)
+    for (const std::string& step : chosen.info().steps) text += " by " + step;  // a warp
+  else
     text += ", " + models_text(chosen.path) + " (expected error " +
             expected_text(chosen.path.expected_error) + ")";
   return text;

@@ -162,6 +162,18 @@ const FoundMap& map_of(const FoundSet& set, const MapUse& use) {
   return use.map < set.maps.size() ? set.maps[use.map] : set.bystanders[use.map - set.maps.size()];
 }
 
+std::vector<std::string> channel_names(Channels channels) {
+  if (channels == Channels::kWhole) return {};
+  if (channels == Channels::kRgb) return {"R", "G", "B"};
+  return {std::string(channels_name(channels))};
+}
+
+std::optional<RoughnessConvention> convention_of(Role role) {
+  if (role == Role::kGlossiness) return RoughnessConvention::kGlossiness;
+  if (role == Role::kAlphaWidth) return RoughnessConvention::kAlpha;
+  return std::nullopt;
+}
+
 std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what) {
   std::string text;
   for (const MapUse& use : found) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "model/convention.hpp"
 #include "sets/folder_walk.hpp"
 #include "sets/naming.hpp"
 #include "sets/tiles.hpp"
@@ -52,6 +53,10 @@ struct FoundSet {
 // Every place in the maps and bystanders of a set that holds a role which `wanted` accepts.
 std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
 const FoundMap& map_of(const FoundSet& set, const MapUse& use);
+// The channels of an image as requests name them; none: all of it.
+std::vector<std::string> channel_names(Channels channels);
+// What a map of this role holds; none: what the model calls roughness.
+std::optional<RoughnessConvention> convention_of(Role role);
 // `2 maps for specular: a_spec.png (specular), a_orm.png (specular in R); expected one`.
 std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what);
 
