@@ -78,9 +78,10 @@ remap::AppearanceCoordinates closed_form(const AppearanceSpace& space, const Sep
   result.dimension = static_cast<std::size_t>(dimension);
   result.least_alpha = static_cast<float>(kLeastWidth);
   result.largest_alpha = static_cast<float>(kLargestWidth);
-  result.specular.resize(kWidthNodes * result.dimension * 3);
-  result.offset.resize(kWidthNodes * result.dimension);
-  result.diffuse.resize(result.dimension * 3);
+  remap::SeparableTerms terms;
+  terms.specular.resize(kWidthNodes * result.dimension * 3);
+  terms.offset.resize(kWidthNodes * result.dimension);
+  terms.diffuse.resize(result.dimension * 3);
   for (std::size_t k = 0; k < result.dimension; ++k) {
     const Eigen::VectorXd axis = space.axes.col(static_cast<Eigen::Index>(k)) / space.radius;
     const auto channel = [&](std::size_t c) {
@@ -88,16 +89,17 @@ remap::AppearanceCoordinates closed_form(const AppearanceSpace& space, const Sep
     };
     const Eigen::VectorXd all_channels = channel(0) + channel(1) + channel(2);
     for (std::size_t c = 0; c < 3; ++c)
-      result.diffuse[3 * k + c] = static_cast<float>(channel(c).dot(features.diffuse));
+      terms.diffuse[3 * k + c] = static_cast<float>(channel(c).dot(features.diffuse));
     for (std::size_t node = 0; node < kWidthNodes; ++node) {
       const auto column = static_cast<Eigen::Index>(node);
       const std::size_t place = node * result.dimension + k;
-      result.offset[place] =
+      terms.offset[place] =
           static_cast<float>(all_channels.dot(features.base.col(column)) - axis.dot(space.mean));
       for (std::size_t c = 0; c < 3; ++c)
-        result.specular[3 * place + c] = static_cast<float>(channel(c).dot(features.slope.col(column)));
+        terms.specular[3 * place + c] = static_cast<float>(channel(c).dot(features.slope.col(column)));
     }
   }
+  result.terms = std::move(terms);
   return result;
 }
 

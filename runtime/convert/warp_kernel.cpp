@@ -79,8 +79,9 @@ REMAP_WARP_KERNEL(convert_avx512, REMAP_FOR_AVX512)
 
 PackedWarp packed(const CompiledWarp& warp) {
   const AppearanceCoordinates& space = warp.coordinates;
+  const auto& terms = std::get<SeparableTerms>(space.terms);
   const ParameterTable& table = warp.table;
-  const std::size_t n = space.dimension, width_nodes = space.node_count();
+  const std::size_t n = space.dimension, width_nodes = width_node_count(space, terms);
   PackedWarp result;
   result.dimension = n;
   result.width_nodes = width_nodes;
@@ -89,10 +90,10 @@ PackedWarp packed(const CompiledWarp& warp) {
   result.largest_alpha = space.largest_alpha;
   result.diffuse.resize(4 * n);
   result.specular.resize(width_nodes * n * 4);
-  for (std::size_t k = 0; k < n; ++k) std::copy_n(&space.diffuse[3 * k], 3, &result.diffuse[4 * k]);
+  for (std::size_t k = 0; k < n; ++k) std::copy_n(&terms.diffuse[3 * k], 3, &result.diffuse[4 * k]);
   for (std::size_t i = 0; i < width_nodes * n; ++i) {
-    std::copy_n(&space.specular[3 * i], 3, &result.specular[4 * i]);
-    result.specular[4 * i + 3] = space.offset[i];
+    std::copy_n(&terms.specular[3 * i], 3, &result.specular[4 * i]);
+    result.specular[4 * i + 3] = terms.offset[i];
   }
   const std::size_t entries = table.codes.size() / kWarpParameters;
   result.entries.resize(entries * code::kWarpLanes);

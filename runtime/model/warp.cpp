@@ -21,12 +21,11 @@ NodePosition position_of(double place, std::size_t count) noexcept {
   return {first, held - static_cast<double>(first)};
 }
 
-NodePosition width_position(const AppearanceCoordinates& space, float alpha) noexcept {
-  const double held = std::clamp(alpha, space.least_alpha, space.largest_alpha);
-  const double start = std::log(static_cast<double>(space.least_alpha));
-  const double length = std::log(static_cast<double>(space.largest_alpha)) - start;
-  return position_of((std::log(held) - start) / length * static_cast<double>(space.node_count() - 1),
-                     space.node_count());
+// From 0 at the least alpha to 1 at the largest one.
+double width_share(const AppearanceCoordinates& space, float alpha) noexcept {
+  const double least = static_cast<double>(space.least_alpha);
+  const double held = static_cast<double>(std::clamp(alpha, space.least_alpha, space.largest_alpha));
+  return std::log(held / least) / std::log(static_cast<double>(space.largest_alpha) / least);
 }
 
 double held_reflectance(float value) noexcept { return std::clamp(static_cast<double>(value), 0.0, 1.0); }
@@ -49,6 +48,60 @@ void require(bool holds, const std::string& place, const char* found_and_expecte
   if (!holds) throw Error(ErrorKind::kInput, place + ": " + found_and_expected);
 }
 
+using Position = std::array<double, kLargestWarpDimension>;
+
+Position position_by(const AppearanceCoordinates& space, const SeparableTerms& terms,
+                     const WarpTexel& texel) noexcept {
+  const std::size_t n = space.dimension, nodes = width_node_count(space, terms);
+  const NodePosition node = position_of(width_share(space, texel[6]) * static_cast<double>(nodes - 1), nodes);
+  const float* specular = terms.specular.data() + node.first * n * 3;
+  const float* offset = terms.offset.data() + node.first * n;
+  const auto between = [&](const float* value, std::size_t stride) {
+    const double first = static_cast<double>(value[0]), second = static_cast<double>(value[stride]);
+    return first + node.fraction * (second - first);
+  };
+  Position position{};
+  for (std::size_t k = 0; k < n; ++k) {
+    position[k] = between(offset + k, n);
+    for (std::size_t c = 0; c < 3; ++c)
+      position[k] += held_reflectance(texel[c]) * static_cast<double>(terms.diffuse[3 * k + c]) +
+                     held_reflectance(texel[3 + c]) * between(specular + 3 * k + c, 3 * n);
+  }
+  return position;
+}
+
+Position position_by(const AppearanceCoordinates& space, const QuadraticTerms& quadratic,
+                     const WarpTexel& texel) noexcept {
+  const auto terms = quadratic_terms(space, texel);
+  Position position{};
+  for (std::size_t k = 0; k < space.dimension; ++k)
+    for (std::size_t t = 0; t < terms.size(); ++t)
+      position[k] += static_cast<double>(quadratic.weights[k * kQuadraticTerms + t]) * terms[t];
+  return position;
+}
+
+std::size_t number_count(const SeparableTerms& terms) noexcept {
+  return terms.diffuse.size() + terms.specular.size() + terms.offset.size();
+}
+std::size_t number_count(const QuadraticTerms& terms) noexcept { return terms.weights.size(); }
+
+void require_terms(const AppearanceCoordinates& space, const SeparableTerms& terms,
+                   const std::string& place) {
+  const std::size_t n = space.dimension, nodes = width_node_count(space, terms);
+  require(terms.diffuse.size() == 3 * n && all_finite(terms.diffuse), place,
+          "other weights of diffuse; expected three finite numbers a dimension");
+  require(nodes >= 2 && terms.offset.size() == n * nodes && all_finite(terms.offset), place,
+          "other offsets; expected a finite number a node and dimension, for two nodes or more");
+  require(terms.specular.size() == 3 * terms.offset.size() && all_finite(terms.specular), place,
+          "other weights of specular; expected three finite numbers a node and dimension");
+}
+
+void require_terms(const AppearanceCoordinates& space, const QuadraticTerms& terms,
+                   const std::string& place) {
+  require(terms.weights.size() == space.dimension * kQuadraticTerms && all_finite(terms.weights), place,
+          "other weights of quadratic terms; expected 36 finite numbers a dimension");
+}
+
 }  // namespace
 
 std::array<double, kLargestWarpDimension> coordinates_of(const AppearanceCoordinates& space,
@@ -59,20 +112,26 @@ std::array<double, kLargestWarpDimension> coordinates_of(const AppearanceCoordin
     std::fill_n(position.begin(), n, std::numeric_limits<double>::quiet_NaN());
     return position;
   }
-  const NodePosition node = width_position(space, texel[6]);
-  const float* specular = space.specular.data() + node.first * n * 3;
-  const float* offset = space.offset.data() + node.first * n;
-  const auto between = [&](const float* value, std::size_t stride) {
-    const double first = static_cast<double>(value[0]), second = static_cast<double>(value[stride]);
-    return first + node.fraction * (second - first);
-  };
-  for (std::size_t k = 0; k < n; ++k) {
-    position[k] = between(offset + k, n);
-    for (std::size_t c = 0; c < 3; ++c)
-      position[k] += held_reflectance(texel[c]) * static_cast<double>(space.diffuse[3 * k + c]) +
-                     held_reflectance(texel[3 + c]) * between(specular + 3 * k + c, 3 * n);
-  }
+  std::visit([&](const auto& terms) { position = position_by(space, terms, texel); }, space.terms);
   return position;
+}
+
+std::size_t width_node_count(const AppearanceCoordinates& space, const SeparableTerms& terms) noexcept {
+  return space.dimension == 0 ? 0 : terms.offset.size() / space.dimension;
+}
+
+std::array<double, kQuadraticTerms> quadratic_terms(const AppearanceCoordinates& space,
+                                                    const WarpTexel& texel) noexcept {
+  std::array<double, kWarpParameters> u{};
+  for (std::size_t i = 0; i < 6; ++i) u[i] = std::cbrt(held_reflectance(texel[i]));
+  u[6] = width_share(space, texel[6]);
+  std::array<double, kQuadraticTerms> terms{};
+  terms[0] = 1.0;
+  std::copy(u.begin(), u.end(), terms.begin() + 1);
+  std::size_t next = 1 + u.size();
+  for (std::size_t i = 0; i < u.size(); ++i)
+    for (std::size_t j = i; j < u.size(); ++j) terms[next++] = u[i] * u[j];
+  return terms;
 }
 
 float decoded(const ParameterTable& table, std::size_t parameter, std::uint8_t code) noexcept {
@@ -113,8 +172,8 @@ WarpTexel evaluate_warp(const CompiledWarp& warp, const WarpTexel& texel) noexce
 
 std::size_t byte_count(const CompiledWarp& warp) noexcept {
   const AppearanceCoordinates& space = warp.coordinates;
-  const std::size_t floats = space.diffuse.size() + space.specular.size() + space.offset.size() +
-                             warp.table.low.size() + warp.table.high.size() + 2 * kWarpParameters + 2;
+  const std::size_t terms = std::visit([](const auto& kind) { return number_count(kind); }, space.terms);
+  const std::size_t floats = terms + warp.table.low.size() + warp.table.high.size() + 2 * kWarpParameters + 2;
   return floats * sizeof(float) + warp.table.codes.size();
 }
 
@@ -125,13 +184,7 @@ void require_valid(const CompiledWarp& warp, const std::string& place) {
   require(n >= 1 && n <= kLargestWarpDimension, place, "another number of dimensions; expected 1 to 3");
   require(space.least_alpha > 0.0f && space.largest_alpha > space.least_alpha && space.largest_alpha <= 1.0f,
           place, "an empty range of alpha; expected one within 0 and 1");
-  require(space.diffuse.size() == 3 * n && all_finite(space.diffuse), place,
-          "other weights of diffuse; expected three finite numbers a dimension");
-  require(
-      space.node_count() >= 2 && space.offset.size() == n * space.node_count() && all_finite(space.offset),
-      place, "other offsets; expected a finite number a node and dimension, for two nodes or more");
-  require(space.specular.size() == 3 * space.offset.size() && all_finite(space.specular), place,
-          "other weights of specular; expected three finite numbers a node and dimension");
+  std::visit([&](const auto& terms) { require_terms(space, terms, place); }, space.terms);
   require(table.low.size() == n && table.high.size() == n && all_finite(table.low) && all_finite(table.high),
           place, "another box of coordinates; expected two finite corners");
   for (std::size_t k = 0; k < n; ++k)

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 namespace remap {
@@ -19,23 +20,45 @@ inline constexpr std::size_t kWarpParameters = std::tuple_size_v<WarpTexel>;
 
 inline constexpr std::size_t kLargestWarpDimension = 3;
 
-// Where a reflectance lies in the appearance space of its material. A lobe whose specular parameter enters
-// linearly, rho = d / pi + s slope(alpha) + base(alpha), has principal coordinates (An et al. 2011, section
-// 3, by distances)
+// Closed form. A lobe whose specular parameter enters linearly, rho = d / pi + s slope(alpha) + base(alpha),
+// has principal coordinates (An et al. 2011, section 3, by distances that are quadratic in rho)
 //   x_k = sum_c d_c diffuse[k][c] + s_c specular[k][c](alpha) + offset[k](alpha)
-// where the functions of alpha are straight lines between nodes even in log(alpha); reflectances are held
-// within 0 and 1. Unit: the RMS distance of the material's texels from their mean.
-struct AppearanceCoordinates {
-  std::size_t dimension = 0;    // 1 to 3
-  float least_alpha = 0.0f;     // of the first node, above 0; alpha is held in between
-  float largest_alpha = 0.0f;   // of the last one
+// where the functions of alpha are straight lines between nodes even in log(alpha).
+struct SeparableTerms {
   std::vector<float> diffuse;   // dimension x 3
   std::vector<float> specular;  // nodes x dimension x 3, at least two nodes
   std::vector<float> offset;    // nodes x dimension
 
-  std::size_t node_count() const noexcept { return dimension == 0 ? 0 : offset.size() / dimension; }
+  bool operator==(const SeparableTerms&) const = default;
+};
+
+// Fitted, for any other distance: quadratic in u = (cube roots of diffuse and of specular reflectance, and
+// log(alpha / least) / log(largest / least)). The 36 terms are 1, u_0 to u_6, and u_i u_j for i <= j, in the
+// order of i, then j.
+struct QuadraticTerms {
+  std::vector<float> weights;  // dimension x 36
+
+  bool operator==(const QuadraticTerms&) const = default;
+};
+inline constexpr std::size_t kQuadraticTerms = 36;
+
+// Where a reflectance lies in the appearance space of its material; reflectances are held within 0 and 1,
+// alpha within its range. Unit: the RMS distance of the material's texels from their mean.
+struct AppearanceCoordinates {
+  std::size_t dimension = 0;   // 1 to 3
+  float least_alpha = 0.0f;    // above 0
+  float largest_alpha = 0.0f;  // at most 1
+  std::variant<SeparableTerms, QuadraticTerms> terms;
+
   bool operator==(const AppearanceCoordinates&) const = default;
 };
+
+// Nodes of alpha.
+std::size_t width_node_count(const AppearanceCoordinates& space, const SeparableTerms& terms) noexcept;
+
+// The 36 terms of a texel whose values are in range.
+std::array<double, kQuadraticTerms> quadratic_terms(const AppearanceCoordinates& space,
+                                                    const WarpTexel& texel) noexcept;
 
 // Parameters of the template over a box of the source's coordinates, multilinear in between, held at its
 // faces beyond.

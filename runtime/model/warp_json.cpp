@@ -12,6 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kSeparable = "separable";
+constexpr const char* kQuadratic = "quadratic";
+
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
@@ -72,9 +75,13 @@ CompiledWarp read_compiled(const Field& mapping) {
   warp.coordinates.dimension = static_cast<std::size_t>(space["dimension"].count());
   warp.coordinates.least_alpha = static_cast<float>(space["alpha"].at(0, 2).number());
   warp.coordinates.largest_alpha = static_cast<float>(space["alpha"].at(1, 2).number());
-  warp.coordinates.diffuse = read_floats(space["diffuse"]);
-  warp.coordinates.specular = read_floats(space["specular"]);
-  warp.coordinates.offset = read_floats(space["offset"]);
+  const std::string kind = space["kind"].text();
+  space["kind"].require(kind == kSeparable || kind == kQuadratic, "separable or quadratic");
+  if (kind == kQuadratic)
+    warp.coordinates.terms = QuadraticTerms{read_floats(space["weights"])};
+  else
+    warp.coordinates.terms = SeparableTerms{read_floats(space["diffuse"]), read_floats(space["specular"]),
+                                            read_floats(space["offset"])};
   warp.table.nodes = static_cast<std::size_t>(table["nodes"].count());
   warp.table.low = read_floats(table["low"]);
   warp.table.high = read_floats(table["high"]);
@@ -82,6 +89,24 @@ CompiledWarp read_compiled(const Field& mapping) {
   warp.table.largest = read_parameters(table["largest"]);
   warp.table.codes = read_base64(table["codes"]);
   return warp;
+}
+
+void add_terms(Json& json, const SeparableTerms& terms) {
+  json["kind"] = kSeparable;
+  json["diffuse"] = floats_json(terms.diffuse);
+  json["specular"] = floats_json(terms.specular);
+  json["offset"] = floats_json(terms.offset);
+}
+void add_terms(Json& json, const QuadraticTerms& terms) {
+  json["kind"] = kQuadratic;
+  json["weights"] = floats_json(terms.weights);
+}
+
+Json coordinates_json(const AppearanceCoordinates& space) {
+  Json json = {{"dimension", space.dimension},
+               {"alpha", floats_json(std::array{space.least_alpha, space.largest_alpha})}};
+  std::visit([&](const auto& terms) { add_terms(json, terms); }, space.terms);
+  return json;
 }
 
 std::string read_warp_model(const Field& side) {
@@ -94,7 +119,6 @@ std::string read_warp_model(const Field& side) {
 
 std::string fit_to_json(const WarpMapFit& fit) {
   require_valid(fit.warp, fit.id);
-  const AppearanceCoordinates& space = fit.warp.coordinates;
   const ParameterTable& table = fit.warp.table;
   const auto side = [](const std::string& model) {
     return Json{{"model", model}, {"workflow", "specular"}, {"diffuse", "plain"}, {"roughness", "alpha"}};
@@ -106,12 +130,7 @@ std::string fit_to_json(const WarpMapFit& fit) {
                      {"target", side(fit.template_model)},
                      {"mapping",
                       {{"kind", kWarpKind},
-                       {"coordinates",
-                        {{"dimension", space.dimension},
-                         {"alpha", floats_json(std::array{space.least_alpha, space.largest_alpha})},
-                         {"diffuse", floats_json(space.diffuse)},
-                         {"specular", floats_json(space.specular)},
-                         {"offset", floats_json(space.offset)}}},
+                       {"coordinates", coordinates_json(fit.warp.coordinates)},
                        {"table",
                         {{"nodes", table.nodes},
                          {"low", floats_json(table.low)},

@@ -18,9 +18,11 @@ inline CompiledWarp random_warp(std::size_t dimension, unsigned seed, std::size_
   space.least_alpha = 0.04f;
   space.largest_alpha = 1.0f;
   constexpr std::size_t kNodes = 16;
-  for (std::size_t i = 0; i < 3 * dimension; ++i) space.diffuse.push_back(number(-2.0f, 2.0f));
-  for (std::size_t i = 0; i < 3 * dimension * kNodes; ++i) space.specular.push_back(number(-2.0f, 2.0f));
-  for (std::size_t i = 0; i < dimension * kNodes; ++i) space.offset.push_back(number(-1.0f, 1.0f));
+  SeparableTerms terms;
+  for (std::size_t i = 0; i < 3 * dimension; ++i) terms.diffuse.push_back(number(-2.0f, 2.0f));
+  for (std::size_t i = 0; i < 3 * dimension * kNodes; ++i) terms.specular.push_back(number(-2.0f, 2.0f));
+  for (std::size_t i = 0; i < dimension * kNodes; ++i) terms.offset.push_back(number(-1.0f, 1.0f));
+  space.terms = std::move(terms);
   ParameterTable& table = warp.table;
   table.nodes = nodes;
   std::size_t entries = 1;
