@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 
 #include "error.hpp"
+#include "warp/sampled_features.hpp"
 
 namespace remapc {
 namespace {
@@ -15,16 +18,10 @@ using remap::ErrorKind;
 
 constexpr std::size_t kSampledTexels = 16384;
 constexpr std::size_t kStressPairs = 4096;
+constexpr std::size_t kFittedTexels = 8192;
+constexpr double kFitRidge = 1e-9;  // of the mean square of the terms
 constexpr double kStressGoal = 0.03;
 constexpr double kLeastRadius = 1e-3;
-
-Eigen::MatrixXd feature_columns(const std::vector<remap::WarpTexel>& texels,
-                                const SeparableFeatures& features) {
-  Eigen::MatrixXd columns(3 * kFeatureBasis, static_cast<Eigen::Index>(texels.size()));
-  for (std::size_t i = 0; i < texels.size(); ++i)
-    columns.col(static_cast<Eigen::Index>(i)) = features_of(features, texels[i]);
-  return columns;
-}
 
 // `columns`: centred features.
 std::array<double, 3> stress_of(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& axes) {
@@ -46,10 +43,43 @@ std::array<double, 3> stress_of(const Eigen::MatrixXd& columns, const Eigen::Mat
   return error;
 }
 
+// Positions of texels that take part, by the features themselves.
+Points projected(const AppearanceSpace& space, const Eigen::MatrixXd& columns, int dimension) {
+  return (columns.colwise() - space.mean).transpose() * space.axes.leftCols(dimension) / space.radius;
+}
+
+// Least squares over the 36 terms of texels, drawn to small weights.
+Placement fitted(const WarpMaterial& material, const AppearanceFeatures& features,
+                 const AppearanceSpace& space, int dimension) {
+  const std::vector<std::uint32_t> texels = sample_texels(material, kFittedTexels);
+  const Points goal = projected(space, feature_columns(features, material, texels), dimension);
+  remap::AppearanceCoordinates result;
+  result.dimension = static_cast<std::size_t>(dimension);
+  result.least_alpha = static_cast<float>(kLeastWidth);
+  result.largest_alpha = static_cast<float>(kLargestWidth);
+  constexpr auto kTerms = static_cast<Eigen::Index>(remap::kQuadraticTerms);
+  Eigen::MatrixXd design(goal.rows(), kTerms);
+  for (Eigen::Index i = 0; i < design.rows(); ++i) {
+    const auto terms = quadratic_terms(result, held(material.texels[texels[static_cast<std::size_t>(i)]]));
+    design.row(i) = Eigen::Map<const Eigen::RowVectorXd>(terms.data(), kTerms);
+  }
+  Eigen::MatrixXd left = design.transpose() * design;
+  left.diagonal().array() += kFitRidge * left.trace() / static_cast<double>(kTerms);
+  const Eigen::MatrixXd weights = left.ldlt().solve(design.transpose() * goal);
+  remap::QuadraticTerms terms;
+  for (Eigen::Index k = 0; k < dimension; ++k)
+    for (Eigen::Index t = 0; t < kTerms; ++t) terms.weights.push_back(static_cast<float>(weights(t, k)));
+  result.terms = std::move(terms);
+  Placement placement;
+  placement.fit_error = std::sqrt((design * weights - goal).rowwise().squaredNorm().mean());
+  placement.coordinates = std::move(result);
+  return placement;
+}
+
 }  // namespace
 
-AppearanceSpace appearance_space(const WarpMaterial& material, const SeparableFeatures& features) {
-  Eigen::MatrixXd columns = feature_columns(sample_texels(material, kSampledTexels), features);
+AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFeatures& features) {
+  Eigen::MatrixXd columns = feature_columns(features, material, sample_texels(material, kSampledTexels));
   const auto count = static_cast<double>(columns.cols());
   AppearanceSpace space;
   space.mean = columns.rowwise().mean();
@@ -57,11 +87,14 @@ AppearanceSpace appearance_space(const WarpMaterial& material, const SeparableFe
   const Eigen::MatrixXd covariance = columns * columns.transpose() / count;
   space.radius = std::sqrt(covariance.trace());
   if (!(space.radius > kLeastRadius * space.mean.norm()))
-    throw Error(ErrorKind::kInput, material.name +
+    throw Error(ErrorKind::kInput, material.name() +
                                        ": all texels look alike; expected a material with at least two "
                                        "appearances (of one appearance there is nothing to warp)");
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-  space.axes = solver.eigenvectors().rightCols(3).rowwise().reverse();
+  // Of fewer features than three the further axes are none.
+  const Eigen::Index found = std::min<Eigen::Index>(3, columns.rows());
+  space.axes = Eigen::MatrixXd::Zero(columns.rows(), 3);
+  space.axes.leftCols(found) = solver.eigenvectors().rightCols(found).rowwise().reverse();
   space.stress = stress_of(columns, space.axes);
   return space;
 }
@@ -113,6 +146,54 @@ Points positions_of(const remap::AppearanceCoordinates& coordinates,
       positions(static_cast<Eigen::Index>(i), k) = position[static_cast<std::size_t>(k)];
   }
   return positions;
+}
+
+Placement placement_of(const MaterialRef& material, const AppearanceFeatures& features,
+                       const AppearanceSpace& space, int dimension) {
+  Placement placement;
+  if (const auto* separable = std::get_if<SeparableFeatures>(&features)) {
+    placement.coordinates = closed_form(space, *separable, dimension);
+    return placement;
+  }
+  if (material.parametric() != nullptr) return fitted(*material.parametric(), features, space, dimension);
+  const auto& sampled = std::get<SampledFeatures>(features);
+  const Eigen::Index entries = material.tabulated()->samples.cols();
+  Eigen::MatrixXd columns(sampled.basis.cols(), entries);
+  for (Eigen::Index entry = 0; entry < entries; ++entry)
+    columns.col(entry) = features_of_samples(
+        sampled, samples_of(sampled, *material.tabulated(), static_cast<std::uint32_t>(entry)));
+  placement.coordinates = projected(space, columns, dimension);
+  return placement;
+}
+
+Points positions_of(const Placement& placement, const MaterialRef& material,
+                    const std::vector<std::uint32_t>& texels) {
+  const auto* entries = std::get_if<Points>(&placement.coordinates);
+  if (entries == nullptr) {
+    std::vector<remap::WarpTexel> values;
+    values.reserve(texels.size());
+    for (const std::uint32_t texel : texels) values.push_back(material.parametric()->texels[texel]);
+    return positions_of(std::get<remap::AppearanceCoordinates>(placement.coordinates), values);
+  }
+  Points positions(static_cast<Eigen::Index>(texels.size()), entries->cols());
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const auto entry = static_cast<Eigen::Index>(material.tabulated()->entries[texels[i]]);
+    if (entry < entries->rows())
+      positions.row(row) = entries->row(entry);
+    else
+      positions.row(row).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return positions;
+}
+
+Points positions_of(const Placement& placement, const MaterialRef& material) {
+  if (material.parametric() != nullptr)
+    return positions_of(std::get<remap::AppearanceCoordinates>(placement.coordinates),
+                        material.parametric()->texels);
+  std::vector<std::uint32_t> all(material.texel_count());
+  std::iota(all.begin(), all.end(), 0u);
+  return positions_of(placement, material, all);
 }
 
 }  // namespace remapc

@@ -25,7 +25,7 @@ struct AppearanceSpace {
 
 // From at most 16384 texels. Throws kInput where all of them look alike (radius below 1e-3 of the mean's
 // length): there is nothing to tell apart.
-AppearanceSpace appearance_space(const WarpMaterial& material, const SeparableFeatures& features);
+AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFeatures& features);
 
 // The smallest number of dimensions, at most 3, whose stress is below 3 %.
 int dimension_of(const AppearanceSpace& space);
@@ -36,5 +36,22 @@ remap::AppearanceCoordinates closed_form(const AppearanceSpace& space, const Sep
 // All texels; those that are not finite give NaN.
 Points positions_of(const remap::AppearanceCoordinates& coordinates,
                     const std::vector<remap::WarpTexel>& texels);
+
+// Where the texels of a material lie.
+struct Placement {
+  // Of parameters: closed form or fitted; of tables: the position of every entry.
+  std::variant<remap::AppearanceCoordinates, Points> coordinates;
+  // RMS distance of fitted coordinates from the projection of features, over at most 8192 texels; 0 where
+  // they are no fit.
+  double fit_error = 0.0;
+};
+
+Placement placement_of(const MaterialRef& material, const AppearanceFeatures& features,
+                       const AppearanceSpace& space, int dimension);
+
+// Of all texels, or of those listed; NaN where a texel takes no part.
+Points positions_of(const Placement& placement, const MaterialRef& material);
+Points positions_of(const Placement& placement, const MaterialRef& material,
+                    const std::vector<std::uint32_t>& texels);
 
 }  // namespace remapc

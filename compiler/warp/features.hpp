@@ -1,64 +1,71 @@
-// Appearance features: vectors whose Euclidean distance is that of two reflectances, whatever model they come
-// from.
+// Appearance features: vectors whose Euclidean distance is that of two reflectances, whatever model or table
+// they come from.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "warp/material.hpp"
+#include "warp/lobe_table.hpp"
 
 namespace remapc {
 
-// How the squared difference of two reflectances counts over directions (An et al. 2011, equation 1).
-// kRelative divides differences by the mean reflectance of both materials plus .03: rank correlation with
-// differences of lit spheres .95 where the plain one has .58, which highlight peaks swamp. Both stay
-// quadratic, so that features exist.
-enum class AppearanceDistance { kRelative, kPlain };
+// How the difference of two reflectances counts over directions (An et al. 2011, equation 1). kRelative
+// divides it by the mean reflectance of both materials plus .03: rank correlation with differences of lit
+// spheres .95 where the plain one has .58, which highlight peaks swamp. Both stay quadratic in reflectance.
+// kCubeRoot and kLog compare its cube root and log(1 + rho / .05): .96, without a closed form.
+enum class AppearanceDistance { kRelative, kPlain, kCubeRoot, kLog };
 
-// `relative`, `plain`; empty for other values.
+// `relative`, `plain`, `cube-root`, `log`; empty for other values.
 std::string_view distance_name(AppearanceDistance distance);
 std::optional<AppearanceDistance> distance_from_name(std::string_view name);
 std::vector<std::string> distance_names();
 
-inline constexpr std::size_t kWidthNodes = 64;  // even in log(alpha) between these
-inline constexpr double kLeastWidth = 0.04, kLargestWidth = 1.0;
 inline constexpr Eigen::Index kFeatureBasis = 14;  // features of one channel; 3e-4 of the distance is lost
 
-// The features of one channel of a model, d diffuse + s slope(alpha) + base(alpha): columns are nodes of
-// alpha.
+// Of parameters by a distance that is quadratic: one channel of a model, d diffuse + s slope(alpha) +
+// base(alpha). Columns are nodes of alpha.
 struct SeparableFeatures {
   Eigen::VectorXd diffuse;      // kFeatureBasis
   Eigen::MatrixXd slope, base;  // kFeatureBasis x kWidthNodes
 };
 
+// Of samples by any distance: directions of half_vector_quadrature(), or radii of profiles.
+struct SampledFeatures {
+  AppearanceDistance distance = AppearanceDistance::kRelative;
+  std::vector<double> radii;  // those of both materials together; empty for reflectances
+  Eigen::VectorXd weights;    // of the samples of one channel: square roots of what their differences count
+  Eigen::MatrixXd basis;      // 3 x samples rows; orthonormal columns that span 512 texels of both materials
+  LobeTable lobes;            // of parameters; empty for tables
+};
+
+using AppearanceFeatures = std::variant<SeparableFeatures, SampledFeatures>;
+
 // Both in one space.
 struct FeaturePair {
-  SeparableFeatures source, target;
+  AppearanceFeatures source, target;
 };
 
-FeaturePair appearance_features(const WarpMaterial& source, const WarpMaterial& target,
+// Closed forms where both materials are parametric and the distance is quadratic; by samples elsewhere.
+// Throws kInput for profiles beside reflectances, kUsage for profiles by the relative distance, whose floor
+// is a reflectance.
+FeaturePair appearance_features(const MaterialRef& source, const MaterialRef& target,
                                 AppearanceDistance distance = AppearanceDistance::kRelative);
 
-// 3 kFeatureBasis numbers, channel by channel.
-Eigen::VectorXd features_of(const SeparableFeatures& features, const remap::WarpTexel& texel);
+// Of parameters: 3 kFeatureBasis numbers, channel by channel, or as many as the basis has columns.
+Eigen::VectorXd features_of(const AppearanceFeatures& features, const remap::WarpTexel& texel);
 
-// Texels whose values are finite, at most `limit`, evenly spread over the list.
-std::vector<remap::WarpTexel> sample_texels(const WarpMaterial& material, std::size_t limit);
-
-// Between which two nodes an alpha lies, and how far: `fraction` from 0 to 1.
-struct WidthPosition {
-  Eigen::Index node = 0;
-  double fraction = 0.0;
-};
-WidthPosition width_position(double alpha) noexcept;
+// Of texels that take part, a column each.
+Eigen::MatrixXd feature_columns(const AppearanceFeatures& features, const MaterialRef& material,
+                                const std::vector<std::uint32_t>& texels);
 
 // The square roots of the weights of the directions of half_vector_quadrature() for `distance`: what features
-// are compressed from, and what they can be checked against.
-Eigen::VectorXd direction_weights(const WarpMaterial& source, const WarpMaterial& target,
+// are compressed from, and what they can be checked against. Of reflectances.
+Eigen::VectorXd direction_weights(const MaterialRef& source, const MaterialRef& target,
                                   AppearanceDistance distance);
 
 }  // namespace remapc

@@ -11,25 +11,25 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-void require_strokes(const WarpMaterial& material, const std::vector<StrokePair>& strokes,
+void require_strokes(const MaterialRef& material, const std::vector<StrokePair>& strokes,
                      std::vector<std::uint32_t> StrokePair::*side) {
   for (std::size_t k = 0; k < strokes.size(); ++k) {
-    const std::string place = material.name + ", stroke " + std::to_string(k + 1);
+    const std::string place = material.name() + ", stroke " + std::to_string(k + 1);
     bool has_finite = false;
     for (const std::uint32_t texel : strokes[k].*side) {
-      if (texel >= material.texels.size())
+      if (texel >= material.texel_count())
         throw Error(ErrorKind::kInput, place + ": texel " + std::to_string(texel) + "; expected one of " +
-                                           std::to_string(material.texels.size()));
-      has_finite = has_finite || is_finite(material.texels[texel]);
+                                           std::to_string(material.texel_count()));
+      has_finite = has_finite || material.takes_part(texel);
     }
     if (!has_finite)
       throw Error(ErrorKind::kInput,
                   place + ": marks no texel with finite values; expected a painted region");
   }
   for (std::size_t k = 0; k < strokes.size(); ++k) {
-    const Overlap overlap = largest_overlap(strokes, side, k, material.texels.size());
+    const Overlap overlap = largest_overlap(strokes, side, k, material.texel_count());
     if (overlap.share == 1.0)
-      throw Error(ErrorKind::kInput, material.name + ", stroke " + std::to_string(k + 1) +
+      throw Error(ErrorKind::kInput, material.name() + ", stroke " + std::to_string(k + 1) +
                                          ": lies within stroke " + std::to_string(overlap.other + 1) +
                                          "; expected another region (erase one of the two there)");
   }
@@ -69,14 +69,40 @@ bool is_finite(const remap::WarpTexel& texel) noexcept {
   return std::all_of(texel.begin(), texel.end(), [](float value) { return std::isfinite(value); });
 }
 
-void require_valid(const WarpMaterial& source, const WarpMaterial& target,
+bool MaterialRef::takes_part(std::size_t texel) const noexcept {
+  if (parametric_ != nullptr) return is_finite(parametric_->texels[texel]);
+  return static_cast<Eigen::Index>(tabulated_->entries[texel]) < tabulated_->samples.cols();
+}
+
+std::vector<std::uint32_t> sample_texels(const MaterialRef& material, std::size_t limit) {
+  std::vector<std::uint32_t> texels;
+  const std::size_t count = material.texel_count(), wanted = std::min(limit, count);
+  const std::size_t step = count / std::max<std::size_t>(wanted, 1);
+  texels.reserve(wanted);
+  for (std::size_t i = 0; i < wanted; ++i)
+    if (const std::size_t texel = i * count / wanted + i * 61 % step; material.takes_part(texel))
+      texels.push_back(static_cast<std::uint32_t>(texel));
+  if (!texels.empty()) return texels;
+  for (std::size_t i = 0; i < count && texels.size() < limit; ++i)  // they are rare
+    if (material.takes_part(i)) texels.push_back(static_cast<std::uint32_t>(i));
+  return texels;
+}
+
+void require_valid(const MaterialRef& source, const MaterialRef& target,
                    const std::vector<StrokePair>& strokes) {
-  for (const WarpMaterial* material : {&source, &target})
-    if (std::none_of(material->texels.begin(), material->texels.end(), is_finite))
+  for (const MaterialRef* material : {&source, &target}) {
+    const TabulatedMaterial* table = material->tabulated();
+    if (table != nullptr && !(table->samples.array() >= 0.0f && table->samples.array().isFinite()).all())
+      throw Error(
+          ErrorKind::kInput,
+          material->name() + ": holds samples that are negative or not finite; expected reflectances");
+    if (sample_texels(*material, 1).empty())
       throw Error(ErrorKind::kInput,
-                  material->name + ": has no texel with finite values; expected a material");
+                  material->name() + ": has no texel with finite values; expected a material");
+  }
   if (strokes.empty())
-    throw Error(ErrorKind::kUsage, source.name + ": no stroke; expected at least one pair of marked regions");
+    throw Error(ErrorKind::kUsage,
+                source.name() + ": no stroke; expected at least one pair of marked regions");
   require_strokes(source, strokes, &StrokePair::source);
   require_strokes(target, strokes, &StrokePair::target);
 }

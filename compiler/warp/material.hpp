@@ -1,10 +1,13 @@
 // What a warp starts from: two materials as lists of texels, and the strokes that mark corresponding regions.
+// A texel is told by parameters of a BRDF model, or is one entry of a table of reflectances or profiles.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "model/warp.hpp"
 #include "sweep/brdf.hpp"
@@ -18,6 +21,43 @@ struct WarpMaterial {
   BrdfModel model;   // of the specular lobe; GGX with Schlick's Fresnel unless said otherwise
   std::vector<remap::WarpTexel> texels;
 };
+
+// Texels that are entries of a table: measured BRDFs, or scattering profiles P(r) of the diffuse component of
+// a BSSRDF (Song et al. 2009), radially symmetric.
+struct TabulatedMaterial {
+  std::string name;  // for messages
+  // Of profiles, in the order of samples, above 0 and growing; empty for BRDFs, whose samples are at the
+  // directions of half_vector_quadrature().
+  std::vector<double> radii;
+  Eigen::MatrixXf samples;  // samples of red, then green, then blue; a column an entry; finite, from 0
+  std::vector<std::uint32_t> entries;  // of each texel, row by row; one that is no column takes no part
+};
+
+// Either kind, by reference: what it stands for must outlive it.
+class MaterialRef {
+ public:
+  MaterialRef(const WarpMaterial& material) noexcept : parametric_(&material) {}      // NOLINT: both are one
+  MaterialRef(const TabulatedMaterial& material) noexcept : tabulated_(&material) {}  // NOLINT
+
+  const std::string& name() const noexcept { return parametric_ ? parametric_->name : tabulated_->name; }
+  std::size_t texel_count() const noexcept {
+    return parametric_ ? parametric_->texels.size() : tabulated_->entries.size();
+  }
+  // Whether all values of a texel are finite, or it is an entry of the table.
+  bool takes_part(std::size_t texel) const noexcept;
+  bool is_profiles() const noexcept { return tabulated_ != nullptr && !tabulated_->radii.empty(); }
+  // Empty where it is of the other kind.
+  const WarpMaterial* parametric() const noexcept { return parametric_; }
+  const TabulatedMaterial* tabulated() const noexcept { return tabulated_; }
+
+ private:
+  const WarpMaterial* parametric_ = nullptr;
+  const TabulatedMaterial* tabulated_ = nullptr;
+};
+
+// Texels that take part, at most `limit`, evenly spread over the list and scattered, so that they stand in no
+// columns of a map.
+std::vector<std::uint32_t> sample_texels(const MaterialRef& material, std::size_t limit);
 
 // One region, marked in both materials: indices of texels.
 struct StrokePair {
@@ -33,10 +73,10 @@ struct Overlap {
 Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std::uint32_t> StrokePair::*side,
                         std::size_t stroke, std::size_t texel_count);
 
-// Throws kInput for a material without a finite texel, a stroke without texels (or none that is finite), an
-// index that is no texel, no stroke at all, and for a stroke that lies within another. What strokes share
-// beyond that counts for each of them.
-void require_valid(const WarpMaterial& source, const WarpMaterial& target,
+// Throws kInput for a material without a texel that takes part, a stroke without texels (or none that is
+// finite), an index that is no texel, no stroke at all, and for a stroke that lies within another. What
+// strokes share beyond that counts for each of them.
+void require_valid(const MaterialRef& source, const MaterialRef& target,
                    const std::vector<StrokePair>& strokes);
 
 // The texel with values within 0 and 1; NaN stays.

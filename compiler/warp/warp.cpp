@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include <Eigen/Dense>
 
@@ -25,17 +27,16 @@ constexpr std::size_t kMostTexels = std::size_t{1} << 18;
 
 using StrokeTexels = std::vector<std::vector<std::uint32_t>>;
 
-// A material without what takes no part, and strokes as indices into it.
-struct Sampled {
-  WarpMaterial material;
+// The texels that the match is made from, and strokes as indices into them.
+struct Selection {
+  std::vector<std::uint32_t> texels;
   StrokeTexels strokes;
   std::size_t left_out = 0;
 };
 
-Sampled sampled(const WarpMaterial& given, const std::vector<StrokePair>& strokes,
-                std::vector<std::uint32_t> StrokePair::*side) {
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  const std::size_t count = given.texels.size();
+Selection selection_of(const MaterialRef& material, const std::vector<StrokePair>& strokes,
+                       std::vector<std::uint32_t> StrokePair::*side) {
+  const std::size_t count = material.texel_count();
   std::vector<char> wanted(count, 0);
   const std::size_t step = (count + kMostTexels - 1) / kMostTexels;
   for (std::size_t i = 0, block = 0; i < count; i += step, ++block)
@@ -43,19 +44,19 @@ Sampled sampled(const WarpMaterial& given, const std::vector<StrokePair>& stroke
   for (const StrokePair& stroke : strokes)
     for (const std::uint32_t texel : stroke.*side) wanted[texel] = 1;
 
-  Sampled result{{given.name, given.model, {}}, {}, 0};
-  std::vector<std::uint32_t> index(count, kNone);
+  Selection result;
+  std::vector<std::uint32_t> index(count, kNoTexel);
   for (std::size_t i = 0; i < count; ++i) {
-    const bool finite = is_finite(given.texels[i]);
-    if (!finite) ++result.left_out;
-    if (!finite || wanted[i] == 0) continue;
-    index[i] = static_cast<std::uint32_t>(result.material.texels.size());
-    result.material.texels.push_back(held(given.texels[i]));
+    const bool takes_part = material.takes_part(i);
+    if (!takes_part) ++result.left_out;
+    if (!takes_part || wanted[i] == 0) continue;
+    index[i] = static_cast<std::uint32_t>(result.texels.size());
+    result.texels.push_back(static_cast<std::uint32_t>(i));
   }
   for (const StrokePair& stroke : strokes) {
     std::vector<std::uint32_t>& own = result.strokes.emplace_back();
     for (const std::uint32_t texel : stroke.*side)
-      if (index[texel] != kNone) own.push_back(index[texel]);
+      if (index[texel] != kNoTexel) own.push_back(index[texel]);
   }
   return result;
 }
@@ -102,14 +103,14 @@ double coverage_of(const AppearanceWarp& warp, const PointSets& sets) {
   return static_cast<double>(std::count(used.begin(), used.end(), 1)) / static_cast<double>(used.size());
 }
 
-WarpDiagnostics::SharedStroke most_shared(const WarpMaterial& source, const WarpMaterial& target,
+WarpDiagnostics::SharedStroke most_shared(const MaterialRef& source, const MaterialRef& target,
                                           const std::vector<StrokePair>& strokes) {
   WarpDiagnostics::SharedStroke most;
   for (std::size_t k = 0; k < strokes.size(); ++k)
     for (const bool in_template : {false, true}) {
       const Overlap overlap = in_template
-                                  ? largest_overlap(strokes, &StrokePair::target, k, target.texels.size())
-                                  : largest_overlap(strokes, &StrokePair::source, k, source.texels.size());
+                                  ? largest_overlap(strokes, &StrokePair::target, k, target.texel_count())
+                                  : largest_overlap(strokes, &StrokePair::source, k, source.texel_count());
       if (overlap.share > most.overlap.share) most = {k, overlap, in_template};
     }
   return most;
@@ -123,29 +124,37 @@ void require_options(const WarpOptions& options) {
     throw Error(ErrorKind::kUsage, "nodes: " + std::to_string(options.nodes) + "; expected 2 to 1024");
 }
 
-}  // namespace
+// A match with what it was made from.
+struct Matched {
+  Selection source, target;
+  Points source_positions, target_positions;
+  AppearanceMatch match;
+};
 
-std::string_view method_name(WarpMethod method) { return remap::name_of(kMethods, method); }
-std::optional<WarpMethod> method_from_name(std::string_view name) {
-  return remap::value_named(kMethods, name);
+// Everything that the diagnostics say of the points and the warp between them.
+void diagnose(const PointSets& sets, AppearanceMatch& match) {
+  WarpDiagnostics& found = match.diagnostics;
+  found.fixed_directions = fixed_directions(sets.source_centres);
+  found.fold_share = fold_share(match.warp, sets.source.points, sets.source.texel_count);
+  found.coverage = coverage_of(match.warp, sets);
+  found.stroke_distance =
+      rms_distance(images_of(match.warp, sets.source_centres), sets.target_centres, &found.worst_stroke);
+  found.stroke_contradiction =
+      rms_distance(images_of(affine_from_strokes(sets), sets.source_centres), sets.target_centres);
 }
-std::vector<std::string> method_names() { return remap::names_of(kMethods); }
 
-WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
-                 const std::vector<StrokePair>& strokes, const WarpOptions& options) {
+Matched matched(const MaterialRef& source, const MaterialRef& target, const std::vector<StrokePair>& strokes,
+                const WarpOptions& options) {
   require_options(options);
   require_valid(source, target, strokes);
-  const Sampled from = sampled(source, strokes, &StrokePair::source);
-  const Sampled to = sampled(target, strokes, &StrokePair::target);
-  const FeaturePair features = appearance_features(from.material, to.material, options.distance);
-  const AppearanceSpace from_space = appearance_space(from.material, features.source);
-  const AppearanceSpace to_space = appearance_space(to.material, features.target);
+  const FeaturePair features = appearance_features(source, target, options.distance);
+  const AppearanceSpace from_space = appearance_space(source, features.source);
+  const AppearanceSpace to_space = appearance_space(target, features.target);
 
-  WarpFit fit;
-  WarpDiagnostics& found = fit.diagnostics;
+  Matched result;
+  AppearanceMatch& match = result.match;
+  WarpDiagnostics& found = match.diagnostics;
   found.shared = most_shared(source, target, strokes);
-  found.source_left_out = from.left_out;
-  found.target_left_out = to.left_out;
   found.source_dimensions = dimension_of(from_space);
   found.target_dimensions = dimension_of(to_space);
   found.dimensions = options.dimensions != 0 ? options.dimensions
@@ -154,39 +163,66 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
   found.source_stress = from_space.stress[last];
   found.target_stress = to_space.stress[last];
 
-  fit.compiled.coordinates = closed_form(from_space, features.source, found.dimensions);
-  fit.target_coordinates = closed_form(to_space, features.target, found.dimensions);
-  fit.target_radius = to_space.radius;
-  const Points from_positions = positions_of(fit.compiled.coordinates, from.material.texels);
-  const Points to_positions = positions_of(fit.target_coordinates, to.material.texels);
-  const PointSets sets = {occupancy_of(from_positions, from.strokes), occupancy_of(to_positions, to.strokes),
+  match.source = placement_of(source, features.source, from_space, found.dimensions);
+  match.target = placement_of(target, features.target, to_space, found.dimensions);
+  match.target_radius = to_space.radius;
+  found.coordinates_error = std::max(match.source.fit_error, match.target.fit_error);
+  result.source = selection_of(source, strokes, &StrokePair::source);
+  result.target = selection_of(target, strokes, &StrokePair::target);
+  found.source_left_out = result.source.left_out;
+  found.target_left_out = result.target.left_out;
+  result.source_positions = positions_of(match.source, source, result.source.texels);
+  result.target_positions = positions_of(match.target, target, result.target.texels);
+  const PointSets sets = {occupancy_of(result.source_positions, result.source.strokes),
+                          occupancy_of(result.target_positions, result.target.strokes),
                           common_axes(from_space, to_space, found.dimensions),
-                          stroke_centres(from_positions, from.strokes),
-                          stroke_centres(to_positions, to.strokes)};
-  fit.warp = warp_by(options.method, sets);
+                          stroke_centres(result.source_positions, result.source.strokes),
+                          stroke_centres(result.target_positions, result.target.strokes)};
+  match.warp = warp_by(options.method, sets);
+  diagnose(sets, match);
+  return result;
+}
 
-  found.fixed_directions = fixed_directions(sets.source_centres);
-  found.fold_share = fold_share(fit.warp, sets.source.points, sets.source.texel_count);
-  found.coverage = coverage_of(fit.warp, sets);
-  found.stroke_distance =
-      rms_distance(images_of(fit.warp, sets.source_centres), sets.target_centres, &found.worst_stroke);
-  found.stroke_contradiction =
-      rms_distance(images_of(affine_from_strokes(sets), sets.source_centres), sets.target_centres);
-  const std::size_t nodes = options.nodes != 0 ? options.nodes : default_nodes(found.dimensions);
-  fit.compiled.table =
-      compile_table(fit.warp, from_positions, NearestTexel(to_positions), to.material, nodes);
+}  // namespace
+
+std::string_view method_name(WarpMethod method) { return remap::name_of(kMethods, method); }
+std::optional<WarpMethod> method_from_name(std::string_view name) {
+  return remap::value_named(kMethods, name);
+}
+std::vector<std::string> method_names() { return remap::names_of(kMethods); }
+
+AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
+                                  const std::vector<StrokePair>& strokes, const WarpOptions& options) {
+  return matched(source, target, strokes, options).match;
+}
+
+WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
+                 const std::vector<StrokePair>& strokes, const WarpOptions& options) {
+  Matched matched_texels = matched(source, target, strokes, options);
+  WarpFit fit{std::move(matched_texels.match), {}};
+  fit.compiled.coordinates = std::get<remap::AppearanceCoordinates>(fit.source.coordinates);
+  const std::size_t nodes = options.nodes != 0 ? options.nodes : default_nodes(fit.diagnostics.dimensions);
+  WarpMaterial chosen{target.name, target.model, {}};
+  chosen.texels.reserve(matched_texels.target.texels.size());
+  for (const std::uint32_t texel : matched_texels.target.texels)
+    chosen.texels.push_back(held(target.texels[texel]));
+  fit.compiled.table = compile_table(fit.warp, matched_texels.source_positions,
+                                     NearestTexel(matched_texels.target_positions), chosen, nodes);
   return fit;
 }
 
-std::vector<std::uint32_t> copy_exactly(const WarpFit& fit, const WarpMaterial& source,
-                                        const WarpMaterial& target) {
-  const NearestTexel nearest(positions_of(fit.target_coordinates, target.texels));
-  Points images = images_of(fit.warp, positions_of(fit.compiled.coordinates, source.texels));
+std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const MaterialRef& source,
+                                        const MaterialRef& target) {
+  Points goal = positions_of(match.target, target);
+  for (std::size_t i = 0; i < target.texel_count(); ++i)
+    if (!target.takes_part(i))
+      goal.row(static_cast<Eigen::Index>(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
+  Points images = images_of(match.warp, positions_of(match.source, source));
   for (Eigen::Index i = 0; i < images.rows(); ++i)
     if (!images.row(i).allFinite()) images.row(i).setZero();
-  std::vector<std::uint32_t> texels = nearest.find(images);
+  std::vector<std::uint32_t> texels = NearestTexel(goal).find(images);
   for (std::size_t i = 0; i < texels.size(); ++i)
-    if (!is_finite(source.texels[i])) texels[i] = 0;
+    if (!source.takes_part(i)) texels[i] = kNoTexel;
   return texels;
 }
 
@@ -196,6 +232,10 @@ std::vector<std::string> warnings_of(const WarpDiagnostics& found) {
     warnings.push_back(std::to_string(found.source_left_out) + " texels of the source and " +
                        std::to_string(found.target_left_out) +
                        " of the template are not finite and take no part");
+  if (found.coordinates_error > 0.03)
+    warnings.push_back("places in appearance space are " + percent(found.coordinates_error) +
+                       " of the spread off: formulas do not follow this distance well on these materials; "
+                       "--distance relative is exact");
   if (found.shared.overlap.share > 0.5)
     warnings.push_back("stroke " + std::to_string(found.shared.overlap.other + 1) + " covers " +
                        percent(found.shared.overlap.share) + " of stroke " +

@@ -35,6 +35,7 @@ struct WarpDiagnostics {
   int source_dimensions = 0, target_dimensions = 0;  // that each material needs by itself
   int dimensions = 0;                                // of the warp
   double source_stress = 0.0, target_stress = 0.0;   // at `dimensions`
+  double coordinates_error = 0.0;                    // Placement::fit_error, the larger one; radii
   int fixed_directions = 0;  // of `dimensions`, by strokes; the others follow the prior of common axes
   double fold_share = 0.0;   // of the source's texels
   double coverage = 0.0;     // share of the template's occupied bins that the result uses
@@ -51,24 +52,37 @@ struct WarpDiagnostics {
   } shared;
 };
 
-struct WarpFit {
-  remap::CompiledWarp compiled;
+// Where texels of both materials lie, and which place of the template a place of the source means.
+struct AppearanceMatch {
   WarpDiagnostics diagnostics;
-  remap::AppearanceCoordinates target_coordinates;  // of the template
-  AppearanceWarp warp;                              // between the two spaces
-  double target_radius = 0.0;                       // RMS spread of the template, in features
+  Placement source, target;
+  AppearanceWarp warp;         // between the two spaces
+  double target_radius = 0.0;  // RMS spread of the template, in features
 };
 
-// Deterministic, on one thread; 0.1 s for 512^2 texels. Of more than 2^18 texels as many, evenly spread,
-// stand for all (besides those of strokes). Throws as require_valid() and appearance_space() do; kUsage for
+// Deterministic, on one thread. Of more than 2^18 texels as many, evenly spread, stand for all (besides those
+// of strokes). Throws as require_valid(), appearance_features() and appearance_space() do; kUsage for
 // dimensions or nodes out of range.
+AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
+                                  const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
+
+// A match of parameters, compiled.
+struct WarpFit : AppearanceMatch {
+  remap::CompiledWarp compiled;
+  const remap::AppearanceCoordinates& target_coordinates() const {
+    return std::get<remap::AppearanceCoordinates>(target.coordinates);
+  }
+};
+
+// 0.1 s for 512^2 texels.
 WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
                  const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
 
 // For every texel of the source the texel of the template that is nearest to its image (verification,
-// `--exact`). A texel that is not finite gets 0.
-std::vector<std::uint32_t> copy_exactly(const WarpFit& fit, const WarpMaterial& source,
-                                        const WarpMaterial& target);
+// `--copy`). A texel that takes no part gets kNoTexel.
+inline constexpr std::uint32_t kNoTexel = ~std::uint32_t{0};
+std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const MaterialRef& source,
+                                        const MaterialRef& target);
 
 // Warnings for a person, one line each, without place: what the diagnostics say that should be acted on.
 std::vector<std::string> warnings_of(const WarpDiagnostics& diagnostics);

@@ -46,7 +46,7 @@ struct Figures {
 Figures measure(const WarpSet& set, const WarpFit& fit) {
   const FeaturePair features = appearance_features(set.source, set.target);
   const auto copy = copy_exactly(fit, set.source, set.target);
-  const Points positions = positions_of(fit.target_coordinates, set.target.texels);
+  const Points positions = positions_of(fit.target_coordinates(), set.target.texels);
   const BinGrid grid(positions, occupancy_of(positions, {}).spacing);
   std::vector<int> count(grid.size(), 0), used(grid.size(), 0);
   for (Eigen::Index i = 0; i < positions.rows(); ++i)
@@ -122,7 +122,7 @@ TEST_CASE("coordinates: closed form is the projection of features", "[warp]") {
   const WarpSet set = warp_test::rust_set(64);
   const FeaturePair features = appearance_features(set.source, set.target);
   const AppearanceSpace space = appearance_space(set.source, features.source);
-  const auto coordinates = closed_form(space, features.source, 3);
+  const auto coordinates = closed_form(space, std::get<SeparableFeatures>(features.source), 3);
   for (std::size_t i = 0; i < set.source.texels.size(); i += 101) {
     const Eigen::VectorXd projected = space.axes.transpose() *
                                       (features_of(features.source, set.source.texels[i]) - space.mean) /
