@@ -75,10 +75,12 @@ Image read_rgb(const std::filesystem::path& path) {
 }
 
 void write_exr(const std::filesystem::path& path, const Image& image,
-               const std::map<std::string, std::string>& attributes) {
+               const std::map<std::string, std::string>& attributes,
+               const std::vector<std::string>& channels) {
   require_extension(path, ".exr", "an OpenEXR file");
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   if (image.channels == 1) spec.channelnames = {"Y"};
+  if (!channels.empty()) spec.channelnames = channels;
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   for (const auto& [key, value] : attributes) spec.attribute(key, value);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "sweep/image.hpp"
 
@@ -14,10 +15,11 @@ namespace remapc {
 // channels.
 Image read_rgb(const std::filesystem::path& path);
 
-// Writes a linear float32 EXR (zip), Y for one channel and R, G, B for three, with `attributes` as metadata.
-// Appears under its final name whole or not at all. Throws kOutput.
+// Writes a linear float32 EXR (zip), with `attributes` as metadata. `channels`: their names; where there are
+// none, Y for one and R, G, B for three. Appears under its final name whole or not at all. Throws kOutput.
 void write_exr(const std::filesystem::path& path, const Image& image,
-               const std::map<std::string, std::string>& attributes);
+               const std::map<std::string, std::string>& attributes,
+               const std::vector<std::string>& channels = {});
 
 // Writes display values, 0 to 1, as an 8-bit PNG. Appears under its final name whole or not at all. Throws
 // kOutput.

@@ -18,8 +18,8 @@ using remap::ErrorKind;
 
 constexpr std::size_t kSampledTexels = 16384;
 constexpr std::size_t kStressPairs = 4096;
-constexpr std::size_t kFittedTexels = 8192;
-constexpr double kFitRidge = 1e-9;  // of the mean square of the terms
+constexpr std::size_t kSlowTexels = 4096;  // of features by samples
+constexpr double kFitRidge = 1e-9;         // of the mean square of the terms
 constexpr double kStressGoal = 0.03;
 constexpr double kLeastRadius = 1e-3;
 
@@ -51,7 +51,7 @@ Points projected(const AppearanceSpace& space, const Eigen::MatrixXd& columns, i
 // Least squares over the 36 terms of texels, drawn to small weights.
 Placement fitted(const WarpMaterial& material, const AppearanceFeatures& features,
                  const AppearanceSpace& space, int dimension) {
-  const std::vector<std::uint32_t> texels = sample_texels(material, kFittedTexels);
+  const std::vector<std::uint32_t> texels = sample_texels(material, kSlowTexels);
   const Points goal = projected(space, feature_columns(features, material, texels), dimension);
   remap::AppearanceCoordinates result;
   result.dimension = static_cast<std::size_t>(dimension);
@@ -79,7 +79,9 @@ Placement fitted(const WarpMaterial& material, const AppearanceFeatures& feature
 }  // namespace
 
 AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFeatures& features) {
-  Eigen::MatrixXd columns = feature_columns(features, material, sample_texels(material, kSampledTexels));
+  const bool is_slow = std::holds_alternative<SampledFeatures>(features);
+  const std::size_t limit = is_slow ? kSlowTexels : kSampledTexels;
+  Eigen::MatrixXd columns = feature_columns(features, material, sample_texels(material, limit));
   const auto count = static_cast<double>(columns.cols());
   AppearanceSpace space;
   space.mean = columns.rowwise().mean();

@@ -23,8 +23,8 @@ struct AppearanceSpace {
   std::array<double, 3> stress{};  // of 1, 2 and 3 dimensions: RMS error of distances over RMS distance
 };
 
-// From at most 16384 texels. Throws kInput where all of them look alike (radius below 1e-3 of the mean's
-// length): there is nothing to tell apart.
+// From at most 16384 texels, 4096 where features are made from samples. Throws kInput where all of them look
+// alike (radius below 1e-3 of the mean's length): there is nothing to tell apart.
 AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFeatures& features);
 
 // The smallest number of dimensions, at most 3, whose stress is below 3 %.
@@ -41,7 +41,7 @@ Points positions_of(const remap::AppearanceCoordinates& coordinates,
 struct Placement {
   // Of parameters: closed form or fitted; of tables: the position of every entry.
   std::variant<remap::AppearanceCoordinates, Points> coordinates;
-  // RMS distance of fitted coordinates from the projection of features, over at most 8192 texels; 0 where
+  // RMS distance of fitted coordinates from the projection of features, over at most 4096 texels; 0 where
   // they are no fit.
   double fit_error = 0.0;
 };

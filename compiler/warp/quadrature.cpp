@@ -53,7 +53,7 @@ std::vector<QuadratureDirection> half_vector_quadrature() {
         const double azimuth = (static_cast<double>(a) + 0.5) / static_cast<double>(kAzimuths) * pi;
         const LocalGeometry geometry = geometry_of(half_angle, difference_angle, azimuth);
         if (geometry.cos_light < kLeastCosine || geometry.cos_view < kLeastCosine) continue;
-        directions.push_back({geometry, measure * geometry.cos_light});
+        directions.push_back({half_angle, difference_angle, azimuth, geometry, measure * geometry.cos_light});
       }
     }
   }

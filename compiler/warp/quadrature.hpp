@@ -8,7 +8,9 @@
 namespace remapc {
 
 struct QuadratureDirection {
-  LocalGeometry geometry;
+  // Of half vector and difference vector, in radians: 0 to pi / 2, 0 to pi / 2, 0 to pi.
+  double half_angle = 0.0, difference_angle = 0.0, azimuth = 0.0;
+  LocalGeometry geometry{};
   double weight =
       0.0;  // solid angles of both directions times the cosine of the light; up to one factor for all
 };
