@@ -2,72 +2,95 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <nanoflann.hpp>
 
 namespace remapc {
 namespace {
 
 // What nanoflann asks of a list of points.
+template <std::size_t kDimension>
 struct PointList {
-  std::size_t dimension = 0;
-  std::vector<float> values;
+  std::vector<std::array<float, kDimension>> points;
   std::vector<std::uint32_t> rows;
 
   std::size_t kdtree_get_point_count() const { return rows.size(); }
-  float kdtree_get_pt(std::size_t point, std::size_t axis) const { return values[point * dimension + axis]; }
+  float kdtree_get_pt(std::size_t point, std::size_t axis) const { return points[point][axis]; }
   template <typename Box>
   bool kdtree_get_bbox(Box&) const {
     return false;
   }
 };
 
-constexpr std::size_t kLeafSize = 16;
+constexpr std::size_t kLeafSize = 32;
 
 }  // namespace
 
 struct NearestTexel::Tree {
-  using Distance = nanoflann::L2_Simple_Adaptor<float, PointList>;
-  using Index = nanoflann::KDTreeSingleIndexAdaptor<Distance, PointList, -1, std::uint32_t>;
+  virtual ~Tree() = default;
+  virtual std::vector<std::uint32_t> find(const Points& points) const = 0;
+};
 
-  explicit Tree(PointList list)
-      : points(std::move(list)),
-        index(static_cast<int>(points.dimension), points,
-              nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {}
+// The number of dimensions is known to the compiler: twice as fast.
+template <std::size_t kDimension>
+struct NearestTexel::TreeOf final : NearestTexel::Tree {
+  using List = PointList<kDimension>;
+  using Distance = nanoflann::L2_Simple_Adaptor<float, List>;
+  using Index =
+      nanoflann::KDTreeSingleIndexAdaptor<Distance, List, static_cast<int>(kDimension), std::uint32_t>;
 
-  PointList points;
+  explicit TreeOf(const Points& positions)
+      : list(list_of(positions)),
+        index(static_cast<int>(kDimension), list, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {}
+
+  static std::array<float, kDimension> point_of(const Points& positions, Eigen::Index row) {
+    std::array<float, kDimension> point{};
+    for (std::size_t k = 0; k < kDimension; ++k)
+      point[k] = static_cast<float>(positions(row, static_cast<Eigen::Index>(k)));
+    return point;
+  }
+
+  static List list_of(const Points& positions) {
+    List list;
+    list.points.reserve(static_cast<std::size_t>(positions.rows()));
+    list.rows.reserve(static_cast<std::size_t>(positions.rows()));
+    for (Eigen::Index row = 0; row < positions.rows(); ++row) {
+      if (!positions.row(row).allFinite()) continue;
+      list.points.push_back(point_of(positions, row));
+      list.rows.push_back(static_cast<std::uint32_t>(row));
+    }
+    return list;
+  }
+
+  std::vector<std::uint32_t> find(const Points& points) const override {
+    std::vector<std::uint32_t> nearest(static_cast<std::size_t>(points.rows()));
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const std::array<float, kDimension> query = point_of(points, i);
+      std::uint32_t found = 0;
+      float distance = 0.0f;
+      index.knnSearch(query.data(), 1, &found, &distance);
+      nearest[static_cast<std::size_t>(i)] = list.rows[found];
+    }
+    return nearest;
+  }
+
+  List list;
   Index index;
 };
 
 NearestTexel::NearestTexel(const Points& positions) {
-  PointList list;
-  list.dimension = static_cast<std::size_t>(positions.cols());
-  list.values.reserve(static_cast<std::size_t>(positions.size()));
-  list.rows.reserve(static_cast<std::size_t>(positions.rows()));
-  for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-    if (!positions.row(i).allFinite()) continue;
-    for (Eigen::Index k = 0; k < positions.cols(); ++k)
-      list.values.push_back(static_cast<float>(positions(i, k)));
-    list.rows.push_back(static_cast<std::uint32_t>(i));
-  }
-  tree_ = std::make_unique<Tree>(std::move(list));
+  if (positions.cols() == 1)
+    tree_ = std::make_unique<TreeOf<1>>(positions);
+  else if (positions.cols() == 2)
+    tree_ = std::make_unique<TreeOf<2>>(positions);
+  else
+    tree_ = std::make_unique<TreeOf<3>>(positions);
 }
 
 NearestTexel::~NearestTexel() = default;
 NearestTexel::NearestTexel(NearestTexel&&) noexcept = default;
 NearestTexel& NearestTexel::operator=(NearestTexel&&) noexcept = default;
 
-std::vector<std::uint32_t> NearestTexel::find(const Points& points) const {
-  std::vector<std::uint32_t> nearest(static_cast<std::size_t>(points.rows()));
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    std::array<float, remap::kLargestWarpDimension> query{};
-    for (Eigen::Index k = 0; k < points.cols(); ++k)
-      query[static_cast<std::size_t>(k)] = static_cast<float>(points(i, k));
-    std::uint32_t found = 0;
-    float distance = 0.0f;
-    tree_->index.knnSearch(query.data(), 1, &found, &distance);
-    nearest[static_cast<std::size_t>(i)] = tree_->points.rows[found];
-  }
-  return nearest;
-}
+std::vector<std::uint32_t> NearestTexel::find(const Points& points) const { return tree_->find(points); }
 
 }  // namespace remapc

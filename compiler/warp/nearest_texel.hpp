@@ -23,6 +23,8 @@ class NearestTexel {
 
  private:
   struct Tree;
+  template <std::size_t kDimension>
+  struct TreeOf;
   std::unique_ptr<Tree> tree_;
 };
 
