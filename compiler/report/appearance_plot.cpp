@@ -31,16 +31,13 @@ void draw_disc(double x, double y, double radius, const DisplayColour& colour, I
 }
 
 void draw_lines(const PlotBox& box, double scale, Image* picture) {
-  const auto column = static_cast<int>(std::floor((box.half - box.x) * scale));
-  const auto row = static_cast<int>(std::floor((box.half + box.y) * scale));
-  const int side = picture->width;
+  const auto column = static_cast<int>(std::floor((box.half_width - box.x) * scale));
+  const auto row = static_cast<int>(std::floor((box.half_height + box.y) * scale));
   const auto mark = [&](int x, int y) {
-    std::fill_n(&picture->values[3 * static_cast<std::size_t>(y * side + x)], 3, kLine);
+    std::fill_n(&picture->values[3 * static_cast<std::size_t>(y * picture->width + x)], 3, kLine);
   };
-  for (int i = 0; i < side; ++i) {
-    if (column >= 0 && column < side) mark(column, i);
-    if (row >= 0 && row < side) mark(i, row);
-  }
+  for (int y = 0; y < picture->height && column >= 0 && column < picture->width; ++y) mark(column, y);
+  for (int x = 0; x < picture->width && row >= 0 && row < picture->height; ++x) mark(x, row);
 }
 
 }  // namespace
@@ -57,19 +54,21 @@ PlotBox box_around(const std::vector<PlottedPoints>& layers) {
       }
     }
   if (!(low[0] <= high[0] && low[1] <= high[1])) return {};
-  const double edge = std::max({high[0] - low[0], high[1] - low[1], 1e-6});
-  return {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.525 * edge};
+  const double height = high[1] - low[1], width = std::max({high[0] - low[0], height, 1e-6});
+  return {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.525 * width,
+          0.525 * std::max(height, width / 3.0)};
 }
 
-Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box, int side) {
-  Image picture = blank_picture(side, side, kPaper);
-  const double scale = 0.5 * static_cast<double>(side) / box.half;
+Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box, int width) {
+  const double scale = 0.5 * static_cast<double>(width) / box.half_width;
+  Image picture = blank_picture(width, static_cast<int>(std::lround(2.0 * scale * box.half_height)), kPaper);
   draw_lines(box, scale, &picture);
   for (const PlottedPoints& layer : layers)
     for (Eigen::Index i = 0; i < layer.positions.rows(); ++i) {
       const std::array<double, 2> place = place_of(layer.positions, i);
       if (!std::isfinite(place[0]) || !std::isfinite(place[1])) continue;
-      const double x = (place[0] - box.x + box.half) * scale, y = (box.half - place[1] + box.y) * scale;
+      const double x = (place[0] - box.x + box.half_width) * scale;
+      const double y = (box.half_height - place[1] + box.y) * scale;
       const std::size_t colour = layer.colours.size() == 1 ? 0 : static_cast<std::size_t>(i);
       if (std::abs(x) < 1e6 && std::abs(y) < 1e6)
         draw_disc(x, y, layer.radius, layer.colours[colour], &picture);

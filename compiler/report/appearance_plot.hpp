@@ -15,17 +15,18 @@ struct PlottedPoints {
   double radius = 1.0;                 // pixels
 };
 
-// A square part of the plane.
+// A part of the plane.
 struct PlotBox {
   double x = 0.0, y = 0.0;  // centre
-  double half = 1.0;        // of an edge
+  double half_width = 1.0, half_height = 1.0;
 };
 
-// The least one around all layers, a twentieth larger.
+// The least one around all layers, a twentieth larger; widened where it is higher than wide or flatter than
+// one to three.
 PlotBox box_around(const std::vector<PlottedPoints>& layers);
 
-// `side` x `side` pixels. The second coordinate points up; of one-dimensional points it is spread evenly, for
-// eyes only. Lines mark the zeros.
-Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box, int side);
+// `width` pixels wide, as high as the box asks for, both axes to one scale. The second coordinate points up;
+// of one-dimensional points it is spread evenly, for eyes only. Lines mark the zeros.
+Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box, int width);
 
 }  // namespace remapc

@@ -5,6 +5,7 @@
 #include "error.hpp"
 #include "files.hpp"
 #include "report/appearance_plot.hpp"
+#include "report/stroke_overlay.hpp"
 #include "sweep/image_file.hpp"
 
 namespace remapc {
@@ -13,17 +14,6 @@ namespace {
 constexpr int kSide = 512;  // pixels
 constexpr std::size_t kMostPoints = 16384, kMostStrokePoints = 512;
 constexpr DisplayColour kGrey = {0.72f, 0.72f, 0.72f};
-
-// Colours that differ for colour-blind eyes too (Okabe and Ito 2008).
-constexpr std::array<DisplayColour, 7> kStrokeColours = {{{0.84f, 0.37f, 0.00f},
-                                                          {0.00f, 0.45f, 0.70f},
-                                                          {0.00f, 0.62f, 0.45f},
-                                                          {0.94f, 0.89f, 0.26f},
-                                                          {0.80f, 0.47f, 0.65f},
-                                                          {0.34f, 0.71f, 0.91f},
-                                                          {0.90f, 0.62f, 0.00f}}};
-
-using Side = std::vector<std::uint32_t> StrokePair::*;
 
 std::vector<remap::WarpTexel> texels_at(const TextureMaterial& material,
                                         const std::vector<std::uint32_t>& indices, std::size_t most) {
@@ -41,7 +31,7 @@ struct Cloud {
 };
 
 Cloud cloud_of(const TextureMaterial& material, const remap::AppearanceCoordinates& coordinates,
-               const std::vector<StrokePair>& strokes, Side side) {
+               const std::vector<StrokePair>& strokes, StrokeSide side) {
   Cloud cloud;
   const std::vector<remap::WarpTexel> texels = sample_texels(material.material, kMostPoints);
   cloud.texels.positions = positions_of(coordinates, texels);
@@ -51,7 +41,7 @@ Cloud cloud_of(const TextureMaterial& material, const remap::AppearanceCoordinat
   for (std::size_t k = 0; k < strokes.size(); ++k)
     cloud.strokes.push_back(
         {positions_of(coordinates, texels_at(material, strokes[k].*side, kMostStrokePoints)),
-         {kStrokeColours[k % kStrokeColours.size()]},
+         {stroke_colour(k)},
          1.8});
   return cloud;
 }
@@ -79,25 +69,6 @@ std::vector<PlottedPoints> layers_over(const Cloud& below, const Cloud& cloud) {
   std::vector<PlottedPoints> layers{{below.texels.positions, {kGrey}, 1.6}};
   append(cloud, layers);
   return layers;
-}
-
-Image with_strokes(const Image& picture, const PictureGrid& grid, const std::vector<StrokePair>& strokes,
-                   Side side, std::size_t texel_count) {
-  constexpr float kDimmed = 0.55f;
-  std::vector<int> stroke_of(texel_count, -1);
-  for (std::size_t k = 0; k < strokes.size(); ++k)
-    for (const std::uint32_t texel : strokes[k].*side) stroke_of[texel] = static_cast<int>(k);
-  Image marked = picture;
-  for (float& value : marked.values) value = 1.0f - kDimmed + kDimmed * value;
-  const auto step = static_cast<std::size_t>(grid.samples), columns = grid.sample_width();
-  for (std::size_t i = 0; i < grid.texels.size(); ++i) {
-    const int stroke = stroke_of[grid.texels[i]];
-    if (stroke < 0) continue;
-    const std::size_t pixel = i / columns / step * static_cast<std::size_t>(grid.width) + i % columns / step;
-    const DisplayColour& colour = kStrokeColours[static_cast<std::size_t>(stroke) % kStrokeColours.size()];
-    std::copy(colour.begin(), colour.end(), &marked.values[3 * pixel]);
-  }
-  return marked;
 }
 
 std::string base64(const std::string& bytes) {
@@ -143,7 +114,7 @@ std::string figure_html(const Image& picture, const std::string& caption) {
 std::string stroke_key(std::size_t stroke_count) {
   std::string text = "<p>Strokes:";
   for (std::size_t k = 0; k < stroke_count; ++k) {
-    const DisplayColour& colour = kStrokeColours[k % kStrokeColours.size()];
+    const DisplayColour& colour = stroke_colour(k);
     text += " <span class=\"key\" style=\"background:rgb(";
     for (std::size_t c = 0; c < 3; ++c)
       text += (c == 0 ? "" : ",") + std::to_string(static_cast<int>(255.0f * colour[c]));
@@ -199,10 +170,8 @@ WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial&
   pictures.target = shaded_map(to, samples_of(to, target.material.texels), target.material.model);
   for (remap::WarpTexel& sample : samples) sample = remap::evaluate_warp(fit.compiled, sample);
   pictures.result = shaded_map(from, samples, target.material.model);
-  pictures.source_strokes =
-      with_strokes(pictures.source, from, strokes, &StrokePair::source, source.material.texels.size());
-  pictures.target_strokes =
-      with_strokes(pictures.target, to, strokes, &StrokePair::target, target.material.texels.size());
+  pictures.source_strokes = with_strokes(pictures.source, from, strokes, &StrokePair::source);
+  pictures.target_strokes = with_strokes(pictures.target, to, strokes, &StrokePair::target);
 
   const Cloud own = cloud_of(source, fit.compiled.coordinates, strokes, &StrokePair::source);
   const Cloud goal = cloud_of(target, fit.target_coordinates, strokes, &StrokePair::target);

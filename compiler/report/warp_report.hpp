@@ -13,7 +13,7 @@
 
 namespace remapc {
 
-// Display values; maps with a longer side of 512 pixels, spaces 512 x 512.
+// Display values; maps with a longer side of 512 pixels, spaces as wide.
 struct WarpPictures {
   Image source, target, result;          // as shaded_map() lights them
   Image source_strokes, target_strokes;  // the maps, dimmed, with the strokes in their colours
