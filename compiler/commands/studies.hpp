@@ -9,5 +9,6 @@ void add_environments_study(CLI::App& study);
 void add_workflows_study(CLI::App& study);
 void add_conductors_study(CLI::App& study);
 void add_dielectrics_study(CLI::App& study);
+void add_warp_study(CLI::App& study);
 
 }  // namespace remapc

@@ -13,6 +13,7 @@ void add_study_command(CLI::App& app) {
   add_workflows_study(*command);
   add_conductors_study(*command);
   add_dielectrics_study(*command);
+  add_warp_study(*command);
 }
 
 }  // namespace remapc

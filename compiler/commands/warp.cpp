@@ -12,6 +12,7 @@
 #include "error.hpp"
 #include "files.hpp"
 #include "model/fit_json.hpp"
+#include "report/warp_report.hpp"
 #include "report_text.hpp"
 #include "version.hpp"
 #include "warp/stroke_masks.hpp"
@@ -29,7 +30,7 @@ struct WarpCommand {
   std::string method = "registration";
   std::string distance = "relative";
   int dimensions = 0;
-  std::filesystem::path output;
+  std::filesystem::path output, report;
   bool json = false;
 };
 
@@ -91,7 +92,28 @@ nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
           {"template_texels_left_out", found.target_left_out}};
 }
 
+WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::WarpMapFit& file) {
+  const WarpDiagnostics& found = fit.diagnostics;
+  return {
+      "Warp " + file.id,
+      {{"source", command.source + ", " + command.source_model},
+       {"template", command.target + ", " + command.target_model},
+       {"method", command.method + ", " + file.method.at("strokes") + " stroke pairs"},
+       {"dimensions", std::to_string(found.dimensions) + " (source " +
+                          std::to_string(found.source_dimensions) + ", template " +
+                          std::to_string(found.target_dimensions) + ")"},
+       {"stress of source and template", percent(found.source_stress) + ", " + percent(found.target_stress)},
+       {"directions that strokes fix", std::to_string(found.fixed_directions)},
+       {"appearances of the template that are used", percent(found.coverage)},
+       {"folds", percent(found.fold_share)},
+       {"strokes apart, of the template's spread", percent(found.stroke_distance)},
+       {"bytes of the converter", std::to_string(byte_count(fit.compiled))}},
+      file.remarks,
+      static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
+}
+
 void run(const WarpCommand& command) {
+  if (!command.report.empty()) require_report_path(command.report);
   const TextureMaterial source = read_texture_material(command.source, command.source_model);
   const TextureMaterial target = read_texture_material(command.target, command.target_model);
   const std::vector<StrokePair> strokes = strokes_of(command, source, target);
@@ -100,6 +122,9 @@ void run(const WarpCommand& command) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const remap::WarpMapFit file = fit_file(command, fit, strokes.size());
   remap::write_file(command.output, fit_to_json(file));
+  if (!command.report.empty())
+    write_warp_report(command.report, warp_pictures(source, target, strokes, fit),
+                      words_of(command, fit, file));
   if (command.json) {
     const nlohmann::ordered_json json = {{"fit", command.output.string()},
                                          {"bytes", byte_count(fit.compiled)},
@@ -152,6 +177,9 @@ void add_warp_command(CLI::App& app) {
       ->check(CLI::Range(0, 3))
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "File of the fit; its name is the id")->required();
+  command->add_option("--report", options->report,
+                      "Pictures of materials, strokes, appearance spaces and result: one .html with all of "
+                      "them and the diagnostics, or a sheet as .png");
   command->add_flag("--json", options->json, "Diagnostics as JSON on standard output");
   command->footer(
       "Example:\n  remapc warp brown_leaf green_leaf --stroke brown_stem.png green_stem.png --stroke "

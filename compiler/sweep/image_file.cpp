@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include "error.hpp"
@@ -98,6 +99,18 @@ void write_png(const std::filesystem::path& path, const Image& image) {
            input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, bytes.data()) &&
            !input->has_error();
   });
+}
+
+std::string png_bytes(const Image& image) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+  const auto output = OIIO::ImageOutput::create("memory.png", &memory);
+  if (!output || !output->open("memory.png", spec) ||
+      !output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) || !output->close())
+    throw Error(ErrorKind::kOutput,
+                "a PNG picture cannot be made: " + (output ? output->geterror() : OIIO::geterror()));
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace remapc

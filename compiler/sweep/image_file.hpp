@@ -25,4 +25,7 @@ void write_exr(const std::filesystem::path& path, const Image& image,
 // kOutput.
 void write_png(const std::filesystem::path& path, const Image& image);
 
+// The bytes of such a PNG file. Throws kOutput where OpenImageIO cannot make it.
+std::string png_bytes(const Image& image);
+
 }  // namespace remapc

@@ -9,7 +9,6 @@ namespace remapc {
 namespace {
 
 constexpr int kLeastTexels = 4;
-constexpr double kWantedPoints = 350.0;
 constexpr int kSearchSteps = 8;
 constexpr double kCoarsest = 20.0, kFinest = 120.0;  // bins along the largest extent
 
@@ -29,14 +28,14 @@ std::vector<int> count_texels(const Points& positions, const BinGrid& grid) {
   return counts;
 }
 
-double search_spacing(const Points& positions) {
+double search_spacing(const Points& positions, double wanted) {
   const double extent = largest_extent(positions);
   double spacing = extent / kCoarsest;
   for (int step = 0; step < kSearchSteps; ++step) {
     const std::vector<int> counts = count_texels(positions, BinGrid(positions, spacing));
     const auto occupied =
         std::count_if(counts.begin(), counts.end(), [](int count) { return count >= kLeastTexels; });
-    const double ratio = static_cast<double>(std::max<std::ptrdiff_t>(occupied, 1)) / kWantedPoints;
+    const double ratio = static_cast<double>(std::max<std::ptrdiff_t>(occupied, 1)) / wanted;
     if (std::abs(ratio - 1.0) < 0.08) break;
     spacing *= std::pow(ratio, 0.8 / static_cast<double>(positions.cols()));
     spacing = std::clamp(spacing, extent / kFinest, extent / 2.0);
@@ -99,9 +98,10 @@ long BinGrid::bin_of(const Points& positions, Eigen::Index i) const noexcept {
   return bin_of(position.data());
 }
 
-Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes) {
+Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes,
+                       double wanted) {
   Occupancy result;
-  result.spacing = search_spacing(positions);
+  result.spacing = search_spacing(positions, wanted);
   const BinGrid grid(positions, result.spacing);
   const std::vector<int> counts = count_texels(positions, grid);
   // Few texels altogether: every occupied bin counts.

@@ -25,11 +25,14 @@ struct Occupancy {
   double spacing = 0.0;                   // edge of a bin
 };
 
-// Bins whose spacing is searched so that about 350 are occupied, at least four for each: what lies between
-// 300 and 1200 points changes results by a point of error. `positions` of texels (NaN takes no part);
-// `strokes` hold indices of texels. A stroke all of whose texels lie in bins that are too sparse gets the
-// point nearest to its centre.
-Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes);
+inline constexpr double kWantedPoints = 350.0;
+
+// Bins whose spacing is searched so that about `wanted` are occupied, at least four texels for each: what
+// lies between 300 and 1200 points changes results by a point of error. `positions` of texels (NaN takes no
+// part); `strokes` hold indices of texels. A stroke all of whose texels lie in bins that are too sparse gets
+// the point nearest to its centre.
+Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes,
+                       double wanted = kWantedPoints);
 
 // The bin of every position in the grid of `occupancy_of` (-1: none that counts), for coverage.
 class BinGrid {

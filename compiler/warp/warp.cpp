@@ -173,8 +173,8 @@ Matched matched(const MaterialRef& source, const MaterialRef& target, const std:
   found.target_left_out = result.target.left_out;
   result.source_positions = positions_of(match.source, source, result.source.texels);
   result.target_positions = positions_of(match.target, target, result.target.texels);
-  const PointSets sets = {occupancy_of(result.source_positions, result.source.strokes),
-                          occupancy_of(result.target_positions, result.target.strokes),
+  const PointSets sets = {occupancy_of(result.source_positions, result.source.strokes, options.points),
+                          occupancy_of(result.target_positions, result.target.strokes, options.points),
                           common_axes(from_space, to_space, found.dimensions),
                           stroke_centres(result.source_positions, result.source.strokes),
                           stroke_centres(result.target_positions, result.target.strokes)};

@@ -26,8 +26,9 @@ std::vector<std::string> method_names();
 struct WarpOptions {
   WarpMethod method = WarpMethod::kRegistration;
   AppearanceDistance distance = AppearanceDistance::kRelative;
-  int dimensions = 0;     // 1 to 3; 0: those that the materials need (dimension_of)
-  std::size_t nodes = 0;  // of the table along each dimension; 0: default_nodes()
+  int dimensions = 0;             // 1 to 3; 0: those that the materials need (dimension_of)
+  double points = kWantedPoints;  // occupied bins that stand for a material, about
+  std::size_t nodes = 0;          // of the table along each dimension; 0: default_nodes()
 };
 
 // What a user can act on.

@@ -1,8 +1,8 @@
 // Appearance warps: the fit from two texture sets and strokes, and the pass of the compiled table.
 #include "bench/bench.hpp"
 #include "convert/warp_kernel.hpp"
+#include "study/warp_sets.hpp"
 #include "warp/warp.hpp"
-#include "warp/warp_sets.hpp"
 
 namespace remap_bench {
 namespace {
@@ -12,8 +12,8 @@ constexpr std::size_t kTexels = kSize * kSize;
 
 // A set with a known answer, its warp, and its source as rows.
 struct WarpCase {
-  explicit WarpCase(warp_test::WarpSet made)
-      : set(std::move(made)), strokes(warp_test::strokes_of(set, 0)), packed(remap::packed(fit().compiled)) {
+  explicit WarpCase(remapc::WarpSet made)
+      : set(std::move(made)), strokes(remapc::strokes_of(set, 0)), packed(remap::packed(fit().compiled)) {
     for (std::size_t r = 0; r < in.size(); ++r) {
       in[r].resize(kTexels);
       out[r].resize(kTexels);
@@ -22,7 +22,7 @@ struct WarpCase {
   }
   remapc::WarpFit fit() const { return fit_warp(set.source, set.target, strokes); }
 
-  warp_test::WarpSet set;
+  remapc::WarpSet set;
   std::vector<remapc::StrokePair> strokes;
   remap::PackedWarp packed;
   std::array<std::vector<float>, remap::kWarpParameters> in, out;
@@ -30,11 +30,11 @@ struct WarpCase {
 
 // Two latents, and three.
 WarpCase& leaf() {
-  static WarpCase made(warp_test::leaf_set(kSize));
+  static WarpCase made(remapc::leaf_set(kSize));
   return made;
 }
 WarpCase& rust() {
-  static WarpCase made(warp_test::rust_set(kSize));
+  static WarpCase made(remapc::rust_set(kSize));
   return made;
 }
 

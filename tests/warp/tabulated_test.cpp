@@ -7,15 +7,14 @@
 #include <catch2/catch.hpp>
 
 #include "error.hpp"
+#include "study/warp_sets.hpp"
 #include "warp/quadrature.hpp"
 #include "warp/sampled_features.hpp"
 #include "warp/warp.hpp"
-#include "warp/warp_sets.hpp"
 
 namespace {
 
 using namespace remapc;
-using warp_test::WarpSet;
 
 // The material as a table of what its model gives: every texel an entry.
 TabulatedMaterial tabulated(const WarpMaterial& material) {
@@ -89,7 +88,7 @@ std::vector<double> even_radii(double step, std::size_t count) {
 }  // namespace
 
 TEST_CASE("sampled features: distances are the integral over directions", "[warp]") {
-  const WarpSet set = warp_test::rust_set(32);
+  const WarpSet set = rust_set(32);
   const auto directions = half_vector_quadrature();
   const TabulatedMaterial a = tabulated(set.source), b = tabulated(set.target);
   for (const auto distance : {AppearanceDistance::kCubeRoot, AppearanceDistance::kLog}) {
@@ -114,7 +113,7 @@ TEST_CASE("sampled features: distances are the integral over directions", "[warp
 }
 
 TEST_CASE("distances without a closed form find the same correspondence", "[warp]") {
-  for (const WarpSet& set : {warp_test::leaf_set(96), warp_test::rust_set(96)}) {
+  for (const WarpSet& set : {leaf_set(96), rust_set(96)}) {
     const auto strokes = strokes_of(set, 0);
     for (const auto distance : {AppearanceDistance::kCubeRoot, AppearanceDistance::kLog}) {
       const WarpFit fit = fit_warp(set.source, set.target, strokes, by(distance));
@@ -129,7 +128,7 @@ TEST_CASE("distances without a closed form find the same correspondence", "[warp
 }
 
 TEST_CASE("tables: a material tabulated lies where its parameters do", "[warp]") {
-  const WarpSet set = warp_test::leaf_set(48);
+  const WarpSet set = leaf_set(48);
   const auto strokes = strokes_of(set, 0);
   const TabulatedMaterial source = tabulated(set.source), target = tabulated(set.target);
   const double by_parameters =
@@ -195,7 +194,7 @@ TEST_CASE("profiles: retargeted by strokes", "[warp]") {
 }
 
 TEST_CASE("tables: what does not go together is refused", "[warp]") {
-  const WarpSet set = warp_test::leaf_set(32);
+  const WarpSet set = leaf_set(32);
   const TabulatedMaterial wax = profiles(even_radii(0.1, 20), {{0.8, 0.5}, {0.5, 0.3}});
   CHECK_THROWS_WITH(appearance_features(set.source, wax, AppearanceDistance::kPlain),
                     Catch::Contains("one holds scattering profiles and the other reflectance"));

@@ -9,13 +9,12 @@
 
 #include "error.hpp"
 #include "model/fit_json.hpp"
+#include "study/warp_sets.hpp"
 #include "warp/quadrature.hpp"
-#include "warp/warp_sets.hpp"
 
 namespace {
 
 using namespace remapc;
-using warp_test::WarpSet;
 
 // Distance by the quadrature itself, with the BRDF evaluated at both widths: shares nothing with the tables.
 double brute_distance(const Eigen::VectorXd& weights, const remap::WarpTexel& a, const remap::WarpTexel& b) {
@@ -102,12 +101,12 @@ double change(const Figures& a, const Figures& b, double radius) {
   return 100.0 * sum / radius / static_cast<double>(a.result.size());
 }
 
-WarpSet small_leaf() { return warp_test::leaf_set(64); }
+WarpSet small_leaf() { return leaf_set(64); }
 
 }  // namespace
 
 TEST_CASE("features: distances are those of the quadrature", "[warp]") {
-  const WarpSet set = warp_test::rust_set(64);
+  const WarpSet set = rust_set(64);
   const FeaturePair features = appearance_features(set.source, set.target);
   const Eigen::VectorXd weights = direction_weights(set.source, set.target, AppearanceDistance::kRelative);
   for (std::size_t i = 0; i < 40; ++i) {
@@ -119,7 +118,7 @@ TEST_CASE("features: distances are those of the quadrature", "[warp]") {
 }
 
 TEST_CASE("coordinates: closed form is the projection of features", "[warp]") {
-  const WarpSet set = warp_test::rust_set(64);
+  const WarpSet set = rust_set(64);
   const FeaturePair features = appearance_features(set.source, set.target);
   const AppearanceSpace space = appearance_space(set.source, features.source);
   const auto coordinates = closed_form(space, std::get<SeparableFeatures>(features.source), 3);
@@ -165,7 +164,7 @@ TEST_CASE("affine: one stroke leaves the common axes", "[warp]") {
 }
 
 TEST_CASE("warp: near the truth, without tears and folds", "[warp]") {
-  for (const WarpSet& set : {warp_test::leaf_set(128), warp_test::rust_set(128)}) {
+  for (const WarpSet& set : {leaf_set(128), rust_set(128)}) {
     CAPTURE(set.name);
     std::vector<Figures> figures;
     double error = 0.0, bins = 0.0, moved = 0.0, radius = 0.0;
@@ -190,8 +189,8 @@ TEST_CASE("warp: near the truth, without tears and folds", "[warp]") {
 }
 
 TEST_CASE("warp: nearer than histogram matching and affine", "[warp]") {
-  const WarpSet set = warp_test::rust_set(128);
-  const auto strokes = warp_test::strokes_of(set, 0);
+  const WarpSet set = rust_set(128);
+  const auto strokes = strokes_of(set, 0);
   const auto error_by = [&](WarpMethod method) {
     WarpOptions options;
     options.method = method;
@@ -205,7 +204,7 @@ TEST_CASE("warp: nearer than histogram matching and affine", "[warp]") {
 
 TEST_CASE("warp: the same bits every time", "[warp]") {
   const WarpSet set = small_leaf();
-  const auto strokes = warp_test::strokes_of(set, 0);
+  const auto strokes = strokes_of(set, 0);
   CHECK(fit_warp(set.source, set.target, strokes).compiled ==
         fit_warp(set.source, set.target, strokes).compiled);
 }
@@ -213,13 +212,13 @@ TEST_CASE("warp: the same bits every time", "[warp]") {
 TEST_CASE("warp: other BRDF models keep the appearance", "[warp]") {
   WarpSet set = small_leaf();
   set.source.model = {Brdf::kBeckmann, Fresnel::kSchlick};
-  const WarpFit fit = fit_warp(set.source, set.target, warp_test::strokes_of(set, 0));
+  const WarpFit fit = fit_warp(set.source, set.target, strokes_of(set, 0));
   CHECK(measure(set, fit).folds == 0.0);
 }
 
 TEST_CASE("warp: texels that are not finite take no part", "[warp]") {
   WarpSet set = small_leaf();
-  const auto strokes = warp_test::strokes_of(set, 0);
+  const auto strokes = strokes_of(set, 0);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   set.source.texels[5][2] = nan;
   set.target.texels[9][6] = std::numeric_limits<float>::infinity();
@@ -232,7 +231,7 @@ TEST_CASE("warp: texels that are not finite take no part", "[warp]") {
 
 TEST_CASE("warp: one stroke leaves directions open and says so", "[warp]") {
   const WarpSet set = small_leaf();
-  const WarpFit fit = fit_warp(set.source, set.target, {warp_test::strokes_of(set, 0)[0]});
+  const WarpFit fit = fit_warp(set.source, set.target, {strokes_of(set, 0)[0]});
   CHECK(fit.diagnostics.fixed_directions == 0);
   const auto warnings = warnings_of(fit.diagnostics);
   CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
@@ -242,7 +241,7 @@ TEST_CASE("warp: one stroke leaves directions open and says so", "[warp]") {
 
 TEST_CASE("warp: input that cannot be used is refused", "[warp]") {
   const WarpSet set = small_leaf();
-  const auto strokes = warp_test::strokes_of(set, 0);
+  const auto strokes = strokes_of(set, 0);
   const auto message = [](const auto& call) {
     try {
       call();
@@ -280,7 +279,7 @@ TEST_CASE("warp fits: files hold every bit, and damaged ones are refused", "[war
   remap::WarpMapFit fit;
   fit.id = "leaf";
   fit.source_model = fit.template_model = "mitsuba/ggx";
-  fit.warp = fit_warp(set.source, set.target, warp_test::strokes_of(set, 0)).compiled;
+  fit.warp = fit_warp(set.source, set.target, strokes_of(set, 0)).compiled;
   fit.method = {{"method", "registration"}};
   fit.remarks = {"A remark."};
   fit.tool_version = "0";

@@ -1,0 +1,91 @@
+#include "report/shaded_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sweep/likeness.hpp"
+
+namespace remapc {
+namespace {
+
+using Vector = std::array<double, 3>;  // x to the right, y up, z to the camera
+using Radiance = std::array<double, 3>;
+
+constexpr double kSteepest = 0.7;      // tangent of the cushion's slope at its ends
+constexpr double kSurroundings = 0.3;  // radiance, even from all sides
+constexpr double kLeastAlpha = 0.02;   // narrower highlights would be smaller than a pixel
+
+struct DistantLight {
+  Vector direction;
+  double irradiance;  // in units of pi, so that 1 shows a white diffuse surface as white
+};
+constexpr std::array<DistantLight, 2> kLights = {{{{-0.45, 0.50, 0.74}, 0.75}, {{0.50, -0.42, 0.757}, 0.2}}};
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector normalised(const Vector& v) {
+  const double length = std::sqrt(dot(v, v));
+  return {v[0] / length, v[1] / length, v[2] / length};
+}
+
+LocalGeometry geometry_of(const Vector& normal, const Vector& light) {
+  const Vector sum = {light[0], light[1], light[2] + 1.0};  // the camera is at z
+  const Vector half = normalised(sum);
+  LocalGeometry geometry{};
+  geometry.cos_light = dot(normal, light);
+  geometry.cos_view = normal[2];
+  geometry.cos_half = dot(normal, half);
+  geometry.cos_light_half = dot(light, half);
+  geometry.half_length_2 = dot(sum, sum);
+  geometry.cos_mirror = 2.0 * geometry.cos_light * geometry.cos_view - light[2];
+  return geometry;
+}
+
+Radiance radiance_of(const remap::WarpTexel& texel, const BrdfModel& model, const Vector& normal) {
+  Radiance sum{};
+  for (std::size_t c = 0; c < 3; ++c) sum[c] = kSurroundings * static_cast<double>(texel[c] + texel[3 + c]);
+  const double alpha = std::max(static_cast<double>(texel[6]), kLeastAlpha);
+  for (const DistantLight& light : kLights) {
+    const LocalGeometry geometry = geometry_of(normal, light.direction);
+    if (geometry.cos_light <= 0.0) continue;
+    const Lobe lobe = evaluate_lobe(model.brdf, model.fresnel, alpha, geometry);
+    const double strength = std::numbers::pi * light.irradiance * geometry.cos_light;
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[c] += strength * (static_cast<double>(texel[c]) / std::numbers::pi + lobe.base +
+                            static_cast<double>(texel[3 + c]) * lobe.slope);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Image shaded_map(const PictureGrid& grid, const std::vector<remap::WarpTexel>& samples,
+                 const BrdfModel& model) {
+  Image picture = blank_picture(grid.width, grid.height, 0.0f);
+  const std::size_t columns = grid.sample_width();
+  const double longer = static_cast<double>(std::max(grid.width, grid.height) * grid.samples);
+  std::vector<Radiance> pixels(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::size_t x = i % columns, y = i / columns;
+    const double across = (2.0 * static_cast<double>(x) + 1.0 - static_cast<double>(columns)) / longer;
+    const double down =
+        (2.0 * static_cast<double>(y) + 1.0 - static_cast<double>(samples.size() / columns)) / longer;
+    const Radiance own =
+        radiance_of(samples[i], model, normalised({kSteepest * across, -kSteepest * down, 1.0}));
+    const auto step = static_cast<std::size_t>(grid.samples);
+    Radiance& pixel = pixels[y / step * static_cast<std::size_t>(grid.width) + x / step];
+    for (std::size_t c = 0; c < 3; ++c) pixel[c] += own[c];
+  }
+  const double share = 1.0 / static_cast<double>(grid.samples * grid.samples);
+  for (std::size_t p = 0; p < pixels.size(); ++p)
+    for (std::size_t c = 0; c < 3; ++c) picture.values[3 * p + c] = display_value(share * pixels[p][c]);
+  return picture;
+}
+
+DisplayColour shaded_colour(const remap::WarpTexel& texel, const BrdfModel& model) {
+  const Radiance radiance = radiance_of(texel, model, {0.0, 0.0, 1.0});
+  return {display_value(radiance[0]), display_value(radiance[1]), display_value(radiance[2])};
+}
+
+}  // namespace remapc

@@ -1,0 +1,208 @@
+#include "report/warp_report.hpp"
+
+#include <algorithm>
+
+#include "error.hpp"
+#include "files.hpp"
+#include "report/appearance_plot.hpp"
+#include "report/stroke_overlay.hpp"
+#include "sweep/image_file.hpp"
+
+namespace remapc {
+namespace {
+
+constexpr int kSide = 512;  // pixels
+constexpr std::size_t kMostPoints = 16384, kMostStrokePoints = 512;
+constexpr DisplayColour kGrey = {0.72f, 0.72f, 0.72f};
+
+std::vector<remap::WarpTexel> texels_at(const TextureMaterial& material,
+                                        const std::vector<std::uint32_t>& indices, std::size_t most) {
+  std::vector<remap::WarpTexel> texels;
+  const std::size_t count = std::min(indices.size(), most);
+  for (std::size_t i = 0; i < count; ++i)
+    texels.push_back(material.material.texels[indices[i * indices.size() / count]]);
+  return texels;
+}
+
+// A material as points of its own space.
+struct Cloud {
+  PlottedPoints texels;
+  std::vector<PlottedPoints> strokes;
+};
+
+Cloud cloud_of(const TextureMaterial& material, const remap::AppearanceCoordinates& coordinates,
+               const std::vector<StrokePair>& strokes, StrokeSide side) {
+  Cloud cloud;
+  const std::vector<remap::WarpTexel> texels = sample_texels(material.material, kMostPoints);
+  cloud.texels.positions = positions_of(coordinates, texels);
+  cloud.texels.radius = 0.8;
+  for (const remap::WarpTexel& texel : texels)
+    cloud.texels.colours.push_back(shaded_colour(texel, material.material.model));
+  for (std::size_t k = 0; k < strokes.size(); ++k)
+    cloud.strokes.push_back(
+        {positions_of(coordinates, texels_at(material, strokes[k].*side, kMostStrokePoints)),
+         {stroke_colour(k)},
+         1.8});
+  return cloud;
+}
+
+Cloud moved(const Cloud& cloud, const AppearanceWarp& warp) {
+  Cloud images = cloud;
+  images.texels.positions = images_of(warp, cloud.texels.positions);
+  for (PlottedPoints& stroke : images.strokes) stroke.positions = images_of(warp, stroke.positions);
+  return images;
+}
+
+void append(const Cloud& cloud, std::vector<PlottedPoints>& layers) {
+  layers.push_back(cloud.texels);
+  layers.insert(layers.end(), cloud.strokes.begin(), cloud.strokes.end());
+}
+
+std::vector<PlottedPoints> layers_of(const Cloud& cloud) {
+  std::vector<PlottedPoints> layers;
+  append(cloud, layers);
+  return layers;
+}
+
+// The source's points over the template's.
+std::vector<PlottedPoints> layers_over(const Cloud& below, const Cloud& cloud) {
+  std::vector<PlottedPoints> layers{{below.texels.positions, {kGrey}, 1.6}};
+  append(cloud, layers);
+  return layers;
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(bytes.size() - i, 3);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < count ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+  }
+  return text;
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char letter : text) switch (letter) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += letter;
+    }
+  return result;
+}
+
+std::string figure_html(const Image& picture, const std::string& caption) {
+  return "<figure><img alt=\"" + escaped(caption) + "\" src=\"data:image/png;base64," +
+         base64(png_bytes(picture)) + "\"><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+}
+
+std::string stroke_key(std::size_t stroke_count) {
+  std::string text = "<p>Strokes:";
+  for (std::size_t k = 0; k < stroke_count; ++k) {
+    const DisplayColour& colour = stroke_colour(k);
+    text += " <span class=\"key\" style=\"background:rgb(";
+    for (std::size_t c = 0; c < 3; ++c)
+      text += (c == 0 ? "" : ",") + std::to_string(static_cast<int>(255.0f * colour[c]));
+    text += ")\"></span> " + std::to_string(k + 1);
+  }
+  return text + "</p>\n";
+}
+
+constexpr const char* kHead =
+    "<meta charset=\"utf-8\">\n<style>\n"
+    "body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 1180px; padding: 0 1em; color: #222 }\n"
+    ".row { display: grid; grid-template-columns: repeat(auto-fit, minmax(240px, 1fr)); gap: 14px }\n"
+    "figure { margin: 0 } img { width: 100%; display: block }\n"
+    "figcaption { color: #555; font-size: 13px; padding: 4px 0 10px }\n"
+    "table { border-collapse: collapse; margin: 1em 0 } td { padding: 2px 18px 2px 0 }\n"
+    ".warning { background: #fff3d6; border-left: 4px solid #e69f00; padding: 6px 12px; margin: 8px 0 }\n"
+    ".key { display: inline-block; width: 0.9em; height: 0.9em; margin-left: 0.7em }\n"
+    "</style>\n";
+
+std::string report_html(const WarpPictures& pictures, const WarpWords& words) {
+  std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<title>" + escaped(words.title) +
+                     "</title>\n" + kHead + "</head>\n<body>\n<h1>" + escaped(words.title) + "</h1>\n";
+  for (const std::string& warning : words.warnings)
+    html += "<p class=\"warning\">" + escaped(warning) + "</p>\n";
+  html += "<div class=\"row\">\n" + figure_html(pictures.source, "Source") +
+          figure_html(pictures.target, "Template") +
+          figure_html(pictures.result, "Result: the source's pattern, the template's reflectance") +
+          "</div>\n<h2>Strokes</h2>\n" + stroke_key(words.stroke_count) + "<div class=\"row\">\n" +
+          figure_html(pictures.source_strokes, "On the source") +
+          figure_html(pictures.target_strokes, "On the template") +
+          "</div>\n<h2>Appearance spaces</h2>\n<p>The first two coordinates; a point a texel, in its colour; "
+          "those of strokes in the colours of the strokes.</p>\n<div class=\"row\">\n" +
+          figure_html(pictures.source_space, "Source") + figure_html(pictures.target_space, "Template") +
+          figure_html(pictures.before, "Before the warp: the source over the template (grey)") +
+          figure_html(pictures.after, "After it") + "</div>\n<h2>Figures</h2>\n<table>\n";
+  for (const auto& [name, value] : words.facts)
+    html += "<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n";
+  return html +
+         "</table>\n<p>Maps are shown on a cushion under a key light from the upper left, a weaker one from "
+         "the lower right and even surroundings: highlights are as wide as the material's lobe.</p>\n"
+         "</body>\n</html>\n";
+}
+
+}  // namespace
+
+WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial& target,
+                           const std::vector<StrokePair>& strokes, const WarpFit& fit) {
+  const PictureGrid from = picture_grid(source.width, source.height, kSide);
+  const PictureGrid to = picture_grid(target.width, target.height, kSide);
+  std::vector<remap::WarpTexel> samples = samples_of(from, source.material.texels);
+  WarpPictures pictures;
+  pictures.source = shaded_map(from, samples, source.material.model);
+  pictures.target = shaded_map(to, samples_of(to, target.material.texels), target.material.model);
+  for (remap::WarpTexel& sample : samples) sample = remap::evaluate_warp(fit.compiled, sample);
+  pictures.result = shaded_map(from, samples, target.material.model);
+  pictures.source_strokes = with_strokes(pictures.source, from, strokes, &StrokePair::source);
+  pictures.target_strokes = with_strokes(pictures.target, to, strokes, &StrokePair::target);
+
+  const Cloud own = cloud_of(source, fit.compiled.coordinates, strokes, &StrokePair::source);
+  const Cloud goal = cloud_of(target, fit.target_coordinates(), strokes, &StrokePair::target);
+  const std::vector<PlottedPoints> before = layers_over(goal, own),
+                                   after = layers_over(goal, moved(own, fit.warp));
+  std::vector<PlottedPoints> all = before;
+  all.insert(all.end(), after.begin(), after.end());
+  const PlotBox box = box_around(all);
+  pictures.source_space = appearance_plot(layers_of(own), box, kSide);
+  pictures.target_space = appearance_plot(layers_of(goal), box, kSide);
+  pictures.before = appearance_plot(before, box, kSide);
+  pictures.after = appearance_plot(after, box, kSide);
+  return pictures;
+}
+
+void require_report_path(const std::filesystem::path& path) {
+  if (path.extension() != ".html" && path.extension() != ".png")
+    throw remap::Error(remap::ErrorKind::kUsage,
+                       "--report: is " + path.string() + "; expected a name that ends in .html or .png");
+}
+
+void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,
+                       const WarpWords& words) {
+  require_report_path(path);
+  if (path.extension() == ".html") {
+    remap::write_file(path, report_html(pictures, words));
+    return;
+  }
+  write_png(path, sheet_of({{pictures.source, pictures.target, pictures.result},
+                            {pictures.source_strokes, pictures.target_strokes, pictures.after},
+                            {pictures.source_space, pictures.target_space, pictures.before}}));
+}
+
+}  // namespace remapc

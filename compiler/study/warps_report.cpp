@@ -1,0 +1,207 @@
+#include "study/warps_report.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "number_text.hpp"
+#include "report_text.hpp"
+#include "version.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+constexpr std::size_t kNameWidth = 18;
+
+std::string size_text(const WarpsOptions& options) {
+  return std::to_string(options.cases.front().width) + " x " + std::to_string(options.cases.front().height);
+}
+
+std::string set_names(const WarpsOptions& options) {
+  std::string names;
+  for (const WarpCase& studied : options.cases) names += (names.empty() ? "" : ", ") + studied.name;
+  return names;
+}
+
+std::string variant_title(const WarpVariant& variant) {
+  switch (variant.group) {
+    case WarpGroup::kDimensions:
+      return variant.name + (variant.dimensions == 1 ? " dimension" : " dimensions");
+    case WarpGroup::kPoints:
+      return variant.name + " points";
+    case WarpGroup::kNodes:
+      return variant.name + " of the nodes";
+    case WarpGroup::kMethod:
+      break;
+  }
+  return variant.name;
+}
+
+std::string line_of(const WarpsOptions& options, const WarpsResult& result, std::size_t variant) {
+  const WarpSummary summary = summary_of(result, variant);
+  const WarpFigures& figures = summary.figures;
+  std::string text = padded(variant_title(result.variants[variant]), kNameWidth) + fixed(figures.mean, 1, 7) +
+                     fixed(figures.rms, 1, 7) + fixed(figures.median, 1, 8) + fixed(figures.p95, 1, 7) +
+                     fixed(figures.strokes, 1, 9) + fixed(figures.used, 1, 7) + fixed(figures.tears, 2, 7);
+  const std::string none = padded_left("-", 7);
+  text += summary.cost ? fixed(summary.cost->folds, 2, 7) : none;
+  text += fixed(figures.variation, 2, 11);
+  text += summary.change ? fixed(*summary.change, 1, 8) : " " + none;
+  if (summary.cost)
+    text += fixed(summary.cost->compiled.mean, 1, 10) + fixed(summary.cost->compiled.difference, 2, 7) +
+            fixed(summary.cost->bytes / 1000.0, 0, 6) +
+            (summary.cost->seconds > 0.0 ? fixed(1000.0 * summary.cost->seconds, 0, 6) : padded_left("-", 6));
+  else
+    text += std::string(29, ' ');
+  for (std::size_t set = 0; set < options.cases.size(); ++set)
+    text += fixed(summary_of(result, variant, set).figures.mean, 1, 8);
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text + "\n";
+}
+
+std::string cost_cells(const std::optional<WarpCost>& cost) {
+  if (!cost) return ",,,,,";
+  return number_text(cost->folds) + "," + number_text(cost->compiled.mean) + "," +
+         number_text(cost->compiled.difference) + "," + number_text(cost->bytes) + "," +
+         (cost->seconds > 0.0 ? number_text(cost->seconds) : "") + "," + std::to_string(cost->dimensions);
+}
+
+std::string comments_of(const WarpsOptions& options) {
+  return comment_lines({{"tool", std::string("remapc ") + remap::kVersion},
+                        {"size", size_text(options)},
+                        {"sets", set_names(options)},
+                        {"unit", "percent of the template's spread unless said otherwise"}});
+}
+
+// Mean errors of all sets, a line a variant of the groups.
+void write_bars(const WarpsOptions& options, const WarpsResult& result, std::ostringstream& out) {
+  out << "$bars << EOD\n";
+  for (std::size_t v = 0; v < result.variants.size(); ++v) {
+    const WarpVariant& variant = result.variants[v];
+    if (variant.group != WarpGroup::kMethod && variant.group != WarpGroup::kDimensions) continue;
+    out << '"' << variant_title(variant) << '"';
+    for (std::size_t set = 0; set < options.cases.size(); ++set)
+      out << ' ' << number_text(summary_of(result, v, set).figures.mean);
+    out << '\n';
+  }
+  out << "EOD\n";
+}
+
+// `x` of each variant of the group against a value for each set.
+template <typename Abscissa, typename Value>
+void write_curves(const WarpsOptions& options, const WarpsResult& result, WarpGroup group, const char* name,
+                  const Abscissa& x, const Value& value, std::ostringstream& out) {
+  out << "$" << name << " << EOD\n";
+  for (std::size_t v = 0; v < result.variants.size(); ++v) {
+    if (result.variants[v].group != group) continue;
+    out << number_text(x(result.variants[v]));
+    for (std::size_t set = 0; set < options.cases.size(); ++set)
+      out << ' ' << number_text(value(summary_of(result, v, set)));
+    out << '\n';
+  }
+  out << "EOD\n";
+}
+
+std::string plots_of(const WarpsOptions& options, const char* data, const char* first, const char* style) {
+  // Colours that differ for colour-blind eyes too (Okabe and Ito 2008), again from the first.
+  static constexpr std::array<const char*, 6> kColours = {"#009E73", "#E69F00", "#0072B2",
+                                                          "#D55E00", "#CC79A7", "#56B4E9"};
+  std::string text = "plot ";
+  for (std::size_t set = 0; set < options.cases.size(); ++set)
+    text += (set == 0 ? "" : ", ") + std::string("$") + data + " using " + first + std::to_string(2 + set) +
+            (std::string(first).empty() ? ":xtic(1) " : " ") + style + " linecolor rgb '" +
+            kColours[set % kColours.size()] + "' title \"" + options.cases[set].name + "\"";
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string warps_text(const WarpsOptions& options, const WarpsResult& result) {
+  std::string text =
+      "Sets " + set_names(options) + ", " + size_text(options) + " texels, " +
+      std::to_string(options.cases.front().strokes.size()) +
+      " sets of strokes each. Distances of appearance in % of the template's spread;\nunrelated texels "
+      "are 141 apart (rms), `truth` is the nearest texel to the right answer. error, rms, median, p95: to "
+      "the "
+      "truth; strokes:\nto the template's stroke; used: bins of the template, %; tears: neighbours "
+      "that land 25 apart, %; folds: texels turned inside out, %;\nvariation: side by side, over the "
+      "truth's; "
+      "change: when strokes move; compiled: error of the converter; table: it against the exact copy.\n\n";
+  const std::string head =
+      "  error    rms  median    p95  strokes   used  tears  folds  variation  change  "
+      "compiled  table    kB    ms";
+  std::string sets;
+  for (const WarpCase& studied : options.cases) sets += padded_left(studied.name, 8);
+  for (std::size_t v = 0; v < result.variants.size(); ++v) {
+    const WarpGroup group = result.variants[v].group;
+    if (v == 0 || group != result.variants[v - 1].group)
+      text += (v == 0 ? "" : "\n") + padded(group_name(group), kNameWidth) + head + sets + "\n";
+    text += line_of(options, result, v);
+  }
+  const auto error = [&](const char* name) {
+    return fixed(summary_of(result, variant_named(result, WarpGroup::kMethod, name)).figures.mean, 1);
+  };
+  return text + "\nThe registration is " + error("registration") + " % off, the paper's initialisation " +
+         error("paper") + ", histogram matching " + error("histogram") + ", a copy without a warp " +
+         error("nearest") + ".\n";
+}
+
+std::string warps_csv(const WarpsOptions& options, const WarpsResult& result) {
+  std::string text = comments_of(options) +
+                     "set,stroke_set,group,variant,error,rms,median,p95,strokes,used,tears,variation,folds,"
+                     "compiled_error,table_difference,bytes,seconds,dimensions\n";
+  for (const WarpRow& row : result.rows) {
+    const WarpVariant& variant = result.variants[row.variant];
+    text += options.cases[row.set].name + "," + std::to_string(row.stroke_set) + "," +
+            group_name(variant.group) + "," + variant.name;
+    for (const double value :
+         {row.figures.mean, row.figures.rms, row.figures.median, row.figures.p95, row.figures.strokes,
+          row.figures.used, row.figures.tears, row.figures.variation})
+      text += "," + number_text(value);
+    text += "," + cost_cells(row.cost) + "\n";
+  }
+  return text;
+}
+
+std::string warp_sensitivity_csv(const WarpsOptions& options, const WarpsResult& result) {
+  std::string text = comments_of(options) + "set,group,variant,first,second,change\n";
+  for (const StrokeChange& change : result.changes) {
+    const WarpVariant& variant = result.variants[change.variant];
+    text += options.cases[change.set].name + "," + group_name(variant.group) + "," + variant.name + "," +
+            std::to_string(change.first) + "," + std::to_string(change.second) + "," +
+            number_text(change.change) + "\n";
+  }
+  return text;
+}
+
+std::string warps_plot_script(const WarpsOptions& options, const WarpsResult& result) {
+  std::ostringstream out;
+  write_bars(options, result, out);
+  write_curves(
+      options, result, WarpGroup::kPoints, "points",
+      [](const WarpVariant& variant) { return variant.points; },
+      [](const WarpSummary& summary) { return summary.figures.mean; }, out);
+  write_curves(
+      options, result, WarpGroup::kNodes, "nodes", [](const WarpVariant& variant) { return variant.nodes; },
+      [](const WarpSummary& summary) { return summary.cost->compiled.difference; }, out);
+  out << "set terminal svg size 1500,520 enhanced font 'Helvetica,13' background rgb 'white'\n"
+      << "set multiplot title 'Appearance warps against a known answer, " << size_text(options)
+      << " texels' font ',16'\n"
+      << "set grid ytics linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
+      << "set tics textcolor rgb 'black'\nset yrange [0:*]\n"
+      << "set origin 0,0\nset size 0.5,0.94\nset style data histograms\nset style histogram clustered gap 1\n"
+      << "set style fill solid border -1\nset xtics rotate by -30 scale 0\nset key top left noenhanced\n"
+      << "set title 'Error, % of the template''s spread'\n"
+      << plots_of(options, "bars", "", "")
+      << "set origin 0.5,0\nset size 0.25,0.94\nset xtics norotate autofreq scale 1\nset logscale x\nset key "
+         "off\n"
+      << "set xtics (50, 150, 350, 700, 1200)\nset title 'Error over points'\nset xlabel 'points'\n"
+      << plots_of(options, "points", "1:", "with linespoints pointtype 7")
+      << "set origin 0.75,0\nset xtics ('1/8' 0.125, '1/4' 0.25, '1/2' 0.5, '1' 1, '2' 2)\n"
+      << "set title 'Compiled table against exact copy'\nset xlabel 'nodes, times the default'\n"
+      << plots_of(options, "nodes", "1:", "with linespoints pointtype 7") << "unset multiplot\n";
+  return out.str();
+}
+
+}  // namespace remapc
