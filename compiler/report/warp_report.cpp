@@ -33,7 +33,8 @@ struct Cloud {
 Cloud cloud_of(const TextureMaterial& material, const remap::AppearanceCoordinates& coordinates,
                const std::vector<StrokePair>& strokes, StrokeSide side) {
   Cloud cloud;
-  const std::vector<remap::WarpTexel> texels = sample_texels(material.material, kMostPoints);
+  const std::vector<remap::WarpTexel> texels =
+      texels_at(material, sample_texels(material.material, kMostPoints), kMostPoints);
   cloud.texels.positions = positions_of(coordinates, texels);
   cloud.texels.radius = 0.8;
   for (const remap::WarpTexel& texel : texels)
