@@ -12,7 +12,7 @@ constexpr double kShift = 0.02, kMostApart = 0.05;  // of neighbours, in spreads
 constexpr double kTorn = 0.25;                      // of the template's spread
 constexpr int kLeastTexels = 4;                     // of an occupied bin
 
-Eigen::MatrixXd columns_of(const SeparableFeatures& features, const std::vector<remap::WarpTexel>& texels) {
+Eigen::MatrixXd columns_of(const AppearanceFeatures& features, const std::vector<remap::WarpTexel>& texels) {
   Eigen::MatrixXd columns(3 * kFeatureBasis, static_cast<Eigen::Index>(texels.size()));
   for (std::size_t i = 0; i < texels.size(); ++i)
     columns.col(static_cast<Eigen::Index>(i)) = features_of(features, texels[i]);
