@@ -19,6 +19,7 @@ namespace {
 struct WarpStudyCommand {
   std::vector<std::filesystem::path> sets;
   std::size_t size = 256, stroke_sets = 3;
+  std::vector<std::string> materials;  // of the built-in sets; none: all
   WarpsOptions study;
   OutputOptions output;
 };
@@ -72,8 +73,9 @@ std::string write_results(const WarpStudyCommand& command, const WarpsOptions& o
 void run(const WarpStudyCommand& command) {
   require_folder_for_pictures(command.output);
   WarpsOptions options = command.study;
-  options.cases = command.sets.empty() ? builtin_warp_cases(command.size, command.stroke_sets)
-                                       : read_warp_cases(command.sets);
+  options.cases = command.sets.empty()
+                      ? builtin_warp_cases(command.size, command.stroke_sets, command.materials)
+                      : read_warp_cases(command.sets);
   options.pictures = command.output.pictures;
   if (!command.output.folder.empty()) remap::create_parent(command.output.folder / "warp.csv");
   const WarpsResult result = run_study("study warp", options, command.output.quiet, study_warps);
@@ -91,13 +93,18 @@ void add_options(CLI::App& app, WarpStudyCommand& command) {
   CLI::Option* strokes =
       app.add_option("--stroke-sets", command.stroke_sets, "Sets of strokes on each built-in set")
           ->capture_default_str();
+  CLI::Option* material =
+      app.add_option("--material", command.materials, "Only this built-in set, repeatable")
+          ->allow_extra_args(false)
+          ->check(CLI::IsMember(builtin_warp_names()));
   app.add_option("--sets", command.sets,
                  "Folder with a subfolder for each set, in place of the built-in ones: source, template and "
                  "truth/{diffuse,specular,alpha}.exr, strokes/{source,template}<k>.exr; repeatable, each "
                  "with other strokes")
       ->allow_extra_args(false)
       ->excludes(size)
-      ->excludes(strokes);
+      ->excludes(strokes)
+      ->excludes(material);
   app.add_option("-o,--output", command.output.folder,
                  "Folder for warp.csv, warp_sensitivity.csv and warp.svg (needs gnuplot)");
   app.add_flag("--pictures", command.output.pictures,

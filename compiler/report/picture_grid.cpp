@@ -58,24 +58,27 @@ Image blank_picture(int width, int height, float grey) {
 }
 
 Image sheet_of(const std::vector<std::vector<Image>>& rows) {
-  int cell_width = 0, cell_height = 0, columns = 0;
+  int cell_width = 0, columns = 0, height = kGap;
+  std::vector<int> heights;
   for (const std::vector<Image>& row : rows) {
     columns = std::max(columns, static_cast<int>(row.size()));
+    heights.push_back(0);
     for (const Image& picture : row) {
       cell_width = std::max(cell_width, picture.width);
-      cell_height = std::max(cell_height, picture.height);
+      heights.back() = std::max(heights.back(), picture.height);
     }
+    height += heights.back() + kGap;
   }
-  const int row_count = static_cast<int>(rows.size());
-  Image sheet =
-      blank_picture(columns * (cell_width + kGap) + kGap, row_count * (cell_height + kGap) + kGap, kPaper);
-  for (int r = 0; r < row_count; ++r) {
-    const std::vector<Image>& row = rows[static_cast<std::size_t>(r)];
-    for (int c = 0; c < static_cast<int>(row.size()); ++c) {
-      const Image& picture = row[static_cast<std::size_t>(c)];
-      place(picture, kGap + c * (cell_width + kGap) + (cell_width - picture.width) / 2,
-            kGap + r * (cell_height + kGap) + (cell_height - picture.height) / 2, &sheet);
+  Image sheet = blank_picture(columns * (cell_width + kGap) + kGap, height, kPaper);
+  int top = kGap;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    int left = kGap;
+    for (const Image& picture : rows[r]) {
+      place(picture, left + (cell_width - picture.width) / 2, top + (heights[r] - picture.height) / 2,
+            &sheet);
+      left += cell_width + kGap;
     }
+    top += heights[r] + kGap;
   }
   return sheet;
 }

@@ -31,8 +31,8 @@ std::vector<remap::WarpTexel> samples_of(const PictureGrid& grid,
 // A picture of one colour.
 Image blank_picture(int width, int height, float grey);
 
-// Rows of pictures, each cell as large as the largest picture, which lies in its middle, light gaps between.
-// Empty pictures leave their cell free.
+// Rows of pictures on light paper, with gaps. Columns are as wide as the widest picture, rows as high as
+// their highest; pictures lie in the middle of their cells.
 Image sheet_of(const std::vector<std::vector<Image>>& rows);
 
 }  // namespace remapc

@@ -202,8 +202,8 @@ void write_warp_report(const std::filesystem::path& path, const WarpPictures& pi
     return;
   }
   write_png(path, sheet_of({{pictures.source, pictures.target, pictures.result},
-                            {pictures.source_strokes, pictures.target_strokes, pictures.after},
-                            {pictures.source_space, pictures.target_space, pictures.before}}));
+                            {pictures.source_strokes, pictures.target_strokes, pictures.before},
+                            {pictures.source_space, pictures.target_space, pictures.after}}));
 }
 
 }  // namespace remapc

@@ -40,9 +40,8 @@ struct WarpWords {
 void require_report_path(const std::filesystem::path& path);
 
 // One HTML file that holds its pictures; or one PNG, three pictures a row: source, template, result; the
-// strokes on source and template, the images of the source's points over the template's; the source's space,
-// the template's, and the source's points before the warp. Throws kUsage as require_report_path() does,
-// kOutput.
+// strokes on source and template, the source's points over the template's; both spaces, the points after the
+// warp. Throws kUsage as require_report_path() does, kOutput.
 void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,
                        const WarpWords& words);
 

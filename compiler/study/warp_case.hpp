@@ -17,9 +17,13 @@ struct WarpCase {
   std::vector<std::vector<StrokePair>> strokes;  // several sets of strokes, all of the same regions
 };
 
-// leaf, wood and rust of warp_sets.hpp, `size` x `size`, each with `stroke_sets` sets of strokes. Throws
-// kUsage for a size outside 32 to 2048, and for no set or more than 100.
-std::vector<WarpCase> builtin_warp_cases(std::size_t size, std::size_t stroke_sets);
+// `leaf`, `wood`, `rust`: the sets of warp_sets.hpp.
+std::vector<std::string> builtin_warp_names();
+
+// Those of `names`, all where it is empty, `size` x `size`, each with `stroke_sets` sets of strokes. Throws
+// kUsage for a size outside 32 to 2048, and for no set of strokes or more than 100.
+std::vector<WarpCase> builtin_warp_cases(std::size_t size, std::size_t stroke_sets,
+                                         const std::vector<std::string>& names = {});
 
 // A case for each subfolder, in the order of names, of the first folder: source, template and truth/
 // {diffuse,specular,alpha}.exr, GGX with Schlick's Fresnel, linear; strokes/{source,template}<k>.exr from 0

@@ -30,6 +30,10 @@ struct Shown {
     for (const std::uint32_t texel : copy) texels.push_back(studied.target.texels[texel]);
     return texels;
   }
+  Image lit_source() const {
+    return shaded_map(grid, samples_of(grid, studied.source.texels), studied.source.model);
+  }
+  // Of what has the template's reflectance.
   Image lit(const std::vector<remap::WarpTexel>& texels) const {
     return shaded_map(grid, samples_of(grid, texels), studied.target.model);
   }
@@ -57,13 +61,16 @@ WarpSheet methods_sheet(const Shown& shown, const WarpMeasures& measures) {
   };
   const WarpCase& studied = shown.studied;
   std::vector<std::vector<Image>> rows(3);
-  rows[0] = {shaded_map(shown.grid, samples_of(shown.grid, studied.source.texels), studied.source.model),
-             shown.lit(studied.target.texels), shown.lit(studied.truth)};
+  const Image source = shown.lit_source(), target = shown.lit(studied.target.texels);
+  rows[0] = {source, target, shown.lit(studied.truth),
+             with_strokes(source, shown.grid, studied.strokes[0], &StrokePair::source),
+             with_strokes(target, shown.grid, studied.strokes[0], &StrokePair::target)};
   for (const char* name : {"registration", "paper", "histogram", "affine", "nearest"})
     add(shown.row(0, WarpGroup::kMethod, name), &rows);
   for (const char* name : {"1", "2"}) add(shown.row(0, WarpGroup::kDimensions, name), &rows);
   return {"warp_methods_" + studied.name,
-          "source, template, truth; registration, paper, histogram, affine, nearest without warp, one "
+          "source, template, truth, both with strokes; registration, paper, histogram, affine, nearest "
+          "without warp, one "
           "dimension, two; their distance to the truth, white is 100 %",
           sheet_of(rows)};
 }
@@ -99,8 +106,7 @@ WarpSheet sampling_sheet(const Shown& shown) {
 
 WarpSheet strokes_sheet(const Shown& shown) {
   const WarpCase& studied = shown.studied;
-  const Image source =
-      shaded_map(shown.grid, samples_of(shown.grid, studied.source.texels), studied.source.model);
+  const Image source = shown.lit_source();
   const Image target = shown.lit(studied.target.texels);
   std::vector<std::vector<Image>> rows(5);
   for (std::size_t s = 0; s < studied.strokes.size(); ++s) {

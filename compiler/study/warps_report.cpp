@@ -118,16 +118,22 @@ std::string plots_of(const WarpsOptions& options, const char* data, const char* 
 }  // namespace
 
 std::string warps_text(const WarpsOptions& options, const WarpsResult& result) {
+  const std::size_t stroke_sets = options.cases.front().strokes.size();
   std::string text =
-      "Sets " + set_names(options) + ", " + size_text(options) + " texels, " +
-      std::to_string(options.cases.front().strokes.size()) +
-      " sets of strokes each. Distances of appearance in % of the template's spread;\nunrelated texels "
-      "are 141 apart (rms), `truth` is the nearest texel to the right answer. error, rms, median, p95: to "
-      "the "
-      "truth; strokes:\nto the template's stroke; used: bins of the template, %; tears: neighbours "
-      "that land 25 apart, %; folds: texels turned inside out, %;\nvariation: side by side, over the "
-      "truth's; "
-      "change: when strokes move; compiled: error of the converter; table: it against the exact copy.\n\n";
+      "Sets " + set_names(options) + ", " + size_text(options) + " texels, " + std::to_string(stroke_sets) +
+      (stroke_sets == 1 ? " set" : " sets") +
+      " of strokes each. Distances of appearance in % of the template's spread;\n"
+      "two unrelated texels are 141 apart (rms).\n"
+      "  error, rms, median, p95  to the right answer; `truth` is the template's texel nearest to that\n"
+      "  strokes                  of results on source strokes to the template's stroke\n"
+      "  used, tears, folds       %: of the template's bins; of neighbours that land 25 apart; of texels "
+      "turned "
+      "inside out\n"
+      "  variation                between texels side by side, over the truth's\n"
+      "  change                   between results of two sets of strokes\n"
+      "  compiled, table, kB, ms  error of the converter; the converter to the exact copy; its size; "
+      "processor time of the fit\n"
+      "  last columns             error of each set\n\n";
   const std::string head =
       "  error    rms  median    p95  strokes   used  tears  folds  variation  change  "
       "compiled  table    kB    ms";
@@ -196,9 +202,11 @@ std::string warps_plot_script(const WarpsOptions& options, const WarpsResult& re
       << plots_of(options, "bars", "", "")
       << "set origin 0.5,0\nset size 0.25,0.94\nset xtics norotate autofreq scale 1\nset logscale x\nset key "
          "off\n"
-      << "set xtics (50, 150, 350, 700, 1200)\nset title 'Error over points'\nset xlabel 'points'\n"
+      << "set xtics (50, 150, 350, 1200)\nset xrange [40:1500]\nset title 'Error over points'\nset xlabel "
+         "'points'\n"
       << plots_of(options, "points", "1:", "with linespoints pointtype 7")
-      << "set origin 0.75,0\nset xtics ('1/8' 0.125, '1/4' 0.25, '1/2' 0.5, '1' 1, '2' 2)\n"
+      << "set origin 0.75,0\nset xtics ('1/8' 0.125, '1/4' 0.25, '1/2' 0.5, '1' 1, '2' 2)\nset xrange "
+         "[0.1:2.5]\n"
       << "set title 'Compiled table against exact copy'\nset xlabel 'nodes, times the default'\n"
       << plots_of(options, "nodes", "1:", "with linespoints pointtype 7") << "unset multiplot\n";
   return out.str();

@@ -159,3 +159,44 @@ TEST_CASE("remapc warp: strokes that share most of a region are warned of") {
   REQUIRE(result.exit_code == 0);
   CHECK(result.errors.find("stroke 2 covers 75 % of stroke 1 in the source") != std::string::npos);
 }
+
+TEST_CASE("remapc warp: --report writes one HTML file with its pictures, or one PNG") {
+  const Session session;
+  write_materials(session);
+  std::vector<std::string> words = strokes(session);
+  words.insert(words.end(), {"--report", session.path("report.html")});
+  const ProcessResult result = session.remapc(warp_words(session, words));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  const std::string html = read_file(session.path("report.html"));
+  std::size_t pictures = 0;
+  for (std::size_t at = html.find("data:image/png;base64,iVBORw0KGgo"); at != std::string::npos;
+       at = html.find("data:image/png;base64,iVBORw0KGgo", at + 1))
+    ++pictures;
+  CHECK(pictures == 9);
+  CHECK(html.find("http") == std::string::npos);  // nothing from elsewhere
+  CHECK(html.find("<h1>Warp stony</h1>") != std::string::npos);
+  CHECK(html.find("<td>folds</td><td>0 %</td>") != std::string::npos);
+  CHECK(html.ends_with("</html>\n"));
+  words.back() = session.path("report.png");
+  REQUIRE(session.remapc(warp_words(session, words)).exit_code == 0);
+  const TestImage sheet = read_image(session.path("report.png"));
+  CHECK(sheet.spec.width == 3 * 518 + 6);  // pictures of 512 pixels, gaps of 6
+  CHECK(sheet.spec.height > 2 * 518);
+  CHECK(sheet.spec.nchannels == 3);
+}
+
+TEST_CASE("remapc warp: a report has warnings in it, and is refused under another name before the work") {
+  const Session session;
+  write_materials(session);
+  const std::vector<std::string> few = {"--box", "0,0,20,20", "0,0,20,20", "--report"};
+  std::vector<std::string> words = few;
+  words.push_back(session.path("report.html"));
+  REQUIRE(session.remapc(warp_words(session, words)).exit_code == 0);
+  CHECK(read_file(session.path("report.html")).find("class=\"warning\">strokes do not fix direction 1") !=
+        std::string::npos);
+  std::filesystem::remove(session.path("stony.json"));
+  words.back() = session.path("report.pdf");
+  check_failure(session.remapc(warp_words(session, words)), 2, "expected a name that ends in .html or .png");
+  CHECK_FALSE(std::filesystem::exists(session.path("stony.json")));
+}
