@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <type_traits>
 
+#include "error.hpp"
 #include "warp/points.hpp"
 
 namespace remapc {
@@ -77,15 +79,51 @@ std::uint8_t encoded(float value, float least, float largest) {
   return static_cast<std::uint8_t>(std::lround(255.0f * std::sqrt(share)));
 }
 
+remap::BlendedNodes blended_nodes(const std::vector<std::uint32_t>& texels, const WarpMaterial& target) {
+  remap::BlendedNodes entries;
+  entries.codes.resize(texels.size() * remap::kWarpParameters);
+  for (std::size_t p = 0; p < remap::kWarpParameters; ++p) {
+    entries.least[p] = entries.largest[p] = target.texels[texels[0]][p];
+    for (const std::uint32_t texel : texels) {
+      entries.least[p] = std::min(entries.least[p], target.texels[texel][p]);
+      entries.largest[p] = std::max(entries.largest[p], target.texels[texel][p]);
+    }
+    for (std::size_t i = 0; i < texels.size(); ++i)
+      entries.codes[i * remap::kWarpParameters + p] =
+          encoded(target.texels[texels[i]][p], entries.least[p], entries.largest[p]);
+  }
+  return entries;
+}
+
+// Equal texels stand in the palette once.
+remap::CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const WarpMaterial& target) {
+  remap::CopiedNodes entries;
+  entries.indices.reserve(texels.size());
+  std::map<remap::WarpTexel, std::size_t> known;
+  for (const std::uint32_t texel : texels) {
+    const auto [place, is_new] = known.try_emplace(target.texels[texel], known.size());
+    if (is_new) entries.palette.push_back(place->first);
+    entries.indices.push_back(static_cast<std::uint16_t>(place->second));
+  }
+  if (known.size() > remap::kLargestPalette)
+    throw remap::Error(remap::ErrorKind::kUsage,
+                       "nodes: need " + std::to_string(known.size()) + " texels of " + target.name +
+                           " in an exact table; expected at most " + std::to_string(remap::kLargestPalette) +
+                           ", of fewer nodes");
+  return entries;
+}
+
 }  // namespace
 
-std::size_t default_nodes(int dimension) noexcept {
-  return dimension == 1 ? 1024 : dimension == 2 ? 128 : 32;
+std::size_t default_nodes(int dimension, bool exact) noexcept {
+  if (dimension == 1) return exact ? 4096 : 1024;
+  if (dimension == 2) return exact ? 256 : 128;
+  return exact ? 48 : 32;
 }
 
 remap::ParameterTable compile_table(const AppearanceWarp& warp, const Points& positions,
                                     const NearestTexel& nearest, const WarpMaterial& target,
-                                    std::size_t nodes) {
+                                    std::size_t nodes, bool exact) {
   const Box box = box_of(positions);
   const Points images = std::visit(
       [&](const auto& kind) {
@@ -100,17 +138,10 @@ remap::ParameterTable compile_table(const AppearanceWarp& warp, const Points& po
   table.nodes = nodes;
   table.low = box.low;
   table.high = box.high;
-  table.codes.resize(texels.size() * remap::kWarpParameters);
-  for (std::size_t p = 0; p < remap::kWarpParameters; ++p) {
-    table.least[p] = table.largest[p] = target.texels[texels[0]][p];
-    for (const std::uint32_t texel : texels) {
-      table.least[p] = std::min(table.least[p], target.texels[texel][p]);
-      table.largest[p] = std::max(table.largest[p], target.texels[texel][p]);
-    }
-    for (std::size_t i = 0; i < texels.size(); ++i)
-      table.codes[i * remap::kWarpParameters + p] =
-          encoded(target.texels[texels[i]][p], table.least[p], table.largest[p]);
-  }
+  if (exact)
+    table.entries = copied_nodes(texels, target);
+  else
+    table.entries = blended_nodes(texels, target);
   return table;
 }
 
