@@ -9,6 +9,7 @@
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "number_text.hpp"
+#include "report_text.hpp"
 #include "sweep/renderer.hpp"
 #include "table/domain.hpp"
 

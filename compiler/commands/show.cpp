@@ -13,6 +13,7 @@
 #include "model/fit_json.hpp"
 #include "model/round_trip.hpp"
 #include "number_text.hpp"
+#include "report_text.hpp"
 #include "table/domain.hpp"
 
 namespace remapc {
