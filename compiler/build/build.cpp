@@ -254,11 +254,7 @@ class Builder {
     return emit_lowered_header(fit, lowered);
   }
   static std::string header_of(const remap::AnalyticFit& fit, LockedItem*) { return emit_header(fit); }
-
-  [[noreturn]] static std::string header_of(const remap::WarpMapFit& fit, LockedItem*) {
-    throw Error(ErrorKind::kInput,
-                fit.id + ": is a fit of kind warp, which has no header; expected it in another folder");
-  }
+  static std::string header_of(const remap::WarpMapFit& fit, LockedItem*) { return emit_header(fit); }
 
   Table table_of(const ManifestItem& item) const {
     if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
@@ -346,7 +342,11 @@ class Builder {
   }
 
   void write_registry(const FitFolder& folder) const {
-    write_changed(folders_.generated / "registry.hpp", emit_registry(folder.fits, folder.analytic));
+    // Warps are made from textures and strokes, so no item of a manifest is one.
+    for (const remap::WarpMapFit& fit : folder.warps)
+      write_changed(paths_of(folders_, fit.id).header, emit_header(fit));
+    write_changed(folders_.generated / "registry.hpp",
+                  emit_registry(folder.fits, folder.analytic, folder.warps));
   }
 
   // Which takes a second to compute.
@@ -402,7 +402,13 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
     reasons.push_back(id + ": is no item of the manifest; `remapc build --prune` removes its files");
   if (!has_report(folders, lock))
     reasons.push_back((folders.fits / kReportName).string() + ": is not the report of these fits");
-  for (const remap::Fit& fit : load_fits(folders.fits)) {
+  const FitFolder folder = load_fit_folder(folders.fits);
+  for (const remap::WarpMapFit& fit : folder.warps) {
+    const fs::path header = paths_of(folders, fit.id).header;
+    if (!fs::exists(header) || remap::read_file(header) != emit_header(fit))
+      reasons.push_back(fit.id + ": " + header.string() + " is not what its fit gives");
+  }
+  for (const remap::Fit& fit : folder.fits) {
     const fs::path table = folders.fits / "tables" / fit.table.name;
     if (fit.table.name.empty() || !fs::exists(table) || file_sha256(table) == fit.table.sha256) continue;
     reasons.push_back(fit.id + ": " + table.string() + " is not the table that it was fitted to");

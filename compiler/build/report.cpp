@@ -177,6 +177,25 @@ std::string analytic_lines(const std::vector<remap::AnalyticFit>& fits) {
   return text;
 }
 
+constexpr const char* kWarpIntroduction = R"(
+## Appearance of templates
+
+Warps (`remapc warp`): the reflectance of one texture set for the pattern of another. *From an exact copy* is the RMS
+distance from copied texels of the template, in shares of its spread.
+
+)";
+
+std::string warp_lines(const std::vector<remap::WarpMapFit>& fits) {
+  std::string text =
+      "| converter | from | to | dimensions | bytes | from an exact copy |\n|---|---|---|---|---|---|\n";
+  for (const remap::WarpMapFit& fit : fits)
+    text += "| [" + fit.id + "](" + fit.id + ".json) | " + fit.source_model + " | " + fit.template_model +
+            " | " + std::to_string(fit.warp.coordinates.dimension) + " | " +
+            std::to_string(byte_count(fit.warp)) + " | " +
+            (fit.copy_rms_error < 0.0 ? "unknown" : percent(fit.copy_rms_error) + " %") + " |\n";
+  return text;
+}
+
 }  // namespace
 
 bool is_measured(const Fit& fit) { return fit.likeness && !fit.likeness->ssim.empty(); }
@@ -210,6 +229,7 @@ std::vector<ReportFile> report(const FitFolder& folder, const Lock& lock) {
   text += "\n## Measured pairs\n\n" + pair_lines(pairs, lock);
   text += "\n## Published formulas, inverses and chains\n\n" + other_lines(fits, lock);
   if (!folder.analytic.empty()) text += kAnalyticIntroduction + analytic_lines(folder.analytic);
+  if (!folder.warps.empty()) text += kWarpIntroduction + warp_lines(folder.warps);
   return {{kReportName, text}, {kPlotName, pairs_plot(fits)}};
 }
 

@@ -37,10 +37,8 @@ FitFolder chosen_fits(const EmitCommand& options) {
     const remap::AnyFit fit = find_any_fit(name, options.fit_folder);
     if (const auto* analytic = std::get_if<remap::AnalyticFit>(&fit))
       chosen.analytic.push_back(*analytic);
-    else if (std::holds_alternative<remap::WarpMapFit>(fit))
-      throw Error(ErrorKind::kUsage, name +
-                                         ": is a fit of kind warp, which has no header; expected a fit of "
-                                         "width and specular, or of workflows");
+    else if (const auto* warp = std::get_if<remap::WarpMapFit>(&fit))
+      chosen.warps.push_back(*warp);
     else
       chosen.fits.push_back(std::get<remap::Fit>(fit));
   }
@@ -57,8 +55,11 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
     files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit, code)});
   for (const remap::AnalyticFit& fit : chosen.analytic)
     files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
+  for (const remap::WarpMapFit& fit : chosen.warps)
+    files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
   if (options.all)
-    files.push_back({options.output / "registry.hpp", emit_registry(chosen.fits, chosen.analytic)});
+    files.push_back(
+        {options.output / "registry.hpp", emit_registry(chosen.fits, chosen.analytic, chosen.warps)});
   return files;
 }
 
@@ -130,8 +131,8 @@ void add_emit_command(CLI::App& app) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->footer(
-      "Fits of kind analytic are emitted as they are: --lower, --exact and --table-limit change nothing of "
-      "them.\n\n"
+      "Fits of kind analytic or warp are emitted as they are: --lower, --exact and --table-limit change "
+      "nothing of them.\n\n"
       "Example:\n  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n  remapc emit --all "
       "--check");
   command->callback([options] { run(*options); });

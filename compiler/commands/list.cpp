@@ -9,6 +9,7 @@
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "number_text.hpp"
+#include "report_text.hpp"
 #include "sweep/renderer.hpp"
 #include "table/domain.hpp"
 
@@ -71,10 +72,13 @@ void list_fits(const ListOptions& options) {
     list.push_back({{"id", fit.id},
                     {"source", fit.source_model},
                     {"target", fit.template_model},
-                    {"kind", remap::kWarpKind}});
+                    {"kind", remap::kWarpKind},
+                    {"copy_rms_error", fit.copy_rms_error}});
+    const std::string error =
+        fit.copy_rms_error < 0.0 ? "" : "; " + percent(fit.copy_rms_error) + " from an exact copy";
     if (!options.json)
       std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << remap::kWarpKind
-                << "appearance of a template, whole materials\n";
+                << "appearance of a template, whole materials" << error << "\n";
   }
   if (options.json) std::cout << list.dump(2) << "\n";
 }

@@ -13,6 +13,7 @@
 #include "model/fit_json.hpp"
 #include "model/round_trip.hpp"
 #include "number_text.hpp"
+#include "report_text.hpp"
 #include "table/domain.hpp"
 
 namespace remapc {
@@ -234,8 +235,15 @@ void show_card(const remap::WarpMapFit& fit, const ShowOptions&) {
   std::cout << fit.id << "\n  from    " << fit.source_model << "\n  to      " << fit.template_model
             << "\n  kind    " << remap::kWarpKind << ", by remapc " << fit.tool_version << "\n";
   for (const std::string& remark : fit.remarks) std::cout << "  " << remark << "\n";
-  std::cout << "Mapping\n  " << fit.warp.coordinates.dimension << " appearance coordinates, " << table.nodes
-            << " nodes each, " << byte_count(fit.warp) << " bytes\nMethod\n";
+  const bool quadratic = std::holds_alternative<remap::QuadraticTerms>(fit.warp.coordinates.terms),
+             copied = std::holds_alternative<remap::CopiedNodes>(table.entries);
+  std::cout << "Mapping\n  " << fit.warp.coordinates.dimension << " appearance coordinates, "
+            << (quadratic ? "quadratic" : "in closed form") << "; " << table.nodes << " nodes each, "
+            << (copied ? "nearest copied" : "blended") << "; " << byte_count(fit.warp) << " bytes\n";
+  if (fit.copy_rms_error >= 0.0)
+    std::cout << "  " << percent(fit.copy_rms_error)
+              << " of the template's spread from an exact copy (RMS)\n";
+  std::cout << "Method\n";
   for (const auto& [key, value] : fit.method) std::cout << "  " << key << ": " << value << "\n";
 }
 

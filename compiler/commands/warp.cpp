@@ -12,9 +12,11 @@
 #include "error.hpp"
 #include "files.hpp"
 #include "model/fit_json.hpp"
+#include "number_text.hpp"
 #include "report/warp_report.hpp"
 #include "report_text.hpp"
 #include "version.hpp"
+#include "warp/copy_error.hpp"
 #include "warp/stroke_masks.hpp"
 
 namespace remapc {
@@ -30,6 +32,7 @@ struct WarpCommand {
   std::string method = "registration";
   std::string distance = "relative";
   int dimensions = 0;
+  bool exact = false;
   std::filesystem::path output, report;
   bool json = false;
 };
@@ -52,6 +55,7 @@ WarpOptions options_of(const WarpCommand& command) {
   options.method = *method_from_name(command.method);
   options.distance = *distance_from_name(command.distance);
   options.dimensions = command.dimensions;
+  options.exact = command.exact;
   return options;
 }
 
@@ -120,7 +124,8 @@ void run(const WarpCommand& command) {
   const auto start = std::chrono::steady_clock::now();
   const WarpFit fit = fit_warp(source.material, target.material, strokes, options_of(command));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const remap::WarpMapFit file = fit_file(command, fit, strokes.size());
+  remap::WarpMapFit file = fit_file(command, fit, strokes.size());
+  file.copy_rms_error = remap::rounded_up(copy_rms_error(fit, source.material, target.material), 3);
   remap::write_file(command.output, fit_to_json(file));
   if (!command.report.empty())
     write_warp_report(command.report, warp_pictures(source, target, strokes, fit),
@@ -129,6 +134,7 @@ void run(const WarpCommand& command) {
     const nlohmann::ordered_json json = {{"fit", command.output.string()},
                                          {"bytes", byte_count(fit.compiled)},
                                          {"seconds", seconds},
+                                         {"copy_rms_error", file.copy_rms_error},
                                          {"diagnostics", report_of(fit.diagnostics)},
                                          {"warnings", file.remarks}};
     std::cout << json.dump(2) << "\n";
@@ -137,7 +143,9 @@ void run(const WarpCommand& command) {
   std::cerr << command.output.string() << ": warp in " << fit.diagnostics.dimensions << " dimensions from "
             << strokes.size() << " stroke pairs\n  template used " << percent(fit.diagnostics.coverage)
             << ", folds " << percent(fit.diagnostics.fold_share) << ", strokes "
-            << percent(fit.diagnostics.stroke_distance) << " of the template's spread apart\n";
+            << percent(fit.diagnostics.stroke_distance) << " of the template's spread apart\n  compiled to "
+            << byte_count(fit.compiled) << " bytes, " << percent(file.copy_rms_error)
+            << " of the spread from an exact copy\n";
   for (const std::string& warning : file.remarks) remap::print_message("remapc", "warning: " + warning);
 }
 
@@ -176,6 +184,8 @@ void add_warp_command(CLI::App& app) {
                    "Of appearance space, 1 to 3; 0: as many as are needed")
       ->check(CLI::Range(0, 3))
       ->capture_default_str();
+  command->add_flag("--exact", options->exact,
+                    "Results are texels of the template as they are, no blends of them");
   command->add_option("-o,--output", options->output, "File of the fit; its name is the id")->required();
   command->add_option("--report", options->report,
                       "Pictures of materials, strokes, appearance spaces and result: one .html with all of "

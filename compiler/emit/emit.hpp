@@ -28,8 +28,13 @@ std::string emit_lowered_header(const remap::Fit& fit, const remap::Lowered& low
 // require_valid() refuses.
 std::string emit_header(const remap::AnalyticFit& fit);
 
+// The generated header of an appearance warp: the same contract, in the specular workflow on both sides.
+// Throws kInput for a warp that require_valid() refuses.
+std::string emit_header(const remap::WarpMapFit& fit);
+
 // `registry.hpp` for headers of these fits, which stand beside it: one entry a converter, in the order of
-// ids.
-std::string emit_registry(std::vector<remap::Fit> fits, std::vector<remap::AnalyticFit> analytic);
+// ids. Warps are listed among converters of whole materials.
+std::string emit_registry(std::vector<remap::Fit> fits, const std::vector<remap::AnalyticFit>& analytic,
+                          const std::vector<remap::WarpMapFit>& warps = {});
 
 }  // namespace remapc

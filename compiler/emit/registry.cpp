@@ -121,7 +121,7 @@ constexpr std::string_view kMaterialEntry =
     R"({@id@::kId, @id@::kFormula,
  @id@::kSourceModel, @id@::kSourceWorkflow, @id@::kSourceDiffuse, @id@::kSourceRoughness,
  @id@::kTargetModel, @id@::kTargetWorkflow, @id@::kTargetDiffuse, @id@::kTargetRoughness,
- @id@::kDielectricF0, @id@::kInputRows, @id@::kOutputRows,
+ @dielectric_f0@, @id@::kInputRows, @id@::kOutputRows,
  &converters::@id@::evaluate, &@id@::self_test},
 )";
 
@@ -155,11 +155,25 @@ void add_to(Listing* listing, const std::string& id, const std::string& entry, s
   listing->names += (listing->names.empty() ? "converters::" : ",\nconverters::") + id;
 }
 
+// Formulas and warps have one form; without a metallic workflow there is no F0 of a dielectric.
+struct MaterialConverter {
+  std::string id, dielectric_f0;
+};
+
+std::vector<MaterialConverter> material_converters(const std::vector<remap::AnalyticFit>& analytic,
+                                                   const std::vector<remap::WarpMapFit>& warps) {
+  std::vector<MaterialConverter> all;
+  for (const remap::AnalyticFit& fit : analytic) all.push_back({fit.id, fit.id + "::kDielectricF0"});
+  for (const remap::WarpMapFit& fit : warps) all.push_back({fit.id, "0.0f"});
+  sort_by_id(all);
+  return all;
+}
+
 }  // namespace
 
-std::string emit_registry(std::vector<remap::Fit> fits, std::vector<remap::AnalyticFit> analytic) {
+std::string emit_registry(std::vector<remap::Fit> fits, const std::vector<remap::AnalyticFit>& analytic,
+                          const std::vector<remap::WarpMapFit>& warps) {
   sort_by_id(fits);
-  sort_by_id(analytic);
   Listing converters, materials;
   for (const remap::Fit& fit : fits)
     add_to(&converters, fit.id,
@@ -167,15 +181,16 @@ std::string emit_registry(std::vector<remap::Fit> fits, std::vector<remap::Analy
                                   {"roughness", std::string(remap::convention_name(fit.source.roughness))},
                                   {"specular", fit.source.specular}}),
            kType);
-  for (const remap::AnalyticFit& fit : analytic)
-    add_to(&materials, fit.id, fill_template(kMaterialEntry, {{"id", fit.id}}), kMaterialType);
+  for (const auto& [id, dielectric_f0] : material_converters(analytic, warps))
+    add_to(&materials, id, fill_template(kMaterialEntry, {{"id", id}, {"dielectric_f0", dielectric_f0}}),
+           kMaterialType);
   return fill_template(kRegistry, {{"version", remap::kVersion},
                                    {"includes", converters.includes + materials.includes},
                                    {"count", std::to_string(fits.size())},
                                    {"entries", converters.entries},
                                    {"types", converters.types},
                                    {"names", converters.names},
-                                   {"material_count", std::to_string(analytic.size())},
+                                   {"material_count", std::to_string(analytic.size() + warps.size())},
                                    {"material_entries", materials.entries},
                                    {"material_types", materials.types},
                                    {"material_names", materials.names}});

@@ -73,7 +73,7 @@ class Run {
     options.dimensions = variant.dimensions;
     options.points = variant.points;
     if (variant.nodes != 1.0) {
-      const double usual = static_cast<double>(default_nodes(plain_->fit.diagnostics.dimensions));
+      const double usual = static_cast<double>(default_nodes(plain_->fit.diagnostics.dimensions, false));
       options.nodes = static_cast<std::size_t>(std::clamp(std::round(variant.nodes * usual), 2.0, 1024.0));
     }
     const double start = processor_seconds();

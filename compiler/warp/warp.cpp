@@ -201,13 +201,15 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
   Matched matched_texels = matched(source, target, strokes, options);
   WarpFit fit{std::move(matched_texels.match), {}};
   fit.compiled.coordinates = std::get<remap::AppearanceCoordinates>(fit.source.coordinates);
-  const std::size_t nodes = options.nodes != 0 ? options.nodes : default_nodes(fit.diagnostics.dimensions);
+  const std::size_t nodes =
+      options.nodes != 0 ? options.nodes : default_nodes(fit.diagnostics.dimensions, options.exact);
   WarpMaterial chosen{target.name, target.model, {}};
   chosen.texels.reserve(matched_texels.target.texels.size());
   for (const std::uint32_t texel : matched_texels.target.texels)
     chosen.texels.push_back(held(target.texels[texel]));
-  fit.compiled.table = compile_table(fit.warp, matched_texels.source_positions,
-                                     NearestTexel(matched_texels.target_positions), chosen, nodes);
+  fit.compiled.table =
+      compile_table(fit.warp, matched_texels.source_positions, NearestTexel(matched_texels.target_positions),
+                    chosen, nodes, options.exact);
   return fit;
 }
 

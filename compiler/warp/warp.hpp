@@ -29,6 +29,7 @@ struct WarpOptions {
   int dimensions = 0;             // 1 to 3; 0: those that the materials need (dimension_of)
   double points = kWantedPoints;  // occupied bins that stand for a material, about
   std::size_t nodes = 0;          // of the table along each dimension; 0: default_nodes()
+  bool exact = false;             // results are texels of the template as they are, no blends
 };
 
 // What a user can act on.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <type_traits>
 
+#include "error.hpp"
 #include "warp/points.hpp"
 
 namespace remapc {
@@ -77,15 +79,120 @@ std::uint8_t encoded(float value, float least, float largest) {
   return static_cast<std::uint8_t>(std::lround(255.0f * std::sqrt(share)));
 }
 
+remap::BlendedNodes blended_nodes(const std::vector<std::uint32_t>& texels, const WarpMaterial& target) {
+  remap::BlendedNodes entries;
+  entries.codes.resize(texels.size() * remap::kWarpParameters);
+  for (std::size_t p = 0; p < remap::kWarpParameters; ++p) {
+    entries.least[p] = entries.largest[p] = target.texels[texels[0]][p];
+    for (const std::uint32_t texel : texels) {
+      entries.least[p] = std::min(entries.least[p], target.texels[texel][p]);
+      entries.largest[p] = std::max(entries.largest[p], target.texels[texel][p]);
+    }
+    for (std::size_t i = 0; i < texels.size(); ++i)
+      entries.codes[i * remap::kWarpParameters + p] =
+          encoded(target.texels[texels[i]][p], entries.least[p], entries.largest[p]);
+  }
+  return entries;
+}
+
+// Equal texels stand in the palette once.
+remap::CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const WarpMaterial& target) {
+  remap::CopiedNodes entries;
+  entries.indices.reserve(texels.size());
+  std::map<remap::WarpTexel, std::size_t> known;
+  for (const std::uint32_t texel : texels) {
+    const auto [place, is_new] = known.try_emplace(target.texels[texel], known.size());
+    if (is_new) entries.palette.push_back(place->first);
+    entries.indices.push_back(static_cast<std::uint16_t>(place->second));
+  }
+  if (known.size() > remap::kLargestPalette)
+    throw remap::Error(remap::ErrorKind::kUsage,
+                       "nodes: need " + std::to_string(known.size()) + " texels of " + target.name +
+                           " in an exact table; expected at most " + std::to_string(remap::kLargestPalette) +
+                           ", of fewer nodes");
+  return entries;
+}
+
+constexpr std::uint32_t kUnknown = ~std::uint32_t{0};
+
+// The nodes around every position, and those beside them: what texels of the source, or of a map that was
+// thinned, look up. In growing order.
+std::vector<std::uint32_t> nodes_around(const Points& positions, const Box& box, std::size_t nodes) {
+  const auto dimension = static_cast<std::size_t>(positions.cols());
+  std::size_t count = 1;
+  for (std::size_t k = 0; k < dimension; ++k) count *= nodes;
+  std::vector<char> is_near(count, 0);
+  const auto last = static_cast<double>(nodes - 1);
+  for (Eigen::Index i = 0; i < positions.rows(); ++i) {
+    std::array<std::size_t, remap::kLargestWarpDimension> first{};
+    for (std::size_t k = 0; k < dimension; ++k) {
+      const double low = static_cast<double>(box.low[k]), high = static_cast<double>(box.high[k]);
+      const double place = (positions(i, static_cast<Eigen::Index>(k)) - low) / (high - low) * last;
+      first[k] = static_cast<std::size_t>(std::clamp(place, 0.0, last - 1.0));  // the place is no NaN
+    }
+    std::size_t run = 1, cell = 0;
+    for (std::size_t k = 0; k < dimension; ++k, run *= nodes) cell += first[k] * run;
+    is_near[cell] = 1;
+  }
+  // A cell is marked at its first node: its corners and what lies beside are one step down and two up.
+  std::size_t run = 1;
+  for (std::size_t k = 0; k < dimension; ++k, run *= nodes) {
+    const std::vector<char> before = is_near;
+    for (std::size_t node = 0; node < count; ++node) {
+      if (before[node] == 0) continue;
+      const std::size_t place = node / run % nodes;
+      if (place > 0) is_near[node - run] = 1;
+      for (std::size_t up = 1; up <= 2 && place + up < nodes; ++up) is_near[node + up * run] = 1;
+    }
+  }
+  std::vector<std::uint32_t> found;
+  for (std::size_t node = 0; node < count; ++node)
+    if (is_near[node] != 0) found.push_back(static_cast<std::uint32_t>(node));
+  return found;
+}
+
+// Gives every node that is unknown the texel of the known one that is the fewest steps away.
+void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front, std::size_t nodes) {
+  while (!front.empty()) {
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t node : front)
+      for (std::size_t run = 1; run < texels.size(); run *= nodes) {
+        const std::size_t place = node / run % nodes;
+        const auto reach = [&](std::size_t other) {
+          if (texels[other] != kUnknown) return;
+          texels[other] = texels[node];
+          next.push_back(static_cast<std::uint32_t>(other));
+        };
+        if (place > 0) reach(node - run);
+        if (place + 1 < nodes) reach(node + run);
+      }
+    front = std::move(next);
+  }
+}
+
+// The nearest texel to the image of every node that texels of the source look up. Of what none of them does,
+// often most of the box, that of the nearest such node: a warp means nothing far from what it was made from.
+std::vector<std::uint32_t> node_texels(const Points& positions, const Box& box, std::size_t nodes,
+                                       const Points& images, const NearestTexel& nearest) {
+  const std::vector<std::uint32_t> near = nodes_around(positions, box, nodes);
+  const std::vector<std::uint32_t> found = nearest.find(images(near, Eigen::all));
+  std::vector<std::uint32_t> texels(static_cast<std::size_t>(images.rows()), kUnknown);
+  for (std::size_t i = 0; i < near.size(); ++i) texels[near[i]] = found[i];
+  spread(texels, near, nodes);
+  return texels;
+}
+
 }  // namespace
 
-std::size_t default_nodes(int dimension) noexcept {
-  return dimension == 1 ? 1024 : dimension == 2 ? 128 : 32;
+std::size_t default_nodes(int dimension, bool exact) noexcept {
+  if (dimension == 1) return exact ? 4096 : 1024;
+  if (dimension == 2) return exact ? 256 : 128;
+  return exact ? 48 : 32;
 }
 
 remap::ParameterTable compile_table(const AppearanceWarp& warp, const Points& positions,
                                     const NearestTexel& nearest, const WarpMaterial& target,
-                                    std::size_t nodes) {
+                                    std::size_t nodes, bool exact) {
   const Box box = box_of(positions);
   const Points images = std::visit(
       [&](const auto& kind) {
@@ -95,22 +202,15 @@ remap::ParameterTable compile_table(const AppearanceWarp& warp, const Points& po
           return images_of_nodes(AppearanceWarp(kind), box, nodes);
       },
       warp);
-  const std::vector<std::uint32_t> texels = nearest.find(images);
+  const std::vector<std::uint32_t> texels = node_texels(positions, box, nodes, images, nearest);
   remap::ParameterTable table;
   table.nodes = nodes;
   table.low = box.low;
   table.high = box.high;
-  table.codes.resize(texels.size() * remap::kWarpParameters);
-  for (std::size_t p = 0; p < remap::kWarpParameters; ++p) {
-    table.least[p] = table.largest[p] = target.texels[texels[0]][p];
-    for (const std::uint32_t texel : texels) {
-      table.least[p] = std::min(table.least[p], target.texels[texel][p]);
-      table.largest[p] = std::max(table.largest[p], target.texels[texel][p]);
-    }
-    for (std::size_t i = 0; i < texels.size(); ++i)
-      table.codes[i * remap::kWarpParameters + p] =
-          encoded(target.texels[texels[i]][p], table.least[p], table.largest[p]);
-  }
+  if (exact)
+    table.entries = copied_nodes(texels, target);
+  else
+    table.entries = blended_nodes(texels, target);
   return table;
 }
 

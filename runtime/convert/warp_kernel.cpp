@@ -24,39 +24,70 @@ using Targets = std::array<float*, kWarpParameters>;
 
 REMAP_INLINED_FUNCTIONS_BEGIN
 
-template <std::size_t kDimension>
-inline code::WarpView<kDimension> view_of(const PackedWarp& warp) noexcept {
-  code::WarpView<kDimension> view{};
-  view.diffuse = warp.diffuse.data();
-  view.width_nodes = warp.specular.data();
-  view.entries = warp.entries.data();
-  view.last_width = static_cast<std::int32_t>(warp.width_nodes) - 2;
-  view.nodes = static_cast<std::int32_t>(warp.nodes);
-  view.least_alpha = warp.least_alpha;
-  view.largest_alpha = warp.largest_alpha;
-  view.width_scale = static_cast<float>(warp.width_nodes - 1) /
-                     (code::binary_logarithm(warp.largest_alpha) - code::binary_logarithm(warp.least_alpha));
-  for (std::size_t k = 0; k < kDimension; ++k) {
-    view.low[k] = warp.low[k];
-    view.scale[k] = static_cast<float>(warp.nodes - 1) / (warp.high[k] - warp.low[k]);
-  }
-  return view;
+inline code::WidthScale width_of(const PackedWarp& warp) noexcept {
+  return {warp.least_alpha, warp.largest_alpha, warp.width_start, warp.width_scale};
 }
 
 template <std::size_t kDimension>
-inline std::size_t convert_by(const PackedWarp& warp, std::size_t count, const Sources& in,
+inline code::SeparableView<kDimension> view_of(const PackedWarp& warp,
+                                               const PackedSeparable& terms) noexcept {
+  return {terms.diffuse.data(), terms.width_nodes.data(), terms.last_width, width_of(warp)};
+}
+
+template <std::size_t kDimension>
+inline code::QuadraticView<kDimension> view_of(const PackedWarp& warp,
+                                               const PackedQuadratic& terms) noexcept {
+  return {terms.weights.data(), width_of(warp)};
+}
+
+template <std::size_t kDimension>
+inline code::NodeGrid<kDimension> grid_of(const PackedWarp& warp) noexcept {
+  code::NodeGrid<kDimension> grid{};
+  grid.nodes = warp.nodes;
+  for (std::size_t k = 0; k < kDimension; ++k) {
+    grid.low[k] = warp.low[k];
+    grid.scale[k] = warp.scale[k];
+  }
+  return grid;
+}
+
+template <std::size_t kDimension>
+inline code::BlendedView<kDimension> view_of(const PackedWarp& warp, const PackedBlended& table) noexcept {
+  return {grid_of<kDimension>(warp), table.entries.data()};
+}
+
+template <std::size_t kDimension>
+inline code::CopiedView<kDimension> view_of(const PackedWarp& warp, const PackedCopied& table) noexcept {
+  return {grid_of<kDimension>(warp), table.indices.data(), table.palette.data()};
+}
+
+template <std::size_t kDimension, class Coordinates>
+inline std::size_t convert_by(const PackedWarp& warp, const Coordinates& coordinates, std::size_t count,
+                              const Sources& in, const Targets& out) noexcept {
+  const auto by = [&](const auto& table) {
+    return code::convert_rows<code::kWarpBlock>(count, in, out, [&](const auto& from, const auto& to) {
+      return code::warp_block<kDimension>(coordinates, table, from, to);
+    });
+  };
+  if (const auto* blended = std::get_if<PackedBlended>(&warp.table))
+    return by(view_of<kDimension>(warp, *blended));
+  return by(view_of<kDimension>(warp, *std::get_if<PackedCopied>(&warp.table)));
+}
+
+template <std::size_t kDimension>
+inline std::size_t convert_in(const PackedWarp& warp, std::size_t count, const Sources& in,
                               const Targets& out) noexcept {
-  const code::WarpView<kDimension> view = view_of<kDimension>(warp);
-  return code::convert_rows<code::kWarpBlock>(count, in, out, [&](const auto& from, const auto& to) {
-    return code::warp_block<kDimension>(view, from, to);
-  });
+  if (const auto* separable = std::get_if<PackedSeparable>(&warp.coordinates))
+    return convert_by<kDimension>(warp, view_of<kDimension>(warp, *separable), count, in, out);
+  return convert_by<kDimension>(
+      warp, view_of<kDimension>(warp, *std::get_if<PackedQuadratic>(&warp.coordinates)), count, in, out);
 }
 
 inline std::size_t convert(const PackedWarp& warp, std::size_t count, const Sources& in,
                            const Targets& out) noexcept {
-  if (warp.dimension == 1) return convert_by<1>(warp, count, in, out);
-  if (warp.dimension == 2) return convert_by<2>(warp, count, in, out);
-  return convert_by<3>(warp, count, in, out);
+  if (warp.dimension == 1) return convert_in<1>(warp, count, in, out);
+  if (warp.dimension == 2) return convert_in<2>(warp, count, in, out);
+  return convert_in<3>(warp, count, in, out);
 }
 
 REMAP_INLINED_FUNCTIONS_END
@@ -76,34 +107,6 @@ REMAP_WARP_KERNEL(convert_avx512, REMAP_FOR_AVX512)
 #undef REMAP_WARP_KERNEL
 
 }  // namespace
-
-PackedWarp packed(const CompiledWarp& warp) {
-  const AppearanceCoordinates& space = warp.coordinates;
-  const auto& terms = std::get<SeparableTerms>(space.terms);
-  const ParameterTable& table = warp.table;
-  const std::size_t n = space.dimension, width_nodes = width_node_count(space, terms);
-  PackedWarp result;
-  result.dimension = n;
-  result.width_nodes = width_nodes;
-  result.nodes = table.nodes;
-  result.least_alpha = space.least_alpha;
-  result.largest_alpha = space.largest_alpha;
-  result.diffuse.resize(4 * n);
-  result.specular.resize(width_nodes * n * 4);
-  for (std::size_t k = 0; k < n; ++k) std::copy_n(&terms.diffuse[3 * k], 3, &result.diffuse[4 * k]);
-  for (std::size_t i = 0; i < width_nodes * n; ++i) {
-    std::copy_n(&terms.specular[3 * i], 3, &result.specular[4 * i]);
-    result.specular[4 * i + 3] = terms.offset[i];
-  }
-  const std::size_t entries = table.codes.size() / kWarpParameters;
-  result.entries.resize(entries * code::kWarpLanes);
-  for (std::size_t i = 0; i < entries; ++i)
-    for (std::size_t p = 0; p < kWarpParameters; ++p)
-      result.entries[i * code::kWarpLanes + p] = decoded(table, p, table.codes[i * kWarpParameters + p]);
-  std::copy(table.low.begin(), table.low.end(), result.low.begin());
-  std::copy(table.high.begin(), table.high.end(), result.high.begin());
-  return result;
-}
 
 WarpKernel warp_kernel(InstructionSet set) {
 #if REMAP_HAS_X86_SETS

@@ -80,10 +80,67 @@ Position position_by(const AppearanceCoordinates& space, const QuadraticTerms& q
   return position;
 }
 
+WarpTexel entry_at(const BlendedNodes& entries, std::size_t nodes, std::size_t dimension,
+                   const Position& position) noexcept {
+  std::array<NodePosition, kLargestWarpDimension> node{};
+  for (std::size_t k = 0; k < dimension; ++k) node[k] = position_of(position[k], nodes);
+  std::array<double, kWarpParameters> sum{};
+  for (std::size_t corner = 0; corner < (std::size_t{1} << dimension); ++corner) {
+    double weight = 1.0;
+    std::size_t index = 0;
+    for (std::size_t k = dimension; k-- > 0;) {
+      const std::size_t upper = corner >> k & 1;
+      weight *= upper != 0 ? node[k].fraction : 1.0 - node[k].fraction;
+      index = index * nodes + node[k].first + upper;
+    }
+    for (std::size_t p = 0; p < kWarpParameters; ++p)
+      sum[p] += weight * static_cast<double>(decoded(entries, p, entries.codes[index * kWarpParameters + p]));
+  }
+  WarpTexel result;
+  for (std::size_t p = 0; p < kWarpParameters; ++p) result[p] = static_cast<float>(sum[p]);
+  return result;
+}
+
+WarpTexel entry_at(const CopiedNodes& entries, std::size_t nodes, std::size_t dimension,
+                   const Position& position) noexcept {
+  std::size_t index = 0;
+  for (std::size_t k = dimension; k-- > 0;)
+    index = index * nodes + static_cast<std::size_t>(position[k] + 0.5);
+  return entries.palette[entries.indices[index]];
+}
+
 std::size_t number_count(const SeparableTerms& terms) noexcept {
   return terms.diffuse.size() + terms.specular.size() + terms.offset.size();
 }
 std::size_t number_count(const QuadraticTerms& terms) noexcept { return terms.weights.size(); }
+
+std::size_t entry_bytes(const BlendedNodes& entries) noexcept {
+  return entries.codes.size() + 2 * kWarpParameters * sizeof(float);
+}
+std::size_t entry_bytes(const CopiedNodes& entries) noexcept {
+  return entries.palette.size() * sizeof(WarpTexel) + entries.indices.size() * sizeof(std::uint16_t);
+}
+
+void require_entries(const BlendedNodes& entries, std::size_t count, const std::string& place) {
+  require(entries.codes.size() == count * kWarpParameters, place,
+          "another size of the table; expected seven codes a node");
+  for (std::size_t p = 0; p < kWarpParameters; ++p)
+    require(std::isfinite(entries.least[p]) && std::isfinite(entries.largest[p]) &&
+                entries.least[p] <= entries.largest[p] && entries.least[p] >= 0.0f,
+            place, "an empty range of a parameter; expected finite numbers from 0");
+}
+
+void require_entries(const CopiedNodes& entries, std::size_t count, const std::string& place) {
+  require(entries.indices.size() == count, place, "another size of the table; expected an index a node");
+  require(!entries.palette.empty() && entries.palette.size() <= kLargestPalette, place,
+          "another size of the palette; expected 1 to 65536 texels");
+  for (const WarpTexel& texel : entries.palette)
+    for (const float value : texel)
+      require(std::isfinite(value) && value >= 0.0f, place,
+              "another value in the palette; expected finite numbers from 0");
+  for (const std::uint16_t index : entries.indices)
+    require(index < entries.palette.size(), place, "an index beyond the palette; expected one of its texels");
+}
 
 void require_terms(const AppearanceCoordinates& space, const SeparableTerms& terms,
                    const std::string& place) {
@@ -134,47 +191,43 @@ std::array<double, kQuadraticTerms> quadratic_terms(const AppearanceCoordinates&
   return terms;
 }
 
-float decoded(const ParameterTable& table, std::size_t parameter, std::uint8_t code) noexcept {
+float decoded(const BlendedNodes& nodes, std::size_t parameter, std::uint8_t code) noexcept {
   const float share = static_cast<float>(code) / 255.0f;
-  return table.least[parameter] + (table.largest[parameter] - table.least[parameter]) * (share * share);
+  return nodes.least[parameter] + (nodes.largest[parameter] - nodes.least[parameter]) * (share * share);
+}
+
+std::array<double, kLargestWarpDimension> node_position_of(const CompiledWarp& warp,
+                                                           const WarpTexel& texel) noexcept {
+  const ParameterTable& table = warp.table;
+  const double last = static_cast<double>(table.nodes - 1);
+  auto position = coordinates_of(warp.coordinates, texel);
+  for (std::size_t k = 0; k < warp.coordinates.dimension; ++k) {
+    const double low = static_cast<double>(table.low[k]), high = static_cast<double>(table.high[k]);
+    position[k] = std::clamp((position[k] - low) / (high - low) * last, 0.0, last);
+  }
+  return position;
 }
 
 WarpTexel evaluate_warp(const CompiledWarp& warp, const WarpTexel& texel) noexcept {
-  WarpTexel result;
   if (has_nan(texel)) {
+    WarpTexel result;
     result.fill(std::numeric_limits<float>::quiet_NaN());
     return result;
   }
-  const ParameterTable& table = warp.table;
-  const std::size_t n = warp.coordinates.dimension;
-  const auto position = coordinates_of(warp.coordinates, texel);
-  std::array<NodePosition, kLargestWarpDimension> node{};
-  for (std::size_t k = 0; k < n; ++k) {
-    const double low = static_cast<double>(table.low[k]), high = static_cast<double>(table.high[k]);
-    node[k] =
-        position_of((position[k] - low) / (high - low) * static_cast<double>(table.nodes - 1), table.nodes);
-  }
-  std::array<double, kWarpParameters> sum{};
-  for (std::size_t corner = 0; corner < (std::size_t{1} << n); ++corner) {
-    double weight = 1.0;
-    std::size_t index = 0;
-    for (std::size_t k = n; k-- > 0;) {
-      const std::size_t upper = corner >> k & 1;
-      weight *= upper != 0 ? node[k].fraction : 1.0 - node[k].fraction;
-      index = index * table.nodes + node[k].first + upper;
-    }
-    for (std::size_t p = 0; p < kWarpParameters; ++p)
-      sum[p] += weight * static_cast<double>(decoded(table, p, table.codes[index * kWarpParameters + p]));
-  }
-  for (std::size_t p = 0; p < kWarpParameters; ++p) result[p] = static_cast<float>(sum[p]);
-  return result;
+  const Position position = node_position_of(warp, texel);
+  return std::visit(
+      [&](const auto& entries) {
+        return entry_at(entries, warp.table.nodes, warp.coordinates.dimension, position);
+      },
+      warp.table.entries);
 }
 
 std::size_t byte_count(const CompiledWarp& warp) noexcept {
   const AppearanceCoordinates& space = warp.coordinates;
   const std::size_t terms = std::visit([](const auto& kind) { return number_count(kind); }, space.terms);
-  const std::size_t floats = terms + warp.table.low.size() + warp.table.high.size() + 2 * kWarpParameters + 2;
-  return floats * sizeof(float) + warp.table.codes.size();
+  const std::size_t entries =
+      std::visit([](const auto& kind) { return entry_bytes(kind); }, warp.table.entries);
+  return (terms + warp.table.low.size() + warp.table.high.size() + 2) * sizeof(float) + entries;
 }
 
 void require_valid(const CompiledWarp& warp, const std::string& place) {
@@ -189,13 +242,10 @@ void require_valid(const CompiledWarp& warp, const std::string& place) {
           place, "another box of coordinates; expected two finite corners");
   for (std::size_t k = 0; k < n; ++k)
     require(table.low[k] < table.high[k], place, "an empty box of coordinates; expected low below high");
-  require(table.nodes >= 2 && table.nodes <= 4096 &&
-              table.codes.size() == power(table.nodes, n) * kWarpParameters,
-          place, "another size of the table; expected seven codes for each of 2 to 4096 nodes a dimension");
-  for (std::size_t p = 0; p < kWarpParameters; ++p)
-    require(std::isfinite(table.least[p]) && std::isfinite(table.largest[p]) &&
-                table.least[p] <= table.largest[p] && table.least[p] >= 0.0f,
-            place, "an empty range of a parameter; expected finite numbers from 0");
+  require(table.nodes >= 2 && table.nodes <= 4096 && power(table.nodes, n) <= kMostNodes, place,
+          "another number of nodes; expected 2 to 4096 a dimension and at most 2^24 in all");
+  std::visit([&](const auto& entries) { require_entries(entries, power(table.nodes, n), place); },
+             table.entries);
 }
 
 }  // namespace remap

@@ -60,18 +60,34 @@ std::size_t width_node_count(const AppearanceCoordinates& space, const Separable
 std::array<double, kQuadraticTerms> quadratic_terms(const AppearanceCoordinates& space,
                                                     const WarpTexel& texel) noexcept;
 
-// Parameters of the template over a box of the source's coordinates, multilinear in between, held at its
-// faces beyond.
-struct ParameterTable {
-  std::size_t nodes = 0;                                  // along each dimension, at least 2
-  std::vector<float> low, high;                           // of the box, one each a dimension, low < high
+// Multilinear between nodes, held at the faces of the box beyond.
+struct BlendedNodes {
   std::array<float, kWarpParameters> least{}, largest{};  // of each parameter
   // nodes^dimension x 7, the first dimension runs fastest. A parameter is least + (largest - least) (code /
   // 255)^2: steps are finer where values are dark.
   std::vector<std::uint8_t> codes;
 
+  bool operator==(const BlendedNodes&) const = default;
+};
+
+// The nearest node as it is: results are reflectances that the template has (An et al. 2011, principle 5).
+struct CopiedNodes {
+  std::vector<WarpTexel> palette;      // texels of the template, 1 to 65536
+  std::vector<std::uint16_t> indices;  // of the palette; nodes^dimension, the first dimension runs fastest
+
+  bool operator==(const CopiedNodes&) const = default;
+};
+inline constexpr std::size_t kLargestPalette = 65536;
+
+// Parameters of the template over a box of the source's coordinates.
+struct ParameterTable {
+  std::size_t nodes = 0;         // along each dimension, 2 to 4096; at most kMostNodes in all
+  std::vector<float> low, high;  // of the box, one each a dimension, low < high
+  std::variant<BlendedNodes, CopiedNodes> entries;
+
   bool operator==(const ParameterTable&) const = default;
 };
+inline constexpr std::size_t kMostNodes = std::size_t{1} << 24;
 
 struct CompiledWarp {
   AppearanceCoordinates coordinates;  // of the source
@@ -85,7 +101,11 @@ std::array<double, kLargestWarpDimension> coordinates_of(const AppearanceCoordin
                                                          const WarpTexel& texel) noexcept;
 
 // The value that a code stands for.
-float decoded(const ParameterTable& table, std::size_t parameter, std::uint8_t code) noexcept;
+float decoded(const BlendedNodes& nodes, std::size_t parameter, std::uint8_t code) noexcept;
+
+// The position in units of nodes along each dimension, from 0 to nodes - 1.
+std::array<double, kLargestWarpDimension> node_position_of(const CompiledWarp& warp,
+                                                           const WarpTexel& texel) noexcept;
 
 // The template's parameters for a texel of the source, in double precision: the oracle of faster ways. NaN in
 // the texel gives NaN in all parameters. `warp` must be valid.

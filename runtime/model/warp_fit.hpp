@@ -13,6 +13,9 @@ struct WarpMapFit {
   std::string id;                            // as of every fit
   std::string source_model, template_model;  // what texels hold before and after; `mitsuba/ggx`
   CompiledWarp warp;
+  // RMS distance in appearance from the exact copy of template texels, in shares of the template's spread; -1
+  // where it is not known.
+  double copy_rms_error = -1.0;
   std::map<std::string, std::string> method;  // how it was made
   std::vector<std::string> remarks;           // warnings of the fit, a line each
   std::string tool_version;

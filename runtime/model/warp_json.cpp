@@ -1,5 +1,7 @@
-// Warp fits as JSON. The codes of the table are base64 (RFC 4648): 150 KB for 128^2 nodes where numbers would
-// take 400.
+// Warp fits as JSON. Entries of the table are base64 (RFC 4648): 150 KB for 128^2 nodes where numbers would
+// take 400. Numbers of more than a byte are little-endian, floats as their bits.
+#include <bit>
+
 #include <nlohmann/json.hpp>
 
 #include "error.hpp"
@@ -14,6 +16,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSeparable = "separable";
 constexpr const char* kQuadratic = "quadratic";
+
+constexpr const char* kBlended = "blended";
+constexpr const char* kCopied = "copied";
 
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -51,6 +56,46 @@ std::vector<std::uint8_t> read_base64(const Field& field) {
   return bytes;
 }
 
+// The lowest byte of each number first.
+template <typename Number>
+std::vector<std::uint8_t> bytes_of(const std::vector<Number>& numbers) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(numbers.size() * sizeof(Number));
+  for (const Number number : numbers)
+    for (std::size_t k = 0; k < sizeof(Number); ++k)
+      bytes.push_back(static_cast<std::uint8_t>(number >> 8 * k & 255u));
+  return bytes;
+}
+
+template <typename Number>
+std::vector<Number> read_numbers(const Field& field) {
+  const std::vector<std::uint8_t> bytes = read_base64(field);
+  field.require(bytes.size() % sizeof(Number) == 0,
+                "base64 of whole numbers of " + std::to_string(sizeof(Number)) + " bytes");
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    numbers[i / sizeof(Number)] = static_cast<Number>(
+        numbers[i / sizeof(Number)] | static_cast<std::uint32_t>(bytes[i]) << 8 * (i % sizeof(Number)));
+  return numbers;
+}
+
+std::string palette_text(const std::vector<WarpTexel>& palette) {
+  std::vector<std::uint32_t> values;
+  values.reserve(palette.size() * kWarpParameters);
+  for (const WarpTexel& texel : palette)
+    for (const float value : texel) values.push_back(std::bit_cast<std::uint32_t>(value));
+  return base64(bytes_of(values));
+}
+
+std::vector<WarpTexel> read_palette(const Field& field) {
+  const auto values = read_numbers<std::uint32_t>(field);
+  field.require(values.size() % kWarpParameters == 0, "base64 of seven floats a texel");
+  std::vector<WarpTexel> palette(values.size() / kWarpParameters);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    palette[i / kWarpParameters][i % kWarpParameters] = std::bit_cast<float>(values[i]);
+  return palette;
+}
+
 template <typename Floats>
 Json floats_json(const Floats& values) {
   Json list = Json::array();
@@ -77,17 +122,34 @@ CompiledWarp read_compiled(const Field& mapping) {
   warp.coordinates.largest_alpha = static_cast<float>(space["alpha"].at(1, 2).number());
   const std::string kind = space["kind"].text();
   space["kind"].require(kind == kSeparable || kind == kQuadratic, "separable or quadratic");
-  if (kind == kQuadratic)
-    warp.coordinates.terms = QuadraticTerms{read_floats(space["weights"])};
-  else
-    warp.coordinates.terms = SeparableTerms{read_floats(space["diffuse"]), read_floats(space["specular"]),
-                                            read_floats(space["offset"])};
+  if (kind == kQuadratic) {
+    QuadraticTerms terms;
+    terms.weights = read_floats(space["weights"]);
+    warp.coordinates.terms = std::move(terms);
+  } else {
+    SeparableTerms terms;
+    terms.diffuse = read_floats(space["diffuse"]);
+    terms.specular = read_floats(space["specular"]);
+    terms.offset = read_floats(space["offset"]);
+    warp.coordinates.terms = std::move(terms);
+  }
   warp.table.nodes = static_cast<std::size_t>(table["nodes"].count());
   warp.table.low = read_floats(table["low"]);
   warp.table.high = read_floats(table["high"]);
-  warp.table.least = read_parameters(table["least"]);
-  warp.table.largest = read_parameters(table["largest"]);
-  warp.table.codes = read_base64(table["codes"]);
+  const std::string entries = table["kind"].text();
+  table["kind"].require(entries == kBlended || entries == kCopied, "blended or copied");
+  if (entries == kCopied) {
+    CopiedNodes copied;
+    copied.palette = read_palette(table["palette"]);
+    copied.indices = read_numbers<std::uint16_t>(table["indices"]);
+    warp.table.entries = std::move(copied);
+  } else {
+    BlendedNodes blended;
+    blended.least = read_parameters(table["least"]);
+    blended.largest = read_parameters(table["largest"]);
+    blended.codes = read_base64(table["codes"]);
+    warp.table.entries = std::move(blended);
+  }
   return warp;
 }
 
@@ -109,6 +171,24 @@ Json coordinates_json(const AppearanceCoordinates& space) {
   return json;
 }
 
+void add_entries(Json& json, const BlendedNodes& entries) {
+  json["kind"] = kBlended;
+  json["least"] = floats_json(entries.least);
+  json["largest"] = floats_json(entries.largest);
+  json["codes"] = base64(entries.codes);
+}
+void add_entries(Json& json, const CopiedNodes& entries) {
+  json["kind"] = kCopied;
+  json["palette"] = palette_text(entries.palette);
+  json["indices"] = base64(bytes_of(entries.indices));
+}
+
+Json table_json(const ParameterTable& table) {
+  Json json = {{"nodes", table.nodes}, {"low", floats_json(table.low)}, {"high", floats_json(table.high)}};
+  std::visit([&](const auto& entries) { add_entries(json, entries); }, table.entries);
+  return json;
+}
+
 std::string read_warp_model(const Field& side) {
   const std::string model = side["model"].text();
   side["model"].require(is_valid_model(model), "letters, digits and _ - . /");
@@ -119,7 +199,6 @@ std::string read_warp_model(const Field& side) {
 
 std::string fit_to_json(const WarpMapFit& fit) {
   require_valid(fit.warp, fit.id);
-  const ParameterTable& table = fit.warp.table;
   const auto side = [](const std::string& model) {
     return Json{{"model", model}, {"workflow", "specular"}, {"diffuse", "plain"}, {"roughness", "alpha"}};
   };
@@ -131,13 +210,8 @@ std::string fit_to_json(const WarpMapFit& fit) {
                      {"mapping",
                       {{"kind", kWarpKind},
                        {"coordinates", coordinates_json(fit.warp.coordinates)},
-                       {"table",
-                        {{"nodes", table.nodes},
-                         {"low", floats_json(table.low)},
-                         {"high", floats_json(table.high)},
-                         {"least", floats_json(table.least)},
-                         {"largest", floats_json(table.largest)},
-                         {"codes", base64(table.codes)}}}}},
+                       {"table", table_json(fit.warp.table)}}},
+                     {"copy_rms_error", fit.copy_rms_error},
                      {"method", fit.method},
                      {"remarks", fit.remarks},
                      {"tool", "remapc " + fit.tool_version}};
@@ -152,6 +226,9 @@ WarpMapFit read_warp_fit(const Field& root) {
   fit.template_model = read_warp_model(root["target"]);
   fit.warp = read_compiled(root["mapping"]);
   require_valid(fit.warp, root.place());
+  fit.copy_rms_error = root["copy_rms_error"].number();
+  root["copy_rms_error"].require(fit.copy_rms_error >= 0.0 || fit.copy_rms_error == -1.0,
+                                 "a share from 0, or -1 where it is not known");
   fit.method = root["method"].dictionary<std::string>([](const Field& entry) { return entry.text(); });
   fit.remarks = root["remarks"].list(0, [](const Field& entry) { return entry.text(); });
   const std::string tool = root["tool"].text();

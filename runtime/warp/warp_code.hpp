@@ -18,7 +18,12 @@ namespace remap::warp_code {
 // clang-format off
 #include "workflow/code/floats.inc"
 #include "workflow/code/rows.inc"
-#include "warp/code/appearance_table.inc"
+#include "warp/code/appearance.inc"
+#include "warp/code/separable.inc"
+#include "warp/code/quadratic.inc"
+#include "warp/code/blended.inc"
+#include "warp/code/copied.inc"
+#include "warp/code/warp_block.inc"
 // clang-format on
 }  // namespace remap::warp_code
 

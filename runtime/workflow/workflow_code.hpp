@@ -19,7 +19,9 @@ namespace remap::workflow_code {
 // Each needs those before it.
 // clang-format off
 #include "workflow/code/floats.inc"
+#include "workflow/code/conventions.inc"
 #include "workflow/code/rows.inc"
+#include "workflow/code/width.inc"
 #include "workflow/code/metallic_to_specular.inc"
 #include "workflow/code/specular_texels.inc"
 #include "workflow/code/projection.inc"

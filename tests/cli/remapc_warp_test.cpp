@@ -120,6 +120,54 @@ TEST_CASE("remapc warp: strokes at the corners of a pattern give every texel the
   CHECK(card.output.find("warp") != std::string::npos);
 }
 
+TEST_CASE("remapc warp: a fit becomes a header, alone and with the registry of its folder") {
+  const Session session;
+  write_materials(session);
+  std::vector<std::string> words = strokes(session);
+  words.insert(words.end(), {"--exact", "--json"});
+  const ProcessResult made = session.remapc(warp_words(session, words));
+  INFO(made.errors);
+  REQUIRE(made.exit_code == 0);
+  const auto json = nlohmann::json::parse(made.output);
+  CHECK(json["copy_rms_error"] > 0.0);
+  CHECK(json["copy_rms_error"] < 0.05);
+  const auto fit = std::get<WarpMapFit>(load_any_fit(session.path("stony.json")));
+  CHECK(fit.copy_rms_error == json["copy_rms_error"]);
+  CHECK(std::holds_alternative<CopiedNodes>(fit.warp.table.entries));
+  const std::string card = session.remapc({"show", session.path("stony.json")}).output;
+  CHECK(card.find("256 nodes each, nearest copied") != std::string::npos);
+  CHECK(card.find("spread from an exact copy") != std::string::npos);
+
+  REQUIRE(session.remapc({"emit", session.path("stony.json"), "-o", session.path("alone")}).exit_code == 0);
+  const std::string header = read_file(session.path("alone/stony.hpp"));
+  CHECK(header.find("kCopyRmsError") != std::string::npos);
+  std::filesystem::create_directories(session.path("fits"));
+  std::filesystem::copy_file(session.path("stony.json"), session.path("fits/stony.json"));
+  session.write("fits/manifest.json",
+                R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [],
+                    "chains": []})");
+  const std::vector<std::string> folders = {"--fits", session.path("fits"), "-o", session.path("generated")};
+  const auto run_with = [&](std::vector<std::string> command) {
+    command.insert(command.end(), folders.begin(), folders.end());
+    return session.remapc(command);
+  };
+  CHECK(run_with({"emit", "--all", "--check"}).exit_code == 1);
+  CHECK(run_with({"emit", "--all"}).exit_code == 0);
+  CHECK(read_file(session.path("generated/stony.hpp")) == header);
+  CHECK(read_file(session.path("generated/registry.hpp")).find("MaterialConverterEntry, 1>") !=
+        std::string::npos);
+  CHECK(run_with({"build"}).exit_code == 0);
+  CHECK(run_with({"build", "--check"}).exit_code == 0);
+  CHECK(read_file(session.path("fits/README.md")).find("[stony](stony.json)") != std::string::npos);
+  CHECK(run_with({"emit", "--all", "--check"}).exit_code == 0);
+  session.write("generated/stony.hpp", "");
+  const ProcessResult stale = run_with({"build", "--check"});
+  CHECK(stale.exit_code == 1);
+  CHECK((stale.output + stale.errors).find("stony.hpp is not what its fit gives") != std::string::npos);
+  CHECK(session.remapc({"list", "--fits", session.path("fits")}).output.find("from an exact copy") !=
+        std::string::npos);
+}
+
 TEST_CASE("remapc warp: what cannot be a stroke is refused, and no file is written") {
   const Session session;
   write_materials(session);

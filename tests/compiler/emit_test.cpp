@@ -10,6 +10,7 @@
 #include "files.hpp"
 #include "model/fit_json.hpp"
 #include "model/interpreter.hpp"
+#include "support/random_warp.hpp"
 
 using namespace remapc;
 
@@ -65,4 +66,30 @@ TEST_CASE("emit: the registry lists converters in the order of their ids") {
   other.id = "a_to_b";
   CHECK(emit_registry({fit, other}, {}) == emit_registry({other, fit}, {}));
   CHECK(emit_registry({fit, other}, {}).find("std::array<ConverterEntry, 2>") != std::string::npos);
+}
+
+TEST_CASE("emit: warps are headers of whole materials, and registered as such") {
+  remap::WarpMapFit fit;
+  fit.id = "leaf";
+  fit.source_model = "mitsuba/ggx";
+  fit.template_model = "cycles/ggx";
+  fit.warp = remap::random_warp(3, 4, 32);
+  fit.copy_rms_error = 0.0123;
+  fit.method = {{"source", "brown_leaf"}};
+  fit.tool_version = "0";
+  const std::string header = emit_header(fit);
+  CHECK(emit_header(fit) == header);
+  CHECK(header.size() < 1000000);  // 229 KB of codes as numbers
+  for (const std::string part :
+       {"kId = \"leaf\"", "kSourceModel = \"mitsuba/ggx\"", "kTargetModel = \"cycles/ggx\"",
+        "kTemplateModel = kTargetModel", "kCopyRmsError = 0.0123", "// source: brown_leaf", "MIT-0",
+        "std::array<float, 3> specular;", "SeparableView", "BlendedView"})
+    CHECK(header.find(part) != std::string::npos);
+  for (const std::string part : {"QuadraticView", "CopiedView", "Conventions"})
+    CHECK(header.find(part) == std::string::npos);
+  const std::string registry = emit_registry({}, {}, {fit});
+  CHECK(registry.find("std::array<MaterialConverterEntry, 1>") != std::string::npos);
+  CHECK(registry.find("0.0f, leaf::kInputRows") != std::string::npos);
+  fit.warp.table.nodes = 31;
+  CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("leaf: another size of the table"));
 }

@@ -1,4 +1,5 @@
 // The pass of a compiled warp against the same warp in double precision, one texel at a time.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -10,40 +11,11 @@
 #include "convert/material_converter.hpp"
 #include "convert/warp_kernel.hpp"
 #include "support/random_warp.hpp"
+#include "support/warp_rows.hpp"
 
 using namespace remap;
 
 namespace {
-
-struct WarpRows {
-  explicit WarpRows(std::size_t count) { row.fill(std::vector<float>(count)); }
-  std::array<std::vector<float>, kWarpParameters> row;
-
-  std::array<const float*, kWarpParameters> sources() const {
-    std::array<const float*, kWarpParameters> all{};
-    for (std::size_t r = 0; r < all.size(); ++r) all[r] = row[r].data();
-    return all;
-  }
-  std::array<float*, kWarpParameters> targets() {
-    std::array<float*, kWarpParameters> all{};
-    for (std::size_t r = 0; r < all.size(); ++r) all[r] = row[r].data();
-    return all;
-  }
-  WarpTexel texel(std::size_t i) const {
-    WarpTexel values{};
-    for (std::size_t r = 0; r < values.size(); ++r) values[r] = row[r][i];
-    return values;
-  }
-};
-
-// A few values are beyond 0 to 1.
-WarpRows random_rows(std::size_t count) {
-  WarpRows rows(count);
-  std::mt19937 engine(3);
-  for (auto& row : rows.row)
-    for (float& value : row) value = static_cast<float>(engine() >> 8) * 0x1.1p-24f - 0.02f;
-  return rows;
-}
 
 bool is_within(float value) { return value >= 0.0f && value <= 1.0f; }
 
@@ -59,7 +31,8 @@ std::vector<InstructionSet> available_sets() {
 TEST_CASE("warp converter: every texel is that of the warp in double precision") {
   const auto dimension = GENERATE(as<std::size_t>{}, 1, 2, 3),
              count = GENERATE(as<std::size_t>{}, 1, 63, 64, 1000);
-  const CompiledWarp warp = random_warp(dimension, 11);
+  const bool quadratic = GENERATE(false, true);
+  const CompiledWarp warp = random_warp({dimension, quadratic, false}, 11);
   const PackedWarp pass = packed(warp);
   const WarpRows rows = random_rows(count);
   WarpRows found(count);
@@ -78,25 +51,75 @@ TEST_CASE("warp converter: every texel is that of the warp in double precision")
   CHECK(outside == expected_outside);
 }
 
+TEST_CASE("warp converter: tables of copied nodes give texels of the palette, those of the nearest node") {
+  constexpr std::size_t kCount = 1000;
+  const auto dimension = GENERATE(as<std::size_t>{}, 1, 2, 3);
+  const bool quadratic = GENERATE(false, true);
+  const CompiledWarp warp = random_warp({dimension, quadratic, true}, 13);
+  const auto& palette = std::get<CopiedNodes>(warp.table.entries).palette;
+  const WarpRows rows = random_rows(kCount);
+  WarpRows found(kCount);
+  warp_kernel(InstructionSet::kBaseline)(packed(warp), kCount, rows.sources(), found.targets());
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const WarpTexel result = found.texel(i);
+    REQUIRE(std::find(palette.begin(), palette.end(), result) != palette.end());
+    others += result != evaluate_warp(warp, rows.texel(i));
+    if (result == evaluate_warp(warp, rows.texel(i))) continue;
+    // Only where the pass in floats and the oracle may round to two sides.
+    double to_tie = 1.0;
+    for (const double place : node_position_of(warp, rows.texel(i)))
+      to_tie = std::min(to_tie, std::fabs(place - std::floor(place) - 0.5));
+    REQUIRE(to_tie < 1e-4);
+  }
+  CHECK(others < 5);
+}
+
+TEST_CASE("warp converter: quadratic coordinates hold at black and at the least numbers") {
+  const CompiledWarp warp = random_warp({3, true, false}, 21);
+  const PackedWarp pass = packed(warp);
+  for (const float value : {0.0f, -0.0f, 1e-45f, 1e-40f, 1.2e-38f, 1e-30f, 1e-12f, 1e-6f, 1e-3f, 1.0f}) {
+    WarpRows rows(1), found(1);
+    for (auto& row : rows.row) row[0] = value;
+    warp_kernel(InstructionSet::kBaseline)(pass, 1, rows.sources(), found.targets());
+    const WarpTexel expected = evaluate_warp(warp, rows.texel(0));
+    for (std::size_t p = 0; p < kWarpParameters; ++p)
+      CHECK(found.row[p][0] == Approx(expected[p]).margin(1e-4));
+  }
+}
+
 TEST_CASE("warp converter: every instruction set gives the same bits, in place too") {
   constexpr std::size_t kCount = 517;
   const auto dimension = GENERATE(as<std::size_t>{}, 1, 2, 3);
-  const PackedWarp pass = packed(random_warp(dimension, 5, 17));
+  const bool quadratic = GENERATE(false, true), copied = GENERATE(false, true);
+  const PackedWarp pass = packed(random_warp({dimension, quadratic, copied}, 5, 17));
   WarpRows expected(kCount);
   const WarpRows rows = random_rows(kCount);
   warp_kernel(InstructionSet::kBaseline)(pass, kCount, rows.sources(), expected.targets());
   for (const InstructionSet set : available_sets()) {
-    WarpRows found = rows;
+    WarpRows found = rows, single = rows;
     warp_kernel(set)(pass, kCount, found.sources(), found.targets());
-    for (std::size_t r = 0; r < found.row.size(); ++r)
+    for (std::size_t i = 0; i < kCount; ++i) {
+      auto from = single.sources();
+      auto to = single.targets();
+      for (std::size_t r = 0; r < from.size(); ++r) {
+        from[r] += i;
+        to[r] += i;
+      }
+      warp_kernel(set)(pass, 1, from, to);
+    }
+    for (std::size_t r = 0; r < found.row.size(); ++r) {
       REQUIRE(std::memcmp(found.row[r].data(), expected.row[r].data(), kCount * sizeof(float)) == 0);
+      REQUIRE(std::memcmp(single.row[r].data(), expected.row[r].data(), kCount * sizeof(float)) == 0);
+    }
   }
 }
 
 TEST_CASE("warp converter: NaN stays NaN, infinity and negative values are held") {
   constexpr float kInfinity = std::numeric_limits<float>::infinity(),
                   kNan = std::numeric_limits<float>::quiet_NaN();
-  const CompiledWarp warp = random_warp(3, 2);
+  const bool quadratic = GENERATE(false, true);
+  const CompiledWarp warp = random_warp({3, quadratic, false}, 2);
   const PackedWarp pass = packed(warp);
   for (const InstructionSet set : available_sets())
     for (const float odd : {kNan, -kNan, kInfinity, -kInfinity, -1e30f, 0.0f, -0.0f, 1e-40f})

@@ -10,6 +10,8 @@
 #include "error.hpp"
 #include "model/fit_json.hpp"
 #include "study/warp_sets.hpp"
+#include "support/random_warp.hpp"
+#include "warp/copy_error.hpp"
 #include "warp/quadrature.hpp"
 
 namespace {
@@ -216,6 +218,45 @@ TEST_CASE("warp: other BRDF models keep the appearance", "[warp]") {
   CHECK(measure(set, fit).folds == 0.0);
 }
 
+TEST_CASE("warp: an exact table gives texels of the template only, about as near the copy as blends",
+          "[warp]") {
+  const WarpSet set = leaf_set(128);
+  const auto strokes = strokes_of(set, 0);
+  WarpOptions options;
+  options.exact = true;
+  const WarpFit exact = fit_warp(set.source, set.target, strokes, options),
+                blended = fit_warp(set.source, set.target, strokes);
+  const auto& entries = std::get<remap::CopiedNodes>(exact.compiled.table.entries);
+  CHECK(exact.compiled.table.nodes == 256);
+  std::vector<remap::WarpTexel> texels = set.target.texels;
+  std::sort(texels.begin(), texels.end());
+  for (const remap::WarpTexel& texel : entries.palette)
+    REQUIRE(std::binary_search(texels.begin(), texels.end(), texel));
+  for (std::size_t i = 0; i < set.source.texels.size(); i += 7)
+    REQUIRE(std::binary_search(texels.begin(), texels.end(),
+                               remap::evaluate_warp(exact.compiled, set.source.texels[i])));
+  const double of_blends = copy_rms_error(blended, set.source, set.target),
+               of_copies = copy_rms_error(exact, set.source, set.target);
+  CAPTURE(of_blends, of_copies);
+  CHECK(of_blends < 0.02);
+  CHECK(of_copies < 2.0 * of_blends);
+}
+
+TEST_CASE("warp: the error of the table is that of positions measured one by one", "[warp]") {
+  const WarpSet set = small_leaf();
+  const WarpFit fit = fit_warp(set.source, set.target, strokes_of(set, 0));
+  const auto copy = copy_exactly(fit, set.source, set.target);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < copy.size(); ++i) {
+    const auto own = remap::coordinates_of(fit.target_coordinates(),
+                                           remap::evaluate_warp(fit.compiled, set.source.texels[i]));
+    const auto copied = remap::coordinates_of(fit.target_coordinates(), set.target.texels[copy[i]]);
+    for (std::size_t k = 0; k < 3; ++k) squares += std::pow(own[k] - copied[k], 2);
+  }
+  CHECK(copy_rms_error(fit, set.source, set.target) ==
+        Approx(std::sqrt(squares / static_cast<double>(copy.size()))));
+}
+
 TEST_CASE("warp: texels that are not finite take no part", "[warp]") {
   WarpSet set = small_leaf();
   const auto strokes = strokes_of(set, 0);
@@ -275,27 +316,62 @@ TEST_CASE("warp: input that cannot be used is refused", "[warp]") {
 }
 
 TEST_CASE("warp fits: files hold every bit, and damaged ones are refused", "[warp]") {
-  const WarpSet set = small_leaf();
   remap::WarpMapFit fit;
   fit.id = "leaf";
   fit.source_model = fit.template_model = "mitsuba/ggx";
   fit.warp = fit_warp(set.source, set.target, strokes_of(set, 0)).compiled;
+  fit.copy_rms_error = 0.0123;
   fit.method = {{"method", "registration"}};
   fit.remarks = {"A remark."};
   fit.tool_version = "0";
-  const std::string text = fit_to_json(fit);
-  CHECK(text.size() < 250000);
-  const remap::AnyFit read = remap::any_fit_from_json(text, "x");
-  REQUIRE(std::holds_alternative<remap::WarpMapFit>(read));
-  CHECK(std::get<remap::WarpMapFit>(read) == fit);
-  CHECK_THROWS_AS(remap::fit_from_json(text, "x"), remap::Error);
-  const auto damaged = [&](const std::string& found, const std::string& other) {
-    std::string copy = text;
-    copy.replace(copy.find(found), found.size(), other);
-    return copy;
+  for (const bool quadratic : {false, true})
+    for (const bool copied : {false, true}) {
+      fit.warp = remap::random_warp({2, quadratic, copied}, 7, 128);
+      const std::string text = fit_to_json(fit);
+      const remap::AnyFit read = remap::any_fit_from_json(text, "x");
+      REQUIRE(std::holds_alternative<remap::WarpMapFit>(read));
+      CHECK(std::get<remap::WarpMapFit>(read) == fit);
+      CHECK_THROWS_AS(remap::fit_from_json(text, "x"), remap::Error);
+      const auto refused = [&](const std::string& found, const std::string& other,
+                               const std::string& message) {
+        std::string copy = text;
+        copy.replace(copy.find(found), found.size(), other);
+        CHECK_THROWS_WITH(remap::any_fit_from_json(copy, "x"), Catch::Contains(message));
+      };
+      refused("\"nodes\": 128", "\"nodes\": 127", "another size of the table");
+      refused("\"nodes\": 128", "\"nodes\": 1", "another number of nodes; expected 2 to 4096");
+      refused("\"dimension\": 2", "\"dimension\": 3", "other weights of");
+      refused("\"copy_rms_error\": 0.0123", "\"copy_rms_error\": -2", "-1 where it is not known");
+      if (copied) {
+        refused("\"indices\": \"", "\"indices\": \"//8", "base64 in whole groups");
+        refused("\"indices\": \"", "\"indices\": \"////", "whole numbers of 2 bytes");
+        refused("\"palette\": \"", "\"palette\": \"AAAA", "whole numbers of 4 bytes");
+        refused("\"kind\": \"copied\"", "\"kind\": \"other\"", "blended or copied");
+      } else {
+        refused("\"codes\": \"", "\"codes\": \"A", "base64 in whole groups");
+      }
+    }
+}
+
+TEST_CASE("warp fits: numbers that cannot be a table are refused", "[warp]") {
+  const auto refused = [](const remap::CompiledWarp& warp, const std::string& message) {
+    CHECK_THROWS_WITH(remap::require_valid(warp, "leaf"), Catch::Contains("leaf: " + message));
   };
-  CHECK_THROWS_AS(remap::any_fit_from_json(damaged("\"nodes\": 128", "\"nodes\": 127"), "x"), remap::Error);
-  CHECK_THROWS_AS(remap::any_fit_from_json(damaged("\"codes\": \"", "\"codes\": \"A"), "x"), remap::Error);
-  CHECK_THROWS_AS(remap::any_fit_from_json(damaged("\"dimension\": 2", "\"dimension\": 3"), "x"),
-                  remap::Error);
+  remap::CompiledWarp warp = remap::random_warp({2, true, true}, 3);
+  auto& entries = std::get<remap::CopiedNodes>(warp.table.entries);
+  entries.indices[5] = static_cast<std::uint16_t>(entries.palette.size());
+  refused(warp, "an index beyond the palette");
+  entries.indices[5] = 0;
+  entries.palette[1][3] = std::numeric_limits<float>::quiet_NaN();
+  refused(warp, "another value in the palette");
+  entries.palette[1][3] = -0.5f;
+  refused(warp, "another value in the palette");
+  entries.palette.clear();
+  refused(warp, "another size of the palette; expected 1 to 65536 texels");
+  warp = remap::random_warp({3, true, false}, 3);
+  std::get<remap::QuadraticTerms>(warp.coordinates.terms).weights.pop_back();
+  refused(warp, "other weights of quadratic terms; expected 36");
+  warp = remap::random_warp({3, false, false}, 3);
+  warp.table.nodes = 300;
+  refused(warp, "another number of nodes; expected 2 to 4096 a dimension and at most 2^24");
 }

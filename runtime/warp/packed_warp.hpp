@@ -1,0 +1,47 @@
+// A compiled warp laid out for its pass: what warp/code reads, here and in generated headers. Both take their
+// numbers from here, so that both give the same bits.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "model/warp.hpp"
+
+namespace remap {
+
+struct PackedSeparable {
+  std::vector<float> diffuse;      // 3 x 4: weights of a channel for each dimension; 0
+  std::vector<float> width_nodes;  // nodes of alpha x 4 x 4: the same of specular, then offsets
+  std::int32_t last_width = 0;     // the last node of alpha but one
+};
+
+struct PackedQuadratic {
+  std::vector<float> weights;  // dimension x 36
+};
+
+struct PackedBlended {
+  std::vector<float> entries;  // nodes x 8: parameters as they are, and 0
+};
+
+struct PackedCopied {
+  std::vector<std::uint16_t> indices;
+  std::vector<float> palette;  // texels x 7, and one number more
+};
+
+struct PackedWarp {
+  std::size_t dimension = 0;
+  float least_alpha = 0.0f, largest_alpha = 0.0f;
+  float width_start = 0.0f, width_scale = 0.0f;  // place of alpha: (log2(alpha) - start) scale
+  std::variant<PackedSeparable, PackedQuadratic> coordinates;
+  std::int32_t nodes = 0;                                   // of the table, along each dimension
+  std::array<float, kLargestWarpDimension> low{}, scale{};  // nodes = (x - low) scale
+  std::variant<PackedBlended, PackedCopied> table;
+};
+
+// `warp` must be valid (require_valid).
+PackedWarp packed(const CompiledWarp& warp);
+
+}  // namespace remap

@@ -1,0 +1,179 @@
+// Headers of appearance warps against the library: bit for bit, and against the oracle in double precision.
+// All kinds of coordinates and tables in one file, built as a library that the test loads.
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <dlfcn.h>
+#include <iostream>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "convert/warp_kernel.hpp"
+#include "emit/emit.hpp"
+#include "files.hpp"
+#include "support/random_warp.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/warp_rows.hpp"
+
+using namespace remap;
+
+namespace {
+
+constexpr std::size_t kCount = 1000;
+
+// What the library of headers exports, an entry a header.
+struct Entry {
+  bool (*self_test)();
+  std::size_t (*rows)(std::size_t, const std::array<const float*, 7>&, const std::array<float*, 7>&);
+  void (*one)(const float* in, float* out);
+  bool (*in_domain)(const float* in);
+  double copy_rms_error;
+};
+
+constexpr const char* kExports = R"(
+struct Entry {
+  bool (*self_test)();
+  std::size_t (*rows)(std::size_t, const std::array<const float*, 7>&, const std::array<float*, 7>&);
+  void (*one)(const float* in, float* out);
+  bool (*in_domain)(const float* in);
+  double copy_rms_error;
+};
+#define ENTRY(ID)                                                                                    \
+  {remap::ID::self_test, remap::ID::evaluate_rows,                                                   \
+   [](const float* in, float* out) {                                                                 \
+     remap::ID::Input texel{};                                                                       \
+     std::memcpy(&texel, in, sizeof texel);                                                          \
+     const remap::ID::Output result = remap::ID::evaluate(texel);                                    \
+     std::memcpy(out, &result, sizeof result);                                                       \
+   },                                                                                                \
+   [](const float* in) {                                                                             \
+     remap::ID::Input texel{};                                                                       \
+     std::memcpy(&texel, in, sizeof texel);                                                          \
+     return remap::ID::in_domain(texel);                                                             \
+   },                                                                                                \
+   remap::ID::kCopyRmsError},
+)";
+
+std::vector<WarpMapFit> subjects() {
+  std::vector<WarpMapFit> fits;
+  for (const bool quadratic : {false, true})
+    for (const bool copied : {false, true})
+      for (std::size_t dimension = 1; dimension <= 3; ++dimension) {
+        WarpMapFit& fit = fits.emplace_back();
+        fit.id = std::string(quadratic ? "quadratic" : "separable") + (copied ? "_copied_" : "_blended_") +
+                 std::to_string(dimension);
+        fit.source_model = fit.template_model = "mitsuba/ggx";
+        fit.warp = random_warp({dimension, quadratic, copied}, static_cast<unsigned>(31 + fits.size()));
+        fit.copy_rms_error = 0.0125;
+        fit.method = {{"source", "a folder\\"}};  // which may not continue the comment
+        fit.tool_version = "0";
+      }
+  return fits;
+}
+
+// None where the compiler is not installed.
+const Entry* build(const TemporaryFolder& folder, const std::vector<WarpMapFit>& fits,
+                   const std::string& compiler, const std::string& flags) {
+  if (std::system((compiler + " --version >/dev/null 2>&1").c_str()) != 0) {
+    std::cout << "skipped: " << compiler << " is not installed\n";
+    return nullptr;
+  }
+  std::string includes, entries;
+  for (const WarpMapFit& fit : fits) {
+    write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit));
+    includes += "#include \"" + fit.id + ".hpp\"\n";
+    entries += "ENTRY(" + fit.id + ")\n";
+  }
+  const std::string name = (folder.path() / "headers").string();
+  write_file(name + ".cpp", includes + kExports +
+                                "extern \"C\" const Entry entries[];\nconst Entry entries[] = {\n" + entries +
+                                "};\n");
+  REQUIRE(std::system((compiler +
+                       " -std=c++17 -fPIC -shared -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Werror " +
+                       flags + " " + name + ".cpp -o " + name + ".so")
+                          .c_str()) == 0);
+  void* library = ::dlopen((name + ".so").c_str(), RTLD_NOW | RTLD_LOCAL);
+  REQUIRE(library != nullptr);
+  return static_cast<const Entry*>(::dlsym(library, "entries"));
+}
+
+// NaN in every channel of some texels.
+WarpRows texels() {
+  WarpRows rows = random_rows(kCount);
+  const float odd[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                       -1e30f, -0.0f, 1e-40f};
+  for (std::size_t r = 0; r < kWarpParameters; ++r)
+    for (std::size_t k = 0; k < std::size(odd); ++k) rows.row[r][100 * r + k] = odd[k];
+  return rows;
+}
+
+bool same(const WarpRows& a, const WarpRows& b) {
+  for (std::size_t r = 0; r < kWarpParameters; ++r)
+    for (std::size_t i = 0; i < kCount; ++i)
+      if (std::memcmp(&a.row[r][i], &b.row[r][i], sizeof(float)) != 0 &&
+          !(std::isnan(a.row[r][i]) && std::isnan(b.row[r][i])))
+        return false;
+  return true;
+}
+
+// Copied nodes flip where the oracle and floats round a position to two sides.
+void check_against_oracle(const CompiledWarp& warp, const WarpRows& in, const WarpRows& out) {
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const WarpTexel expected = evaluate_warp(warp, in.texel(i)), found = out.texel(i);
+    bool close = true;
+    for (std::size_t p = 0; p < kWarpParameters; ++p)
+      close = close &&
+              (std::isnan(expected[p]) ? std::isnan(found[p]) : std::fabs(found[p] - expected[p]) < 1e-4f);
+    wrong += close ? 0 : 1;
+  }
+  CHECK(wrong <= (std::holds_alternative<CopiedNodes>(warp.table.entries) ? 4u : 0u));
+}
+
+void check_single_texels(const Entry& entry, const WarpRows& in, const WarpRows& all, std::size_t outside) {
+  WarpRows single(kCount);
+  std::size_t outside_one = 0;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const WarpTexel texel = in.texel(i);
+    WarpTexel result{};
+    entry.one(texel.data(), result.data());
+    for (std::size_t r = 0; r < kWarpParameters; ++r) single.row[r][i] = result[r];
+    outside_one += entry.in_domain(texel.data()) ? 0 : 1;
+  }
+  CHECK(same(single, all));
+  CHECK(outside_one == outside);
+}
+
+// `fuses`: products and sums, so that the last bits are not the library's.
+void check_headers(const std::string& compiler, const std::string& flags, bool fuses) {
+  const TemporaryFolder folder;
+  const std::vector<WarpMapFit> fits = subjects();
+  const Entry* entries = build(folder, fits, compiler, flags);
+  if (entries == nullptr) return;
+  const WarpRows in = texels();
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    INFO(fits[i].id << " by " << compiler << " " << flags);
+    CHECK(entries[i].self_test());
+    CHECK(entries[i].copy_rms_error == 0.0125);
+    WarpRows out(kCount), expected(kCount);
+    const std::size_t outside = entries[i].rows(kCount, in.sources(), out.targets());
+    CHECK(outside == warp_kernel(InstructionSet::kBaseline)(packed(fits[i].warp), kCount, in.sources(),
+                                                            expected.targets()));
+    if (!fuses) CHECK(same(out, expected));
+    check_against_oracle(fits[i].warp, in, out);
+    check_single_texels(entries[i], in, out, outside);
+    WarpRows in_place = in;
+    entries[i].rows(kCount, in_place.sources(), in_place.targets());
+    CHECK(same(in_place, out));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("warp headers: the bits of the library by gcc") { check_headers("g++", "-O2", false); }
+TEST_CASE("warp headers: the bits of the library by clang") { check_headers("clang++", "-O2", false); }
+TEST_CASE("warp headers: rows as single texels where products and sums are fused") {
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    check_headers("g++", "-O2 -march=x86-64-v3", true);
+}
