@@ -23,7 +23,8 @@ constexpr remap::NamedValues<WarpMethod, 4> kMethods = {{{WarpMethod::kRegistrat
                                                          {WarpMethod::kHistogram, "histogram"},
                                                          {WarpMethod::kPaper, "paper"}}};
 
-constexpr std::size_t kMostTexels = std::size_t{1} << 18;
+// Of the source only points are made; results are texels of the template.
+constexpr std::size_t kMostSources = std::size_t{1} << 16, kMostTargets = std::size_t{1} << 18;
 
 using StrokeTexels = std::vector<std::vector<std::uint32_t>>;
 
@@ -35,10 +36,10 @@ struct Selection {
 };
 
 Selection selection_of(const MaterialRef& material, const std::vector<StrokePair>& strokes,
-                       std::vector<std::uint32_t> StrokePair::*side) {
+                       std::vector<std::uint32_t> StrokePair::*side, std::size_t limit) {
   const std::size_t count = material.texel_count();
   std::vector<char> wanted(count, 0);
-  const std::size_t step = (count + kMostTexels - 1) / kMostTexels;
+  const std::size_t step = (count + limit - 1) / limit;
   for (std::size_t i = 0, block = 0; i < count; i += step, ++block)
     wanted[std::min(i + block * 61 % step, count - 1)] = 1;  // scattered, so that samples stand in no columns
   for (const StrokePair& stroke : strokes)
@@ -167,8 +168,8 @@ Matched matched(const MaterialRef& source, const MaterialRef& target, const std:
   match.target = placement_of(target, features.target, to_space, found.dimensions);
   match.target_radius = to_space.radius;
   found.coordinates_error = std::max(match.source.fit_error, match.target.fit_error);
-  result.source = selection_of(source, strokes, &StrokePair::source);
-  result.target = selection_of(target, strokes, &StrokePair::target);
+  result.source = selection_of(source, strokes, &StrokePair::source, kMostSources);
+  result.target = selection_of(target, strokes, &StrokePair::target, kMostTargets);
   found.source_left_out = result.source.left_out;
   found.target_left_out = result.target.left_out;
   result.source_positions = positions_of(match.source, source, result.source.texels);

@@ -316,6 +316,7 @@ TEST_CASE("warp: input that cannot be used is refused", "[warp]") {
 }
 
 TEST_CASE("warp fits: files hold every bit, and damaged ones are refused", "[warp]") {
+  const WarpSet set = small_leaf();
   remap::WarpMapFit fit;
   fit.id = "leaf";
   fit.source_model = fit.template_model = "mitsuba/ggx";
