@@ -127,7 +127,8 @@ std::string stroke_key(std::size_t stroke_count) {
 constexpr const char* kHead =
     "<meta charset=\"utf-8\">\n<style>\n"
     "body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 1180px; padding: 0 1em; color: #222 }\n"
-    ".row { display: grid; grid-template-columns: repeat(auto-fit, minmax(240px, 1fr)); gap: 14px }\n"
+    ".row { display: grid; grid-template-columns: repeat(auto-fill, minmax(340px, 1fr)); gap: 14px }\n"
+    ".small { grid-template-columns: repeat(auto-fill, minmax(250px, 1fr)) }\n"
     "figure { margin: 0 } img { width: 100%; display: block }\n"
     "figcaption { color: #555; font-size: 13px; padding: 4px 0 10px }\n"
     "table { border-collapse: collapse; margin: 1em 0 } td { padding: 2px 18px 2px 0 }\n"
@@ -147,7 +148,7 @@ std::string report_html(const WarpPictures& pictures, const WarpWords& words) {
           figure_html(pictures.source_strokes, "On the source") +
           figure_html(pictures.target_strokes, "On the template") +
           "</div>\n<h2>Appearance spaces</h2>\n<p>The first two coordinates; a point a texel, in its colour; "
-          "those of strokes in the colours of the strokes.</p>\n<div class=\"row\">\n" +
+          "those of strokes in the colours of the strokes.</p>\n<div class=\"row small\">\n" +
           figure_html(pictures.source_space, "Source") + figure_html(pictures.target_space, "Template") +
           figure_html(pictures.before, "Before the warp: the source over the template (grey)") +
           figure_html(pictures.after, "After it") + "</div>\n<h2>Figures</h2>\n<table>\n";

@@ -57,6 +57,10 @@ std::vector<remap::WarpTexel> read_texels(const fs::path& folder, WarpCase& made
       texels[i][3 + c] = maps[1].values[3 * i + c];
     }
     texels[i][6] = maps[2].values[3 * i];
+    if (!is_finite(texels[i]))
+      throw Error(ErrorKind::kInput, folder.string() + ": texel " + std::to_string(i % made.width) + ", " +
+                                         std::to_string(i / made.width) +
+                                         " is not finite; expected numbers in all three maps");
   }
   return texels;
 }

@@ -28,7 +28,7 @@ std::vector<WarpCase> builtin_warp_cases(std::size_t size, std::size_t stroke_se
 // A case for each subfolder, in the order of names, of the first folder: source, template and truth/
 // {diffuse,specular,alpha}.exr, GGX with Schlick's Fresnel, linear; strokes/{source,template}<k>.exr from 0
 // on, masks above a half. Each further folder has the same cases and another set of strokes. Throws kInput
-// for files that are missing, cannot be read, or are not of one size.
+// for files that are missing, cannot be read, are not of one size, and for texels that are not finite.
 std::vector<WarpCase> read_warp_cases(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace remapc

@@ -79,7 +79,8 @@ WarpSheet sampling_sheet(const Shown& shown) {
   // The middle of the map, magnified.
   Shown part = shown;
   const WarpCase& studied = shown.studied;
-  const std::size_t width = studied.width / kZoom, height = studied.height / kZoom;
+  const std::size_t width = std::max<std::size_t>(studied.width / kZoom, 1),
+                    height = std::max<std::size_t>(studied.height / kZoom, 1);
   part.grid = picture_grid(width, height, kSide);
   const std::size_t left = (studied.width - width) / 2, top = (studied.height - height) / 2;
   for (std::uint32_t& texel : part.grid.texels)

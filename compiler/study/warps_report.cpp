@@ -31,7 +31,7 @@ std::string variant_title(const WarpVariant& variant) {
     case WarpGroup::kPoints:
       return variant.name + " points";
     case WarpGroup::kNodes:
-      return variant.name + " of the nodes";
+      return "nodes x " + variant.name;
     case WarpGroup::kMethod:
       break;
   }
