@@ -14,6 +14,7 @@
 #include "model/fit_json.hpp"
 #include "report_text.hpp"
 #include "version.hpp"
+#include "warp/stroke_colors.hpp"
 #include "warp/stroke_masks.hpp"
 
 namespace remapc {
@@ -25,7 +26,7 @@ using remap::ErrorKind;
 struct WarpCommand {
   std::string source, target;
   std::string source_model = "mitsuba/ggx", target_model = "mitsuba/ggx";
-  std::vector<std::string> masks, boxes;  // source, template, source, template ...
+  std::vector<std::string> masks, boxes, paintings;  // source, template, source, template ...
   std::string method = "registration";
   std::string distance = "relative";
   int dimensions = 0;
@@ -40,9 +41,14 @@ std::vector<StrokePair> strokes_of(const WarpCommand& command, const TextureMate
     strokes.push_back({read_stroke(command.masks[i], source), read_stroke(command.masks[i + 1], target)});
   for (std::size_t i = 0; i + 1 < command.boxes.size(); i += 2)
     strokes.push_back({box_stroke(command.boxes[i], source), box_stroke(command.boxes[i + 1], target)});
+  for (std::size_t i = 0; i + 1 < command.paintings.size(); i += 2)
+    for (StrokePair& pair :
+         read_color_strokes(command.paintings[i], source, command.paintings[i + 1], target))
+      strokes.push_back(std::move(pair));
   if (strokes.empty())
     throw Error(ErrorKind::kUsage,
-                "warp: no stroke; expected --stroke SOURCE_MASK TEMPLATE_MASK or --box pairs");
+                "warp: no stroke; expected --strokes SOURCE_IMAGE TEMPLATE_IMAGE, --stroke SOURCE_MASK "
+                "TEMPLATE_MASK or --box pairs");
   return strokes;
 }
 
@@ -85,6 +91,7 @@ nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
           {"template_used", found.coverage},
           {"stroke_distance", found.stroke_distance},
           {"stroke_distance_affine", found.stroke_contradiction},
+          {"strokes", found.strokes},
           {"worst_stroke", found.worst_stroke + 1},
           {"largest_overlap", found.shared.overlap.share},
           {"source_texels_left_out", found.source_left_out},
@@ -92,13 +99,15 @@ nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
 }
 
 void run(const WarpCommand& command) {
-  const TextureMaterial source = read_texture_material(command.source, command.source_model);
+  const TextureMaterial source =
+      read_texture_material(command.source, command.source_model, AlbedoAlone::kEnrich);
   const TextureMaterial target = read_texture_material(command.target, command.target_model);
   const std::vector<StrokePair> strokes = strokes_of(command, source, target);
   const auto start = std::chrono::steady_clock::now();
   const WarpFit fit = fit_warp(source.material, target.material, strokes, options_of(command));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const remap::WarpMapFit file = fit_file(command, fit, strokes.size());
+  remap::WarpMapFit file = fit_file(command, fit, strokes.size());
+  if (source.is_albedo) file.method[remap::kWarpSourceMaps] = remap::kDiffuseAlone;
   remap::write_file(command.output, fit_to_json(file));
   if (command.json) {
     const nlohmann::ordered_json json = {{"fit", command.output.string()},
@@ -113,6 +122,8 @@ void run(const WarpCommand& command) {
             << strokes.size() << " stroke pairs\n  template used " << percent(fit.diagnostics.coverage)
             << ", folds " << percent(fit.diagnostics.fold_share) << ", strokes "
             << percent(fit.diagnostics.stroke_distance) << " of the template's spread apart\n";
+  if (source.is_albedo)
+    std::cerr << "  the source is diffuse alone: taken with specular 0 and alpha 1, told apart by colour\n";
   for (const std::string& warning : file.remarks) remap::print_message("remapc", "warning: " + warning);
 }
 
@@ -122,7 +133,10 @@ void add_warp_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "warp", "Give one texture set the reflectance of another, by pairs of strokes (An et al. 2011)");
   auto options = std::make_shared<WarpCommand>();
-  command->add_option("source", options->source, "Folder of the set whose pattern stays")->required();
+  command
+      ->add_option("source", options->source,
+                   "Folder of the set whose pattern stays; a diffuse map alone will do")
+      ->required();
   command->add_option("template", options->target, "Folder of the set whose reflectance is taken")
       ->required();
   command
@@ -130,6 +144,12 @@ void add_warp_command(CLI::App& app) {
                    "Two masks that mark one region: of the source and of the template")
       ->type_size(2)
       ->type_name("SOURCE_MASK TEMPLATE_MASK");
+  command
+      ->add_option("--strokes", options->paintings,
+                   "Two images, of the source and of the template, with a colour for each region; the "
+                   "background is transparent, or the most frequent colour")
+      ->type_size(2)
+      ->type_name("SOURCE_IMAGE TEMPLATE_IMAGE");
   command->add_option("--box", options->boxes, "The same as boxes of texels, x0,y0,x1,y1 each")
       ->type_size(2)
       ->delimiter(' ')

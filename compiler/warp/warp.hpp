@@ -42,6 +42,7 @@ struct WarpDiagnostics {
       0.0;  // RMS, image of a source stroke's centre to the template stroke's; template radii
   double stroke_contradiction = 0.0;  // RMS, the same after the affine map of the strokes alone
   std::size_t worst_stroke = 0;       // index of the stroke that is farthest off
+  std::vector<std::string> strokes;   // their names, for messages
   std::size_t source_left_out = 0, target_left_out = 0;  // texels that are not finite
   // The stroke of which another one covers most, over both materials.
   struct SharedStroke {
