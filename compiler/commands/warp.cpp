@@ -17,6 +17,7 @@
 #include "report_text.hpp"
 #include "version.hpp"
 #include "warp/copy_error.hpp"
+#include "warp/stroke_colors.hpp"
 #include "warp/stroke_masks.hpp"
 
 namespace remapc {
@@ -28,7 +29,7 @@ using remap::ErrorKind;
 struct WarpCommand {
   std::string source, target;
   std::string source_model = "mitsuba/ggx", target_model = "mitsuba/ggx";
-  std::vector<std::string> masks, boxes;  // source, template, source, template ...
+  std::vector<std::string> masks, boxes, paintings;  // source, template, source, template ...
   std::string method = "registration";
   std::string distance = "relative";
   int dimensions = 0;
@@ -44,9 +45,14 @@ std::vector<StrokePair> strokes_of(const WarpCommand& command, const TextureMate
     strokes.push_back({read_stroke(command.masks[i], source), read_stroke(command.masks[i + 1], target)});
   for (std::size_t i = 0; i + 1 < command.boxes.size(); i += 2)
     strokes.push_back({box_stroke(command.boxes[i], source), box_stroke(command.boxes[i + 1], target)});
+  for (std::size_t i = 0; i + 1 < command.paintings.size(); i += 2)
+    for (StrokePair& pair :
+         read_color_strokes(command.paintings[i], source, command.paintings[i + 1], target))
+      strokes.push_back(std::move(pair));
   if (strokes.empty())
     throw Error(ErrorKind::kUsage,
-                "warp: no stroke; expected --stroke SOURCE_MASK TEMPLATE_MASK or --box pairs");
+                "warp: no stroke; expected --strokes SOURCE_IMAGE TEMPLATE_IMAGE, --stroke SOURCE_MASK "
+                "TEMPLATE_MASK or --box pairs");
   return strokes;
 }
 
@@ -90,6 +96,7 @@ nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
           {"template_used", found.coverage},
           {"stroke_distance", found.stroke_distance},
           {"stroke_distance_affine", found.stroke_contradiction},
+          {"strokes", found.strokes},
           {"worst_stroke", found.worst_stroke + 1},
           {"largest_overlap", found.shared.overlap.share},
           {"source_texels_left_out", found.source_left_out},
@@ -118,13 +125,15 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::
 
 void run(const WarpCommand& command) {
   if (!command.report.empty()) require_report_path(command.report);
-  const TextureMaterial source = read_texture_material(command.source, command.source_model);
+  const TextureMaterial source =
+      read_texture_material(command.source, command.source_model, AlbedoAlone::kEnrich);
   const TextureMaterial target = read_texture_material(command.target, command.target_model);
   const std::vector<StrokePair> strokes = strokes_of(command, source, target);
   const auto start = std::chrono::steady_clock::now();
   const WarpFit fit = fit_warp(source.material, target.material, strokes, options_of(command));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   remap::WarpMapFit file = fit_file(command, fit, strokes.size());
+  if (source.is_albedo) file.method[remap::kWarpSourceMaps] = remap::kDiffuseAlone;
   file.copy_rms_error = remap::rounded_up(copy_rms_error(fit, source.material, target.material), 3);
   remap::write_file(command.output, fit_to_json(file));
   if (!command.report.empty())
@@ -146,6 +155,8 @@ void run(const WarpCommand& command) {
             << percent(fit.diagnostics.stroke_distance) << " of the template's spread apart\n  compiled to "
             << byte_count(fit.compiled) << " bytes, " << percent(file.copy_rms_error)
             << " of the spread from an exact copy\n";
+  if (source.is_albedo)
+    std::cerr << "  the source is diffuse alone: taken with specular 0 and alpha 1, told apart by colour\n";
   for (const std::string& warning : file.remarks) remap::print_message("remapc", "warning: " + warning);
 }
 
@@ -155,7 +166,10 @@ void add_warp_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "warp", "Give one texture set the reflectance of another, by pairs of strokes (An et al. 2011)");
   auto options = std::make_shared<WarpCommand>();
-  command->add_option("source", options->source, "Folder of the set whose pattern stays")->required();
+  command
+      ->add_option("source", options->source,
+                   "Folder of the set whose pattern stays; a diffuse map alone will do")
+      ->required();
   command->add_option("template", options->target, "Folder of the set whose reflectance is taken")
       ->required();
   command
@@ -163,6 +177,12 @@ void add_warp_command(CLI::App& app) {
                    "Two masks that mark one region: of the source and of the template")
       ->type_size(2)
       ->type_name("SOURCE_MASK TEMPLATE_MASK");
+  command
+      ->add_option("--strokes", options->paintings,
+                   "Two images, of the source and of the template, with a colour for each region; the "
+                   "background is transparent, or the most frequent colour")
+      ->type_size(2)
+      ->type_name("SOURCE_IMAGE TEMPLATE_IMAGE");
   command->add_option("--box", options->boxes, "The same as boxes of texels, x0,y0,x1,y1 each")
       ->type_size(2)
       ->delimiter(' ')

@@ -14,7 +14,7 @@ using remap::ErrorKind;
 void require_strokes(const MaterialRef& material, const std::vector<StrokePair>& strokes,
                      std::vector<std::uint32_t> StrokePair::*side) {
   for (std::size_t k = 0; k < strokes.size(); ++k) {
-    const std::string place = material.name() + ", stroke " + std::to_string(k + 1);
+    const std::string place = material.name() + ", " + stroke_name(strokes, k);
     bool has_finite = false;
     for (const std::uint32_t texel : strokes[k].*side) {
       if (texel >= material.texel_count())
@@ -29,13 +29,18 @@ void require_strokes(const MaterialRef& material, const std::vector<StrokePair>&
   for (std::size_t k = 0; k < strokes.size(); ++k) {
     const Overlap overlap = largest_overlap(strokes, side, k, material.texel_count());
     if (overlap.share == 1.0)
-      throw Error(ErrorKind::kInput, material.name() + ", stroke " + std::to_string(k + 1) +
-                                         ": lies within stroke " + std::to_string(overlap.other + 1) +
+      throw Error(ErrorKind::kInput, material.name() + ", " + stroke_name(strokes, k) + ": lies within " +
+                                         stroke_name(strokes, overlap.other) +
                                          "; expected another region (erase one of the two there)");
   }
 }
 
 }  // namespace
+
+std::string stroke_name(const std::vector<StrokePair>& strokes, std::size_t stroke) {
+  const std::string& color = strokes[stroke].color;
+  return "stroke " + (color.empty() ? std::to_string(stroke + 1) : color);
+}
 
 Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std::uint32_t> StrokePair::*side,
                         std::size_t stroke, std::size_t texel_count) {

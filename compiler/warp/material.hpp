@@ -62,7 +62,10 @@ std::vector<std::uint32_t> sample_texels(const MaterialRef& material, std::size_
 // One region, marked in both materials: indices of texels.
 struct StrokePair {
   std::vector<std::uint32_t> source, target;  // `target`: of the template
+  std::string color = {};  // `#rrggbb` of both, where they were painted in one; for messages
 };
+// `stroke 2`, or `stroke #ff0000`.
+std::string stroke_name(const std::vector<StrokePair>& strokes, std::size_t stroke);
 
 // How much of a stroke another one covers as well.
 struct Overlap {

@@ -4,49 +4,24 @@
 
 #include "error.hpp"
 #include "number_text.hpp"
-#include "texture/image_io.hpp"
+#include "warp/stroke_image.hpp"
 
 namespace remapc {
-namespace {
-
 using remap::Error;
 using remap::ErrorKind;
 
-std::string size_text(std::size_t width, std::size_t height) {
-  return std::to_string(width) + " x " + std::to_string(height);
-}
-
-}  // namespace
-
 std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const TextureMaterial& material) {
-  remap::ImageReader reader(mask);
-  const remap::ImageLayout& layout = reader.layout();
-  const auto width = static_cast<std::size_t>(layout.width), height = static_cast<std::size_t>(layout.height);
-  if (width != material.width || height != material.height)
-    throw Error(ErrorKind::kInput, mask.string() + ": is " + size_text(width, height) + "; expected " +
-                                       size_text(material.width, material.height) +
-                                       ", the size of the maps in " + material.material.name);
-  std::vector<std::byte> texels(height * layout.row_bytes());
-  reader.read_rows(0, layout.height, texels.data());
-  std::vector<float> values(width * height);
-  std::vector<char> marked(values.size(), 0);
-  for (std::size_t c = 0; c < layout.channels.size(); ++c) {
-    const remap::Channel& channel = layout.channels[c];
-    if (static_cast<int>(c) == layout.alpha_channel) continue;
-    remap::load_values(channel.type, texels.data() + channel.offset, layout.texel_bytes, values.size(),
-                       values.data());
+  std::vector<char> marked(material.width * material.height, 0);
+  read_stroke_image(mask, material, [&](const std::vector<float>& values, bool is_alpha) {
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (values[i] > 0.5f) marked[i] = 1;
-  }
+      if (!is_alpha && values[i] > 0.5f) marked[i] = 1;
+  });
   std::vector<std::uint32_t> stroke;
   for (std::uint32_t i = 0; i < marked.size(); ++i)
     if (marked[i] != 0) stroke.push_back(i);
   if (stroke.empty())
     throw Error(ErrorKind::kInput, mask.string() + ": marks no texel; expected some above half of white");
-  if (4 * stroke.size() > 3 * marked.size())
-    throw Error(ErrorKind::kInput, mask.string() +
-                                       ": marks more than three quarters of all texels; expected white "
-                                       "strokes on black (is it inverted?)");
+  require_background(mask, stroke.size(), material);
   return stroke;
 }
 

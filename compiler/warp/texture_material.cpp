@@ -15,12 +15,25 @@ using remap::ErrorKind;
 using remap::Parameter;
 using remap::Role;
 
-remap::FoundSet only_set(const fs::path& folder) {
+bool is_diffuse(Role role) { return role == Role::kDiffuse; }
+bool is_base_color(Role role) { return role == Role::kBaseColor; }
+bool is_specular(Role role) { return role == Role::kSpecular; }
+bool is_metallic(Role role) { return role == Role::kMetallic; }
+
+// Whether a set has colours of the diffuse lobe, and nothing that tells of the other.
+bool is_albedo(const remap::FoundSet& set) {
+  const auto has = [&](bool (*wanted)(Role)) { return !remap::uses(set, wanted).empty(); };
+  return (has(is_diffuse) || has(is_base_color)) && !has(is_specular) && !has(is_metallic) &&
+         !has(remap::tells_width);
+}
+
+remap::FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
   remap::DiscoveryOptions options;
   options.recursive = false;
   remap::Discovery found = find_sets(folder, options);
-  std::erase_if(found.sets,
-                [](const remap::FoundSet& set) { return set.state == remap::SetState::kSkipped; });
+  std::erase_if(found.sets, [&](const remap::FoundSet& set) {
+    return set.state == remap::SetState::kSkipped && (albedo == AlbedoAlone::kRefuse || !is_albedo(set));
+  });
   if (found.sets.size() != 1)
     throw Error(ErrorKind::kInput, folder.string() + ": has " + std::to_string(found.sets.size()) +
                                        " texture sets that are known by their names; expected one, with maps "
@@ -44,30 +57,42 @@ bool add_map(const remap::FoundSet& set, const fs::path& root, Parameter paramet
   return true;
 }
 
-// What the set has: maps of the specular workflow, else of the metallic one.
-remap::TextureSetRequest request_of(const fs::path& folder, bool* is_metallic) {
-  const remap::FoundSet set = only_set(folder);
-  remap::TextureSetRequest request;
+struct MaterialRequest {
+  remap::TextureSetRequest maps;
+  bool from_metallic = false, is_albedo = false;
+};
+
+// What the set has: maps of the specular workflow, else of the metallic one, else of the diffuse lobe.
+MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
+  const remap::FoundSet set = only_set(folder, albedo);
+  MaterialRequest result;
+  remap::TextureSetRequest& request = result.maps;
   const auto add = [&](Parameter parameter, bool (*wanted)(Role)) {
     return add_map(set, folder, parameter, wanted, request);
   };
-  const auto is_diffuse = [](Role role) { return role == Role::kDiffuse; };
-  const auto is_base_color = [](Role role) { return role == Role::kBaseColor; };
+  if (is_albedo(set)) {
+    result.is_albedo = true;
+    if (!add(Parameter::kDiffuse, is_diffuse)) add(Parameter::kDiffuse, is_base_color);
+    request.parameters[Parameter::kSpecular].source = remap::ConstantValues{0.0f};
+    request.parameters[Parameter::kWidth].source = remap::ConstantValues{1.0f};
+    request.convention = remap::RoughnessConvention::kAlpha;
+    return result;
+  }
   if (!add(Parameter::kWidth, remap::tells_width))
     throw Error(ErrorKind::kInput, folder.string() + ": has no roughness map; expected one");
-  *is_metallic = false;
-  if (add(Parameter::kSpecular, [](Role role) { return role == Role::kSpecular; })) {
-    if (add(Parameter::kDiffuse, is_diffuse) || add(Parameter::kDiffuse, is_base_color)) return request;
+  if (add(Parameter::kSpecular, is_specular)) {
+    if (add(Parameter::kDiffuse, is_diffuse) || add(Parameter::kDiffuse, is_base_color)) return result;
     throw Error(ErrorKind::kInput, folder.string() + ": has no diffuse map; expected one beside specular");
   }
-  *is_metallic = add(Parameter::kMetallic, [](Role role) { return role == Role::kMetallic; }) &&
-                 (add(Parameter::kBaseColor, is_base_color) || add(Parameter::kBaseColor, is_diffuse));
-  if (!*is_metallic)
+  result.from_metallic =
+      add(Parameter::kMetallic, is_metallic) &&
+      (add(Parameter::kBaseColor, is_base_color) || add(Parameter::kBaseColor, is_diffuse));
+  if (!result.from_metallic)
     throw Error(ErrorKind::kInput,
                 folder.string() +
                     ": has neither diffuse and specular nor base colour and metallic maps; "
                     "expected either pair");
-  return request;
+  return result;
 }
 
 // All texels of a map in memory.
@@ -99,15 +124,16 @@ remap::SourceParameter source_of(const remap::SetParameter& parameter, const rem
 
 }  // namespace
 
-TextureMaterial read_texture_material(const fs::path& folder, const std::string& model) {
+TextureMaterial read_texture_material(const fs::path& folder, const std::string& model, AlbedoAlone albedo) {
   TextureMaterial result;
   result.material.name = folder.string();
   result.material.model = builtin_brdf(model);
-  bool is_metallic = false;
-  remap::TextureSet set = open_texture_set(request_of(folder, &is_metallic));
+  const MaterialRequest request = request_of(folder, albedo);
+  result.is_albedo = request.is_albedo;
+  remap::TextureSet set = open_texture_set(request.maps);
   remap::WorkflowStages stages;
   stages.target = remap::SpecularWorkflow{};
-  if (is_metallic)
+  if (request.from_metallic)
     stages.source = remap::MetallicWorkflow{};
   else
     stages.source = remap::SpecularWorkflow{};

@@ -156,6 +156,7 @@ Matched matched(const MaterialRef& source, const MaterialRef& target, const std:
   AppearanceMatch& match = result.match;
   WarpDiagnostics& found = match.diagnostics;
   found.shared = most_shared(source, target, strokes);
+  for (std::size_t k = 0; k < strokes.size(); ++k) found.strokes.push_back(stroke_name(strokes, k));
   found.source_dimensions = dimension_of(from_space);
   found.target_dimensions = dimension_of(to_space);
   found.dimensions = options.dimensions != 0 ? options.dimensions
@@ -240,14 +241,14 @@ std::vector<std::string> warnings_of(const WarpDiagnostics& found) {
                        " of the spread off: formulas do not follow this distance well on these materials; "
                        "--distance relative is exact");
   if (found.shared.overlap.share > 0.5)
-    warnings.push_back("stroke " + std::to_string(found.shared.overlap.other + 1) + " covers " +
-                       percent(found.shared.overlap.share) + " of stroke " +
-                       std::to_string(found.shared.stroke + 1) + " in the " +
-                       (found.shared.in_template ? "template" : "source") +
+    warnings.push_back(found.strokes[found.shared.overlap.other] + " covers " +
+                       percent(found.shared.overlap.share) + " of " + found.strokes[found.shared.stroke] +
+                       " in the " + (found.shared.in_template ? "template" : "source") +
                        ": the two mean one region there; erase one of them");
   if (found.source_dimensions < found.target_dimensions)
     warnings.push_back(
-        "the source varies in " + std::to_string(found.source_dimensions) + " ways and the template in " +
+        "the source varies in " + std::to_string(found.source_dimensions) +
+        (found.source_dimensions == 1 ? " way" : " ways") + " and the template in " +
         std::to_string(found.target_dimensions) +
         ": what the source does not tell apart is lost; a source with more variation keeps it");
   for (int k = found.fixed_directions; k < found.dimensions; ++k)
@@ -259,10 +260,10 @@ std::vector<std::string> warnings_of(const WarpDiagnostics& found) {
     warnings.push_back(percent(found.fold_share) +
                        " of the source is turned inside out: neighbouring strokes may be exchanged");
   if (found.stroke_distance > 0.5)
-    warnings.push_back(
-        "strokes contradict each other: images of source strokes are " + percent(found.stroke_distance) +
-        " of the template's spread from their partners, stroke " + std::to_string(found.worst_stroke + 1) +
-        " the most; look whether it marks the same region twice");
+    warnings.push_back("strokes contradict each other: images of source strokes are " +
+                       percent(found.stroke_distance) + " of the template's spread from their partners, " +
+                       found.strokes[found.worst_stroke] +
+                       " the most; look whether it marks the same region twice");
   if (found.coverage < 0.5)
     warnings.push_back("only " + percent(found.coverage) +
                        " of the template's appearances are used; strokes on its other regions bring them in");

@@ -45,6 +45,7 @@ struct WarpDiagnostics {
       0.0;  // RMS, image of a source stroke's centre to the template stroke's; template radii
   double stroke_contradiction = 0.0;  // RMS, the same after the affine map of the strokes alone
   std::size_t worst_stroke = 0;       // index of the stroke that is farthest off
+  std::vector<std::string> strokes;   // their names, for messages
   std::size_t source_left_out = 0, target_left_out = 0;  // texels that are not finite
   // The stroke of which another one covers most, over both materials.
   struct SharedStroke {
@@ -62,9 +63,9 @@ struct AppearanceMatch {
   double target_radius = 0.0;  // RMS spread of the template, in features
 };
 
-// Deterministic, on one thread. Of more than 2^18 texels as many, evenly spread, stand for all (besides those
-// of strokes). Throws as require_valid(), appearance_features() and appearance_space() do; kUsage for
-// dimensions or nodes out of range.
+// Deterministic, on one thread. Of more than 2^16 texels of the source and 2^18 of the template as many,
+// evenly spread, stand for all (besides those of strokes). Throws as require_valid(), appearance_features()
+// and appearance_space() do; kUsage for dimensions or nodes out of range.
 AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
                                   const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
 

@@ -40,6 +40,48 @@ std::vector<fs::path*> files_of(ConversionJob& job) {
   return files;
 }
 
+// Whether a request names a map or numbers, rather than nothing yet.
+bool is_given(const ParameterRequest& request) {
+  const auto* map = std::get_if<MapName>(&request.source);
+  return map == nullptr || !map->file.empty();
+}
+
+// Where a set may have a parameter: in the best role that there is. Many a set calls its base colour diffuse,
+// or its diffuse colour albedo.
+std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
+  const auto is_diffuse = [](Role role) { return role == Role::kDiffuse; };
+  const auto is_base_color = [](Role role) { return role == Role::kBaseColor; };
+  const auto either = [](std::vector<MapUse> best, std::vector<MapUse> other) {
+    return best.empty() ? other : best;
+  };
+  switch (parameter) {
+    case Parameter::kWidth:
+      return uses(set, tells_width);
+    case Parameter::kSpecular:
+      return uses(set, [](Role role) { return role == Role::kSpecular; });
+    case Parameter::kDiffuse:
+      return either(uses(set, is_diffuse), uses(set, is_base_color));
+    case Parameter::kBaseColor:
+      return either(uses(set, is_base_color), uses(set, is_diffuse));
+    case Parameter::kMetallic:
+      return uses(set, [](Role role) { return role == Role::kMetallic; });
+    default:
+      return {};
+  }
+}
+
+// The set with its diffuse map among those that take part, where that alone is to be converted.
+FoundSet of_diffuse_alone(FoundSet set) {
+  const std::vector<MapUse> found = uses_of(set, Parameter::kDiffuse);
+  if (found.empty() || found.front().map < set.maps.size()) return set;
+  const auto map = set.bystanders.begin() + static_cast<std::ptrdiff_t>(found.front().map - set.maps.size());
+  set.maps.push_back(*map);
+  set.bystanders.erase(map);
+  set.state = SetState::kReady;
+  set.remarks.clear();
+  return set;
+}
+
 // The folder of sets turned into jobs.
 class TreeJobs {
  public:
@@ -78,11 +120,13 @@ JobList TreeJobs::list() {
   discovery.recursive = options_.recursive;
   discovery.naming = &naming;
   if (!options_.output.empty()) discovery.excluded = {options_.output};
-  const Discovery found = find_sets(root_, discovery);
+  Discovery found = find_sets(root_, discovery);
   jobs_.is_tree = true;
   jobs_.unrecognised_count = found.unrecognised.size();
   for (const WalkProblem& problem : found.problems) jobs_.left_out.push_back({problem.message, true});
-  for (const FoundSet& set : found.sets) {
+  for (FoundSet& set : found.sets) {
+    if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kWidth))
+      set = of_diffuse_alone(std::move(set));
     if (set.state == SetState::kReady)
       add(set);
     else
@@ -98,40 +142,18 @@ JobList TreeJobs::list() {
   return std::move(jobs_);
 }
 
-// Whether a request names a map or numbers, rather than nothing yet.
-bool is_given(const ParameterRequest& request) {
-  const auto* map = std::get_if<MapName>(&request.source);
-  return map == nullptr || !map->file.empty();
-}
-
-// Where a set may have a parameter: in the best role that there is. Many a set calls its base colour diffuse,
-// or its diffuse colour albedo.
-std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
-  const auto is_diffuse = [](Role role) { return role == Role::kDiffuse; };
-  const auto is_base_color = [](Role role) { return role == Role::kBaseColor; };
-  const auto either = [](std::vector<MapUse> best, std::vector<MapUse> other) {
-    return best.empty() ? other : best;
-  };
-  switch (parameter) {
-    case Parameter::kWidth:
-      return uses(set, tells_width);
-    case Parameter::kSpecular:
-      return uses(set, [](Role role) { return role == Role::kSpecular; });
-    case Parameter::kDiffuse:
-      return either(uses(set, is_diffuse), uses(set, is_base_color));
-    case Parameter::kBaseColor:
-      return either(uses(set, is_base_color), uses(set, is_diffuse));
-    case Parameter::kMetallic:
-      return uses(set, [](Role role) { return role == Role::kMetallic; });
-    default:
-      return {};
-  }
-}
-
 void TreeJobs::add(const FoundSet& set) {
   for (const Parameter parameter : workflow_.sources()) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const std::string name(parameter_name(parameter));
+    if (!found.empty() && workflow_.constants.contains(parameter)) {
+      jobs_.left_out.push_back(
+          {place(set) + ": has a " + std::string(role_name(found.front().role)) +
+               " map, and the warp's source is a diffuse map alone; expected a warp of all "
+               "its maps, or --diffuse MAP in place of the folder",
+           true});
+      return;
+    }
     if (found.size() > 1) {
       jobs_.left_out.push_back({place(set) + ": " + too_many_text(set, found, name), true});
       return;
@@ -216,7 +238,7 @@ void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) co
 
 // The files that the conversion of a set writes, with one map that each is made from: of all tiles as one.
 std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set) const {
-  const FoundMap& first = map_of(set, *set.width);
+  const FoundMap& first = set.width ? map_of(set, *set.width) : set.maps.front();
   const ResultNames names = {set.name + "_", tiles_of(set).front() == 0 ? "" : ".<UDIM>"};
   const std::string extension =
       choice_.extension.empty() ? first.path.extension().string() : "." + choice_.extension;

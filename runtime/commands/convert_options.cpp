@@ -201,9 +201,9 @@ void add_workflow_options(CLI::App& command, ConvertOptions& options) {
 }
 
 // Which parameters a set must have: the name of what is missing ends the conversion.
-void require_parameters(const ConvertOptions& options, const std::vector<Parameter>& sources) {
-  for (const Parameter parameter : sources) {
-    if (!word_of(options, parameter).empty()) continue;
+void require_parameters(const ConvertOptions& options, const WorkflowChoice& workflow) {
+  for (const Parameter parameter : workflow.sources()) {
+    if (!word_of(options, parameter).empty() || workflow.constants.contains(parameter)) continue;
     if (parameter == Parameter::kWidth && !options.glossiness.empty()) continue;
     static const std::map<Parameter, std::string> kExpected = {
         {Parameter::kWidth, "a map or a number, or --glossiness"},
@@ -232,7 +232,7 @@ void require_one_way(const ConvertOptions& options, const WorkflowChoice& workfl
     if (is_tree && !workflow.has_source(parameter) && !word_of(options, parameter).empty())
       throw Error(ErrorKind::kUsage, parameter_option(parameter) +
                                          ": is for one set; expected --copy-others beside a folder of sets");
-  if (!is_tree) require_parameters(options, workflow.sources());
+  if (!is_tree) require_parameters(options, workflow);
   if (glossy && !options.encoding.empty())
     throw Error(ErrorKind::kUsage,
                 "--roughness-encoding: does not go with --glossiness; expected --roughness");
@@ -295,6 +295,8 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
     const std::string& word = glossy ? options.glossiness : word_of(options, parameter);
     ParameterRequest asked;
     if (!word.empty()) asked.source = parameter_source(option, word);
+    if (const auto constant = workflow.constants.find(parameter); constant != workflow.constants.end())
+      asked.source = constant->second;
     require_numbers(options, option, asked);
     if (parameter == Parameter::kWidth)
       asked.factors = factors_of("--roughness-factor", options.roughness_factor);

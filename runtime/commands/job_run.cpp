@@ -63,12 +63,20 @@ Metadata metadata_of(const ChosenConverter& chosen, const std::string& hash) {
           {"remap:inputs", hash}};
 }
 
-// A map that was converted already holds parameters of another model, unless that is the one to start from.
-void require_not_converted(const TextureSet& set, const std::string& source, bool force) {
+// A map that was converted already holds parameters of another model, unless that is the one to start from,
+// under whatever name.
+void require_not_converted(const TextureSet& set, const ChosenConverter& chosen, bool force) {
   if (force) return;
+  const std::string& source = chosen.info().source.model;
+  const WorkflowChoice& workflow = chosen.workflow;
+  const WorkflowEnd end =
+      workflow.is_material()
+          ? *workflow.source
+          : workflow_over(source, WorkflowKind::kSpecular, RoughnessConvention::kAlpha).end;
+  const std::string& brdf = workflow.is_material() ? workflow.source_brdf : source;
   for (const ImageReader& map : set.maps) {
     const std::optional<std::string> model = noted_metadata(map, "remap:target");
-    if (model && *model != source)
+    if (model && *model != source && !holds_materials_of(*model, end, brdf))
       throw Error(ErrorKind::kUsage, map.path().string() + ": was converted to " + *model +
                                          " already; expected a map of " + source + ", or --force");
   }
@@ -198,7 +206,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   report.inputs = files_of(set);
   if (const SetParameter* specular = set.map_of(Parameter::kSpecular))
     report.specular_transfer = specular->transfer;
-  require_not_converted(set, chosen_.info().source.model, options_.force);
+  require_not_converted(set, chosen_, options_.force);
 
   TargetChoice choice = choice_;
   choice.folder = job.folder;

@@ -197,6 +197,27 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
   return choice;
 }
 
+namespace {
+
+// A warp whose source was diffuse alone knows nothing of a lobe beside it.
+void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
+  const std::pair<const char*, bool> refused[] = {{"--from-workflow", !options.from_workflow.empty()},
+                                                  {"--specular", !options.specular.empty()},
+                                                  {"--specular-factor", !options.specular_factor.empty()},
+                                                  {"--roughness", !options.roughness.empty()},
+                                                  {"--roughness-factor", !options.roughness_factor.empty()},
+                                                  {"--roughness-encoding", !options.encoding.empty()},
+                                                  {"--glossiness", !options.glossiness.empty()}};
+  for (const auto& [option, given] : refused)
+    if (given)
+      throw Error(ErrorKind::kUsage, std::string(option) + ": means nothing to the warp " + options.fit +
+                                         ", whose source is a diffuse map alone; expected no such option");
+  std::get<SpecularWorkflow>(*choice.source).width = RoughnessConvention::kAlpha;
+  choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kWidth, {1.0f}}};
+}
+
+}  // namespace
+
 WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
   const std::pair<const char*, bool> refused[] = {
       {"--to-workflow", !options.to_workflow.empty()},
@@ -227,6 +248,7 @@ WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit&
   else
     choice.source = SpecularWorkflow{fit.source_model, DiffuseConvention::kPlain, width};
   choice.target = SpecularWorkflow{fit.template_model, DiffuseConvention::kPlain, width};
+  if (is_of_diffuse_alone(fit)) choose_diffuse_alone(options, choice);
   require_workflow(options, choice);
   return choice;
 }

@@ -2,6 +2,7 @@
 // had to be assumed.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct WorkflowChoice {
   std::string source_brdf, target_brdf;  // models of the graph of converters
   // Both or none: with none width and specular alone are converted.
   std::optional<WorkflowEnd> source, target;
+  std::map<Parameter, ConstantValues> constants;  // of the source, in place of maps that it has not
   WorkflowFormula formula = Projection{kCleanPrior};
   bool estimates_f0 = false;  // use the F0 that the maps tell
   bool f0_given = false;

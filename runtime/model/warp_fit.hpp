@@ -24,4 +24,13 @@ struct WarpMapFit {
 
 inline constexpr const char* kWarpKind = "warp";
 
+// In `method`, where the source of the warp was a diffuse map alone: its specular was taken as 0, its alpha
+// as 1.
+inline constexpr const char* kWarpSourceMaps = "source_maps";
+inline constexpr const char* kDiffuseAlone = "diffuse";
+inline bool is_of_diffuse_alone(const WarpMapFit& fit) {
+  const auto maps = fit.method.find(kWarpSourceMaps);
+  return maps != fit.method.end() && maps->second == kDiffuseAlone;
+}
+
 }  // namespace remap

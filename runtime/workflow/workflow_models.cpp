@@ -68,4 +68,16 @@ WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, Roughnes
   return model;
 }
 
+bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const std::string& brdf) {
+  const WorkflowModel* known = find_workflow_model(name);
+  const WorkflowModel written =
+      known != nullptr ? *known : workflow_over(name, WorkflowKind::kSpecular, kRoughness);
+  const auto dielectric_f0 = [](const WorkflowEnd& of) {
+    const auto* metallic = std::get_if<MetallicWorkflow>(&of);
+    return metallic != nullptr ? metallic->dielectric_f0 : 0.0;
+  };
+  return written.brdf == brdf && kind_of(written.end) == kind_of(end) &&
+         diffuse_of(written.end) == diffuse_of(end) && dielectric_f0(written.end) == dielectric_f0(end);
+}
+
 }  // namespace remap

@@ -49,4 +49,9 @@ const WorkflowModel* find_workflow_model(std::string_view name);
 // conventions are the common ones.
 WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, RoughnessConvention width);
 
+// Whether values that were written as those of `name` are materials of `end` over `brdf`: `specular` is a
+// layer over mitsuba/ggx with plain diffuse, and so is mitsuba/ggx by itself. What the maps of widths hold is
+// left to their names and to options.
+bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const std::string& brdf);
+
 }  // namespace remap

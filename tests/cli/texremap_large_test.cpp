@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
+#include "model/fit_json.hpp"
+#include "support/random_warp.hpp"
 
 using namespace remap;
 
@@ -10,18 +12,19 @@ namespace {
 constexpr int kSize = 8192, kBand = 64;
 
 // Writes noise a band at a time.
-void write_large(const std::string& path, const std::vector<std::string>& channels) {
-  OIIO::ImageSpec spec = test_spec(kSize, kSize, channels, OIIO::TypeHalf);
+void write_large(const std::string& path, const std::vector<std::string>& channels, int size = kSize) {
+  OIIO::ImageSpec spec = test_spec(size, size, channels, OIIO::TypeHalf);
   spec.attribute("Compression", "zip");
   const auto output = OIIO::ImageOutput::create(path);
   REQUIRE(output->open(path, spec));
-  std::vector<float> band(static_cast<std::size_t>(kBand) * kSize * channels.size());
-  for (int top = 0; top < kSize; top += kBand) {
+  std::vector<float> band(static_cast<std::size_t>(kBand * size) * channels.size());
+  for (int top = 0; top < size; top += kBand) {
     auto value = band.begin();
     for (int y = top; y < top + kBand; ++y)
-      for (int x = 0; x < kSize; ++x)
+      for (int x = 0; x < size; ++x)
         for (int c = 0; c < spec.nchannels; ++c)  // as smooth as textures are, with noise on top
-          *value++ = static_cast<float>(x + 2 * y) / (3.0f * kSize) * 0.9f + 0.1f * noise(x, y, c);
+          *value++ = static_cast<float>(x + 2 * y) / (3.0f * static_cast<float>(size)) * 0.9f +
+                     0.1f * noise(x, y, c);
     REQUIRE(output->write_scanlines(top, top + kBand, 0, OIIO::TypeFloat, band.data()));
   }
   REQUIRE(output->close());
@@ -31,7 +34,7 @@ class BandReader {
  public:
   explicit BandReader(const std::string& path) : input_(OIIO::ImageInput::open(path)) {
     REQUIRE(input_);
-    band_.resize(static_cast<std::size_t>(kBand * kSize * input_->spec().nchannels));
+    band_.resize(static_cast<std::size_t>(kBand * input_->spec().width * input_->spec().nchannels));
   }
   const std::vector<float>& read(int top) {
     REQUIRE(input_->read_scanlines(0, 0, top, top + kBand, 0, 0, input_->spec().nchannels, OIIO::TypeFloat,
@@ -70,4 +73,47 @@ TEST_CASE("texremap: 8192 x 8192 in 300 MB, equal to the converter texel by texe
     }
   }
   CHECK(different == 0);
+}
+
+TEST_CASE("texremap: 4096 x 4096 through a warp in 300 MB, equal to the warp in some rows", "[.][large]") {
+  const Session session;
+  constexpr int kSide = 4096;
+  std::filesystem::create_directories(session.path("wood"));
+  write_large(session.path("wood/oak_diffuse.exr"), {"R", "G", "B"}, kSide);
+  write_large(session.path("wood/oak_specular.exr"), {"R", "G", "B"}, kSide);
+  write_large(session.path("wood/oak_roughness.exr"), {"Y"}, kSide);
+  WarpMapFit fit;
+  fit.id = "stony";
+  fit.source_model = fit.template_model = "mitsuba/ggx";
+  fit.warp = random_warp(3, 4, 33);
+  fit.tool_version = "1.0.0";
+  write_file(session.path("stony.json"), fit_to_json(fit));
+  const ProcessResult result = session.texremap(
+      {"convert", session.path("wood"), "--fit", session.path("stony.json"), "-o", session.path("out")});
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  WARN(result.errors << result.peak_kilobytes / 1024 << " MB at most");
+  CHECK(result.peak_kilobytes < 300 * 1024);
+
+  const auto reader = [&](const std::string& name) { return BandReader(session.path(name)); };
+  BandReader diffuse = reader("wood/oak_diffuse.exr"), specular = reader("wood/oak_specular.exr"),
+             roughness = reader("wood/oak_roughness.exr");
+  BandReader diffuse_out = reader("out/oak_diffuse.exr"), specular_out = reader("out/oak_specular.exr"),
+             roughness_out = reader("out/oak_roughness.exr");
+  double largest = 0.0;
+  for (const int top : {0, 2048, kSide - kBand}) {
+    const auto &d = diffuse.read(top), &s = specular.read(top), &r = roughness.read(top);
+    const auto &d_out = diffuse_out.read(top), &s_out = specular_out.read(top),
+               &r_out = roughness_out.read(top);
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      const WarpTexel expected = evaluate_warp(fit.warp, {d[3 * i], d[3 * i + 1], d[3 * i + 2], s[3 * i],
+                                                          s[3 * i + 1], s[3 * i + 2], r[i] * r[i]});
+      for (std::size_t c = 0; c < 3; ++c) {
+        largest = std::max(largest, std::abs(static_cast<double>(d_out[3 * i + c] - expected[c])));
+        largest = std::max(largest, std::abs(static_cast<double>(s_out[3 * i + c] - expected[3 + c])));
+      }
+      largest = std::max(largest, std::abs(static_cast<double>(r_out[i] * r_out[i] - expected[6])));
+    }
+  }
+  CHECK(largest < 2e-3);  // halves
 }

@@ -17,9 +17,9 @@ constexpr int kSize = 50;
 // A folder with a set and a warp; roughness is the root of alpha.
 struct WarpSession : Session {
   WarpMapFit fit;
-  WarpSession() {
+  explicit WarpSession(const std::string& source_model = "mitsuba/ward") {
     fit.id = "stony";
-    fit.source_model = "mitsuba/ward";
+    fit.source_model = source_model;
     fit.template_model = "mitsuba/ggx";
     fit.warp = random_warp(2, 4);
     fit.tool_version = "1.0.0";
@@ -89,4 +89,127 @@ TEST_CASE("texremap warps: what means nothing to them is refused, and nothing is
       {"convert", session.path("wood"), "--fit", session.path("stony.json"), "-o", session.path("out")});
   CHECK(damaged.exit_code == 1);
   CHECK_THAT(damaged.errors, Contains("stony.json"));
+}
+
+TEST_CASE("texremap warps: a set that was converted to what the warp takes needs no --force") {
+  const WarpSession session("mitsuba/ggx");
+  std::filesystem::create_directories(session.path("metal"));
+  write_image(session.path("metal/oak_basecolor.exr"),
+              test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat), noise);
+  for (const char* name : {"metallic", "roughness"})
+    write_image(session.path(std::string("metal/oak_") + name + ".exr"),
+                test_spec(kSize, kSize, {"Y"}, OIIO::TypeFloat), noise);
+  const auto convert = [&](const std::string& from, const std::vector<std::string>& more,
+                           const std::string& to) {
+    std::vector<std::string> words = {"convert", session.path(from), "-o", session.path(to)};
+    words.insert(words.end(), more.begin(), more.end());
+    return session.texremap(words);
+  };
+  const std::vector<std::string> by_warp = {"--fit", session.path("stony.json")};
+  require_success(convert("metal", {"--from", "metallic", "--to", "specular"}, "plain"));
+  require_success(convert("plain", by_warp, "plain_out"));
+  require_success(convert("plain_out", {"--from", "specular", "--to", "metallic"}, "metal_again"));
+  require_success(convert("metal_again", {"--fit", session.path("stony.json"), "--from-workflow", "metallic"},
+                          "again_out"));
+
+  // Diffuse of glTF counts what specular leaves of the light: another material.
+  require_success(convert("metal", {"--from", "metallic", "--to", "gltf-specgloss"}, "scaled"));
+  const ProcessResult scaled = convert("scaled", by_warp, "scaled_out");
+  CHECK(scaled.exit_code != 0);
+  CHECK_THAT(scaled.errors, Contains("was converted to gltf-specgloss already"));
+  const ProcessResult metallic = convert(
+      "metal_again", {"--from", "specular", "--to", "mitsuba/ward", "--specular", "0.04"}, "ward_out");
+  CHECK(metallic.exit_code != 0);
+  CHECK_THAT(metallic.errors, Contains("was converted to metallic already"));
+}
+
+namespace {
+
+// A warp whose source was diffuse alone, and a folder that has no more.
+struct AlbedoSession : WarpSession {
+  AlbedoSession() : WarpSession("mitsuba/ggx") {
+    fit.method[kWarpSourceMaps] = kDiffuseAlone;
+    write_file(path("stony.json"), fit_to_json(fit));
+    std::filesystem::remove(path("wood/oak_specular.exr"));
+    std::filesystem::remove(path("wood/oak_roughness.exr"));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("texremap warps: a diffuse map alone becomes a set of three maps") {
+  const AlbedoSession session;
+  const bool by_folder = GENERATE(true, false);
+  const std::string map = session.path("wood/oak_diffuse.exr");
+  std::vector<std::string> words = {"convert", "--fit", session.path("stony.json"), "-o",
+                                    session.path("out")};
+  if (by_folder)
+    words.push_back(session.path("wood"));
+  else
+    words.insert(words.end(), {"--diffuse", map});
+  require_success(session.texremap(words));
+  const std::string stem = by_folder ? "out/oak_" : "out/";
+  const TestImage diffuse = read_image(map), found_diffuse = read_image(session.path("out/oak_diffuse.exr")),
+                  specular = read_image(session.path(stem + "specular.exr")),
+                  roughness = read_image(session.path(stem + "roughness.exr"));
+  REQUIRE(specular.spec.nchannels == 3);
+  REQUIRE(roughness.spec.nchannels == 1);
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const WarpTexel texel = {diffuse.at(x, y, 0), diffuse.at(x, y, 1), diffuse.at(x, y, 2), 0, 0, 0, 1};
+      const WarpTexel expected = evaluate_warp(session.fit.warp, texel);
+      for (int c = 0; c < 3; ++c) {
+        REQUIRE(found_diffuse.at(x, y, c) == Approx(expected[static_cast<std::size_t>(c)]).margin(1e-4));
+        REQUIRE(specular.at(x, y, c) == Approx(expected[static_cast<std::size_t>(3 + c)]).margin(1e-4));
+      }
+      const float root = roughness.at(x, y, 0);
+      REQUIRE(root * root == Approx(expected[6]).margin(1e-4));
+    }
+}
+
+TEST_CASE("texremap warps: of a diffuse map alone, what has more is refused; tiles go along") {
+  const AlbedoSession session;
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"convert", "--fit", session.path("stony.json"), "-o",
+                                      session.path("out")};
+    words.insert(words.end(), more.begin(), more.end());
+    return session.texremap(words);
+  };
+  const ProcessResult option = run({session.path("wood"), "--specular", "0.04"});
+  CHECK(option.exit_code == 2);
+  CHECK_THAT(option.errors,
+             Contains("--specular: means nothing to the warp") && Contains("diffuse map alone"));
+  std::filesystem::create_directories(session.path("whole"));
+  for (const char* name : {"diffuse", "roughness"})
+    write_image(session.path(std::string("whole/oak_") + name + ".png"),
+                test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  const ProcessResult whole = run({session.path("whole")});
+  CHECK(whole.exit_code == 1);
+  CHECK_THAT(whole.errors,
+             Contains("oak: has a roughness map, and the warp's source is a diffuse map alone"));
+  CHECK(session.result_count() == 0);
+  std::filesystem::create_directories(session.path("tiles"));
+  for (const char* tile : {"1001", "1002"})
+    write_image(session.path(std::string("tiles/oak_diffuse.") + tile + ".png"),
+                test_spec(8, 8, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  require_success(run({session.path("tiles")}));
+  CHECK(session.result_count() == 6);
+  CHECK(std::filesystem::exists(session.path("out/oak_roughness.1002.png")));
+}
+
+TEST_CASE("texremap warps: texels that are not finite harm no other") {
+  const WarpSession session("mitsuba/ggx");
+  write_image(session.path("wood/oak_diffuse.exr"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat),
+              [](int x, int y, int c) { return x == 7 && y < 9 ? std::nanf("") : noise(x, y, c); });
+  const ProcessResult result = session.texremap(
+      {"convert", session.path("wood"), "--fit", session.path("stony.json"), "-o", session.path("out")});
+  require_success(result);
+  CHECK_THAT(result.errors, Contains("NaN"));
+  for (const char* name : {"diffuse", "specular", "roughness"}) {
+    const TestImage image = read_image(session.path("out/oak_" + std::string(name) + ".exr"));
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x)
+        for (int c = 0; c < image.spec.nchannels; ++c)
+          REQUIRE((std::isfinite(image.at(x, y, c)) || (x == 7 && y < 9)));
+  }
 }

@@ -1,0 +1,165 @@
+// remapc warp with materials and strokes of which little can be made: a message, or a warning and the best of
+// it.
+#include <cmath>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/warp_materials.hpp"
+
+using namespace remap;
+using namespace remap::warp_cli;
+
+namespace {
+
+WarpTexel black_texel(const Latent&) { return {0, 0, 0, 0, 0, 0, 0.2f}; }
+WarpTexel one_color_texel(const Latent&) { return {0.3f, 0.2f, 0.1f, 0.05f, 0.05f, 0.05f, 0.3f}; }
+WarpTexel torn_texel(const Latent& at) {
+  WarpTexel texel = source_texel(at);
+  if (at.u > 0.99) texel[1] = std::numeric_limits<float>::quiet_NaN();
+  return texel;
+}
+// Lambertian: what a diffuse map alone stands for.
+WarpTexel albedo_texel(const Latent& at) {
+  const auto u = static_cast<float>(at.u), v = static_cast<float>(at.v);
+  return {0.1f + 0.4f * u, 0.1f + 0.3f * v * v, 0.05f + 0.1f * u * v, 0, 0, 0, 1};
+}
+WarpTexel grey_albedo_texel(const Latent& at) {
+  const auto u = static_cast<float>(at.u);
+  return {0.1f + 0.4f * u, 0.1f + 0.4f * u, 0.1f + 0.4f * u, 0, 0, 0, 1};
+}
+
+void keep_diffuse_alone(const Session& session, const std::string& folder) {
+  std::filesystem::remove(session.path(folder + "/skin_specular.exr"));
+  std::filesystem::remove(session.path(folder + "/skin_roughness.exr"));
+}
+
+void check_refused(const Session& session, const std::vector<std::string>& more, const std::string& message) {
+  const ProcessResult result = session.remapc(warp_words(session, more));
+  CAPTURE(message, result.errors);
+  CHECK(result.exit_code == 1);
+  CHECK(result.errors.find(message) != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(session.path("stony.json")));
+}
+
+nlohmann::json report_of(const Session& session, std::vector<std::string> more) {
+  more.push_back("--json");
+  const ProcessResult result = session.remapc(warp_words(session, more));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  return nlohmann::json::parse(result.output);
+}
+
+std::vector<std::string> first_words(const Session& session, std::size_t pairs) {
+  std::vector<std::string> words = mask_words(session);
+  words.resize(3 * pairs);
+  return words;
+}
+
+}  // namespace
+
+TEST_CASE("remapc warp: materials of one appearance are refused") {
+  const Session session;
+  write_materials(session);
+  SECTION("a black source") {
+    write_set(session, "wood", 0.1, black_texel);
+    check_refused(session, mask_words(session), "wood: all texels look alike");
+  }
+  SECTION("a template of one colour") {
+    write_set(session, "stone", 0.37, one_color_texel);
+    check_refused(session, mask_words(session), "stone: all texels look alike");
+  }
+}
+
+TEST_CASE("remapc warp: strokes that say nothing more are refused") {
+  const Session session;
+  write_materials(session);
+  check_refused(session, {"--box", "0,0,20,20", "0,0,20,20", "--box", "5,5,10,10", "40,40,60,60"},
+                "wood, stroke 2: lies within stroke 1");
+  write_set(session, "wood", 0.1, [](const Latent&) {
+    WarpTexel texel{};
+    texel.fill(std::numeric_limits<float>::quiet_NaN());
+    return texel;
+  });
+  check_refused(session, mask_words(session), "wood: has no texel with finite values");
+}
+
+TEST_CASE("remapc warp: one stroke, or two, leave directions open and say so") {
+  const Session session;
+  write_materials(session);
+  for (const std::size_t pairs : {std::size_t{1}, std::size_t{2}}) {
+    const auto json = report_of(session, first_words(session, pairs));
+    CHECK(json["diagnostics"]["fixed_directions"] == pairs - 1);
+    const std::string warnings = json["warnings"].dump();
+    CAPTURE(warnings);
+    CHECK(warnings.find("strokes do not fix direction 2 of 2") != std::string::npos);
+    CHECK((warnings.find("strokes do not fix direction 1 of 2") != std::string::npos) == (pairs == 1));
+  }
+}
+
+TEST_CASE("remapc warp: a region that is marked twice, with two partners, is a contradiction") {
+  const Session session;
+  write_materials(session);
+  std::vector<std::string> words = mask_words(session);
+  // The first corner once more, for the template's opposite one. Other texels, lest one lie within the other.
+  write_image(session.path("again.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8),
+              [](int x, int y, int) {
+                const Latent at = latent(x, y, 0.1);
+                return at.u < 0.25 && at.v < 0.25 && corner_of(at) < 0 ? 1.0f : 0.0f;
+              });
+  words.insert(words.end(), {"--stroke", session.path("again.png"), session.path("stone_3.png")});
+  write_image(session.path("other.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8),
+              [](int x, int y, int) {
+                const Latent at = latent(x, y, 0.37);
+                return at.u > 0.75 && at.v > 0.75 && corner_of(at) < 0 ? 1.0f : 0.0f;
+              });
+  words.back() = session.path("other.png");
+  const std::string warnings = report_of(session, words)["warnings"].dump();
+  CAPTURE(warnings);
+  CHECK(warnings.find("strokes contradict each other") != std::string::npos);
+}
+
+TEST_CASE("remapc warp: texels that are not finite are counted, and the others are as they would be") {
+  const Session session;
+  write_materials(session);
+  write_set(session, "wood", 0.1, torn_texel);
+  std::size_t torn = 0;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) torn += latent(x, y, 0.1).u > 0.99 ? 1u : 0u;
+  REQUIRE(torn > 10);
+  const auto json = report_of(session, mask_words(session));
+  CHECK(json["diagnostics"]["source_texels_left_out"] == torn);
+  CHECK(json["warnings"].dump().find(std::to_string(torn) +
+                                     " texels of the source and 0 of the template are not finite") !=
+        std::string::npos);
+  CHECK(error_of(read_warp(session), source_texel) < 0.25);
+}
+
+TEST_CASE("remapc warp: a diffuse map alone is a source, told apart by its colour") {
+  const Session session;
+  write_materials(session);
+  write_set(session, "wood", 0.1, albedo_texel);
+  keep_diffuse_alone(session, "wood");
+  const ProcessResult result = session.remapc(warp_words(session, mask_words(session)));
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.errors.find("the source is diffuse alone") != std::string::npos);
+  const WarpMapFit fit = read_warp(session);
+  CHECK(is_of_diffuse_alone(fit));
+  CHECK(error_of(fit, albedo_texel) < 0.25);
+  const ProcessResult card = session.remapc({"show", session.path("stony.json")});
+  CHECK(card.output.find("source_maps") != std::string::npos);
+
+  write_set(session, "wood", 0.1, grey_albedo_texel);
+  keep_diffuse_alone(session, "wood");
+  const std::string warnings = report_of(session, mask_words(session))["warnings"].dump();
+  CAPTURE(warnings);
+  CHECK(warnings.find("the source varies in 1 way and the template in 2") != std::string::npos);
+}
+
+TEST_CASE("remapc warp: a template of a diffuse map alone is refused") {
+  const Session session;
+  write_materials(session);
+  keep_diffuse_alone(session, "stone");
+  check_refused(session, mask_words(session), "stone: has 0 texture sets");
+}

@@ -1,0 +1,145 @@
+// remapc warp with strokes in one image, a colour for each pair.
+#include <array>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/warp_materials.hpp"
+
+using namespace remap;
+using namespace remap::warp_cli;
+
+namespace {
+
+using Color = std::array<float, 4>;  // with alpha
+constexpr Color kBlack = {0, 0, 0, 1}, kWhite = {1, 1, 1, 1}, kClear = {0, 0, 0, 0}, kRed = {1, 0, 0, 1},
+                kGreen = {0, 0.8f, 0, 1}, kBlue = {0, 0, 1, 1}, kYellow = {1, 1, 0, 1};
+
+struct Paint {
+  std::array<Color, 4> corners = {kRed, kGreen, kBlue, kYellow};
+  Color background = kBlack;
+  bool smooth = false;  // blended rims, as of a brush with anti-aliasing
+  int size = kSize;
+};
+
+// What the brush leaves in a texel: the mean over 16 places.
+float painted(const Paint& paint, double phase, int x, int y, int channel) {
+  const int steps = paint.smooth ? 4 : 1;
+  float sum = 0.0f;
+  for (int i = 0; i < steps * steps; ++i) {
+    const double step = paint.smooth ? 0.25 : 0.0;
+    const int corner = corner_of(latent(x + i % steps * step, y + i / steps * step, phase));
+    const Color& color = corner < 0 ? paint.background : paint.corners[static_cast<std::size_t>(corner)];
+    sum += color[static_cast<std::size_t>(channel)];
+  }
+  return sum / static_cast<float>(steps * steps);
+}
+
+std::string paint_image(const Session& session, const std::string& name, double phase, const Paint& paint) {
+  const std::vector<std::string> channels = paint.background[3] < 1.0f
+                                                ? std::vector<std::string>{"R", "G", "B", "A"}
+                                                : std::vector<std::string>{"R", "G", "B"};
+  OIIO::ImageSpec spec = test_spec(paint.size, paint.size, channels, OIIO::TypeUInt8);
+  spec.attribute("CompressionQuality", 85);
+  write_image(session.path(name), spec, [&](int x, int y, int c) { return painted(paint, phase, x, y, c); });
+  return session.path(name);
+}
+
+// `remapc warp` with two images.
+ProcessResult run_painted(const Session& session, const Paint& from, const Paint& to,
+                          const std::string& extension = ".png") {
+  return session.remapc(warp_words(session, {"--strokes", paint_image(session, "from" + extension, 0.1, from),
+                                             paint_image(session, "to" + extension, 0.37, to), "--json"}));
+}
+
+}  // namespace
+
+TEST_CASE("remapc warp: two paintings with a colour for each region do as eight masks do") {
+  const Session session;
+  write_materials(session);
+  const auto [background, smooth, extension] =
+      GENERATE(table<Color, bool, std::string>({{kBlack, false, ".png"},
+                                                {kWhite, true, ".png"},
+                                                {kClear, true, ".png"},
+                                                {kWhite, true, ".jpg"},
+                                                {kBlack, true, ".jpg"}}));
+  CAPTURE(background[0], background[3], smooth, extension);
+  Paint paint;
+  paint.background = background;
+  paint.smooth = smooth;
+  const ProcessResult result = run_painted(session, paint, paint, extension);
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  const auto json = nlohmann::json::parse(result.output)["diagnostics"];
+  CAPTURE(json.dump());
+  CHECK(json["strokes"].size() == 4);
+  if (!smooth)  // by their first texels
+    CHECK(json["strokes"] ==
+          nlohmann::json({"stroke #ffff00", "stroke #0000ff", "stroke #00cc00", "stroke #ff0000"}));
+  CHECK(json["fixed_directions"] == 2);
+  CHECK(json["template_used"] > 0.8);
+  CHECK(error_of(read_warp(session), source_texel) < 0.25);
+}
+
+TEST_CASE("remapc warp: backgrounds of two paintings may differ, and their colours a little") {
+  const Session session;
+  write_materials(session);
+  Paint from, to;
+  to.background = kClear;
+  to.corners = {Color{0.9f, 0.05f, 0.1f, 1}, kGreen, Color{0.1f, 0.1f, 0.9f, 1}, kBlack};
+  from.background = kWhite;
+  from.corners[3] = kBlack;
+  const ProcessResult result = run_painted(session, from, to);
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(error_of(read_warp(session), source_texel) < 0.25);
+}
+
+TEST_CASE(
+    "remapc warp: paintings that do not go together are refused with the colour, and no file is written") {
+  const Session session;
+  write_materials(session);
+  const auto refused = [&](const Paint& from, const Paint& to, const std::string& message) {
+    const ProcessResult result = run_painted(session, from, to);
+    CAPTURE(message, result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(result.errors.find(message) != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(session.path("stony.json")));
+  };
+  const Paint good;
+  Paint paint = good;
+  paint.corners[3] = {1, 0, 1, 1};
+  refused(paint, good,
+          "to.png: has no stroke of #ff00ff, which " + session.path("from.png") +
+              " has; the nearest is #ff0000; expected every colour in both images");
+  refused(good, paint, "to.png: has no stroke of #ffff00");
+  paint.corners[3] = kRed;
+  refused(paint, good, "from.png: has no stroke of #ffff00, which " + session.path("to.png") + " has");
+  paint = good;
+  paint.size = 32;
+  refused(good, paint, "to.png: is 32 x 32; expected 96 x 96");
+  paint = good;
+  paint.corners.fill(kBlack);
+  refused(paint, good, "from.png: has no stroke: all of it is background");
+  write_image(session.path("photo.png"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+  const ProcessResult photo = session.remapc(
+      warp_words(session, {"--strokes", session.path("photo.png"), session.path("photo.png")}));
+  CHECK(photo.exit_code == 1);
+  CAPTURE(photo.errors);
+  CHECK(photo.errors.find("photo.png: ") != std::string::npos);
+  CHECK(photo.errors.find("expected strokes of a few flat colours") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(session.path("stony.json")));
+}
+
+TEST_CASE("remapc warp: messages name painted strokes by their colour") {
+  const Session session;
+  write_materials(session);
+  Paint to;
+  std::swap(to.corners[0], to.corners[3]);  // what is dark in one is bright in the other, and back
+  std::swap(to.corners[1], to.corners[0]);
+  const ProcessResult result = run_painted(session, {}, to);
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  const std::string warnings = nlohmann::json::parse(result.output)["warnings"].dump();
+  CAPTURE(warnings);
+  CHECK(warnings.find("stroke #") != std::string::npos);
+}
