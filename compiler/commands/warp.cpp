@@ -1,6 +1,4 @@
 // `remapc warp`: the reflectance of one texture set for the pattern of another, by strokes.
-#include "warp/warp.hpp"
-
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -9,6 +7,7 @@
 
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
+#include "commands/warp_command.hpp"
 #include "error.hpp"
 #include "files.hpp"
 #include "model/fit_json.hpp"
@@ -16,9 +15,10 @@
 #include "report/warp_report.hpp"
 #include "report_text.hpp"
 #include "version.hpp"
+#include "warp/copied_set.hpp"
 #include "warp/copy_error.hpp"
-#include "warp/stroke_colors.hpp"
-#include "warp/stroke_masks.hpp"
+#include "warp/tabulated_set.hpp"
+#include "warp/texture_material.hpp"
 
 namespace remapc {
 namespace {
@@ -26,81 +26,20 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-struct WarpCommand {
-  std::string source, target;
-  std::string source_model = "mitsuba/ggx", target_model = "mitsuba/ggx";
-  std::vector<std::string> masks, boxes, paintings;  // source, template, source, template ...
-  std::string method = "registration";
-  std::string distance = "relative";
-  int dimensions = 0;
-  bool exact = false;
-  std::filesystem::path output, report;
-  bool json = false;
-};
-
-std::vector<StrokePair> strokes_of(const WarpCommand& command, const TextureMaterial& source,
-                                   const TextureMaterial& target) {
-  std::vector<StrokePair> strokes;
-  for (std::size_t i = 0; i + 1 < command.masks.size(); i += 2)
-    strokes.push_back({read_stroke(command.masks[i], source), read_stroke(command.masks[i + 1], target)});
-  for (std::size_t i = 0; i + 1 < command.boxes.size(); i += 2)
-    strokes.push_back({box_stroke(command.boxes[i], source), box_stroke(command.boxes[i + 1], target)});
-  for (std::size_t i = 0; i + 1 < command.paintings.size(); i += 2)
-    for (StrokePair& pair :
-         read_color_strokes(command.paintings[i], source, command.paintings[i + 1], target))
-      strokes.push_back(std::move(pair));
-  if (strokes.empty())
-    throw Error(ErrorKind::kUsage,
-                "warp: no stroke; expected --strokes SOURCE_IMAGE TEMPLATE_IMAGE, --stroke SOURCE_MASK "
-                "TEMPLATE_MASK or --box pairs");
-  return strokes;
-}
-
-WarpOptions options_of(const WarpCommand& command) {
-  WarpOptions options;
-  options.method = *method_from_name(command.method);
-  options.distance = *distance_from_name(command.distance);
-  options.dimensions = command.dimensions;
-  options.exact = command.exact;
-  return options;
-}
-
 remap::WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::size_t stroke_count) {
   remap::WarpMapFit file;
-  file.id = command.output.stem().string();
-  if (!remap::is_valid_id(file.id))
-    throw Error(ErrorKind::kUsage,
-                "--output: " + command.output.string() +
-                    " names the fit; expected letters, digits and single underscores before .json");
+  file.id = command.output.empty() ? "warp" : command.output.stem().string();
   file.source_model = command.source_model;
   file.template_model = command.target_model;
   file.warp = fit.compiled;
   file.method = {{"method", command.method},
-                 {"distance", command.distance},
+                 {"distance", command.distance.empty() ? std::string("relative") : command.distance},
                  {"strokes", std::to_string(stroke_count)},
                  {"source", std::filesystem::path(command.source).filename().string()},
                  {"template", std::filesystem::path(command.target).filename().string()}};
   file.remarks = warnings_of(fit.diagnostics);
   file.tool_version = remap::kVersion;
   return file;
-}
-
-nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
-  return {{"dimensions", found.dimensions},
-          {"source_dimensions", found.source_dimensions},
-          {"template_dimensions", found.target_dimensions},
-          {"source_stress", found.source_stress},
-          {"template_stress", found.target_stress},
-          {"fixed_directions", found.fixed_directions},
-          {"fold_share", found.fold_share},
-          {"template_used", found.coverage},
-          {"stroke_distance", found.stroke_distance},
-          {"stroke_distance_affine", found.stroke_contradiction},
-          {"strokes", found.strokes},
-          {"worst_stroke", found.worst_stroke + 1},
-          {"largest_overlap", found.shared.overlap.share},
-          {"source_texels_left_out", found.source_left_out},
-          {"template_texels_left_out", found.target_left_out}};
 }
 
 WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::WarpMapFit& file) {
@@ -123,41 +62,78 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::
       static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
 }
 
-void run(const WarpCommand& command) {
+// Of a fit that has been made, and where it went.
+struct WarpOutcome {
+  remap::WarpMapFit file;
+  double seconds = 0.0;
+  std::vector<std::filesystem::path> copies;
+};
+
+void print_json(const WarpCommand& command, const WarpFit& fit, const WarpOutcome& outcome) {
+  nlohmann::ordered_json json;
+  if (!command.output.empty()) json["fit"] = command.output.string();
+  for (const std::filesystem::path& file : outcome.copies) json["copies"].push_back(file.string());
+  json["bytes"] = byte_count(fit.compiled);
+  json["seconds"] = outcome.seconds;
+  json["copy_rms_error"] = outcome.file.copy_rms_error;
+  json["diagnostics"] = report_of(fit.diagnostics);
+  json["warnings"] = outcome.file.remarks;
+  std::cout << json.dump(2) << "\n";
+}
+
+void print_words(const WarpCommand& command, const WarpFit& fit, const WarpOutcome& outcome, bool is_albedo) {
+  const std::filesystem::path& name = command.output.empty() ? command.copy : command.output;
+  std::cerr << name.string() << ": " << summary_of(fit.diagnostics) << "  compiled to "
+            << byte_count(fit.compiled) << " bytes, " << percent(outcome.file.copy_rms_error)
+            << " of the spread from an exact copy\n";
+  if (is_albedo)
+    std::cerr << "  the source is diffuse alone: taken with specular 0 and alpha 1, told apart by colour\n";
+  for (const std::string& warning : outcome.file.remarks)
+    remap::print_message("remapc", "warning: " + warning);
+}
+
+void require_outputs(const WarpCommand& command) {
+  if (command.output.empty() && command.copy.empty())
+    throw Error(ErrorKind::kUsage, "--output: is missing; expected a file for the fit, or --copy FOLDER");
+  if (!command.output.empty() && !remap::is_valid_id(command.output.stem().string()))
+    throw Error(ErrorKind::kUsage,
+                "--output: " + command.output.string() +
+                    " names the fit; expected letters, digits and single underscores before .json");
   if (!command.report.empty()) require_report_path(command.report);
+}
+
+void warp_textures(const WarpCommand& command) {
+  require_outputs(command);
   const TextureMaterial source =
       read_texture_material(command.source, command.source_model, AlbedoAlone::kEnrich);
   const TextureMaterial target = read_texture_material(command.target, command.target_model);
-  const std::vector<StrokePair> strokes = strokes_of(command, source, target);
+  const std::vector<StrokePair> strokes = strokes_of(command, source.frame(), target.frame());
   const auto start = std::chrono::steady_clock::now();
-  const WarpFit fit = fit_warp(source.material, target.material, strokes, options_of(command));
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  remap::WarpMapFit file = fit_file(command, fit, strokes.size());
-  if (source.is_albedo) file.method[remap::kWarpSourceMaps] = remap::kDiffuseAlone;
-  file.copy_rms_error = remap::rounded_up(copy_rms_error(fit, source.material, target.material), 3);
-  remap::write_file(command.output, fit_to_json(file));
+  const WarpFit fit =
+      fit_warp(source.material, target.material, strokes, options_of(command, AppearanceDistance::kRelative));
+  WarpOutcome outcome;
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.file = fit_file(command, fit, strokes.size());
+  if (source.is_albedo) outcome.file.method[remap::kWarpSourceMaps] = remap::kDiffuseAlone;
+  outcome.file.copy_rms_error = remap::rounded_up(copy_rms_error(fit, source.material, target.material), 3);
+  if (!command.output.empty()) remap::write_file(command.output, fit_to_json(outcome.file));
+  if (!command.copy.empty())
+    outcome.copies = write_copied_set(command.copy, copy_exactly(fit, source.material, target.material),
+                                      source.frame(), {target.material, target.frame(), {}});
   if (!command.report.empty())
     write_warp_report(command.report, warp_pictures(source, target, strokes, fit),
-                      words_of(command, fit, file));
-  if (command.json) {
-    const nlohmann::ordered_json json = {{"fit", command.output.string()},
-                                         {"bytes", byte_count(fit.compiled)},
-                                         {"seconds", seconds},
-                                         {"copy_rms_error", file.copy_rms_error},
-                                         {"diagnostics", report_of(fit.diagnostics)},
-                                         {"warnings", file.remarks}};
-    std::cout << json.dump(2) << "\n";
-    return;
-  }
-  std::cerr << command.output.string() << ": warp in " << fit.diagnostics.dimensions << " dimensions from "
-            << strokes.size() << " stroke pairs\n  template used " << percent(fit.diagnostics.coverage)
-            << ", folds " << percent(fit.diagnostics.fold_share) << ", strokes "
-            << percent(fit.diagnostics.stroke_distance) << " of the template's spread apart\n  compiled to "
-            << byte_count(fit.compiled) << " bytes, " << percent(file.copy_rms_error)
-            << " of the spread from an exact copy\n";
-  if (source.is_albedo)
-    std::cerr << "  the source is diffuse alone: taken with specular 0 and alpha 1, told apart by colour\n";
-  for (const std::string& warning : file.remarks) remap::print_message("remapc", "warning: " + warning);
+                      words_of(command, fit, outcome.file));
+  if (command.json)
+    print_json(command, fit, outcome);
+  else
+    print_words(command, fit, outcome, source.is_albedo);
+}
+
+void run(const WarpCommand& command) {
+  if (is_tabulated_folder(command.source) || is_tabulated_folder(command.target))
+    warp_tables(command);
+  else
+    warp_textures(command);
 }
 
 }  // namespace
@@ -196,9 +172,10 @@ void add_warp_command(CLI::App& app) {
   command->add_option("--method", options->method, "How the warp is found")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
-  command->add_option("--distance", options->distance, "How reflectances are compared")
-      ->check(CLI::IsMember(distance_names()))
-      ->capture_default_str();
+  command
+      ->add_option("--distance", options->distance,
+                   "How reflectances are compared; default: relative, of scattering profiles plain")
+      ->check(CLI::IsMember(distance_names()));
   command
       ->add_option("--dimensions", options->dimensions,
                    "Of appearance space, 1 to 3; 0: as many as are needed")
@@ -206,7 +183,9 @@ void add_warp_command(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--exact", options->exact,
                     "Results are texels of the template as they are, no blends of them");
-  command->add_option("-o,--output", options->output, "File of the fit; its name is the id")->required();
+  command->add_option("-o,--output", options->output, "File of the fit; its name is the id");
+  command->add_option("--copy", options->copy,
+                      "Folder for the exact copy: maps whose texels are those of the template, and which");
   command->add_option("--report", options->report,
                       "Pictures of materials, strokes, appearance spaces and result: one .html with all of "
                       "them and the diagnostics, or a sheet as .png");

@@ -64,7 +64,7 @@ Points match_histograms(const Points& from, const Points& to) {
 
 ShiftedPoints warp_by_histograms(const PointSets& sets) {
   const Points& points = sets.source.points;
-  const Points start = images_of(affine_from_strokes(sets), points);
+  const Points start = images_of(affine_from_strokes(sets, kAlonePrior), points);
   return {points, match_histograms(start, sets.target.points) - points};
 }
 
@@ -83,7 +83,7 @@ MovingAffine warp_of_paper(const PointSets& sets) {
   }
   const auto count = static_cast<Eigen::Index>(from.size());
   const Eigen::Index n = sets.source.points.cols();
-  MovingAffine warp{Points(count, n), Points(count, n), 1.0, affine_from_strokes(sets)};
+  MovingAffine warp{Points(count, n), Points(count, n), 1.0, affine_from_strokes(sets, kAlonePrior)};
   for (Eigen::Index i = 0; i < count; ++i) {
     warp.from.row(i) = from[static_cast<std::size_t>(i)];
     warp.to.row(i) = to[static_cast<std::size_t>(i)];

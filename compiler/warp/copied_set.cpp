@@ -18,7 +18,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 class CopyWriter {
  public:
-  CopyWriter(const fs::path& folder, const std::vector<std::uint32_t>& texels, const MapSize& size)
+  CopyWriter(const fs::path& folder, const std::vector<std::uint32_t>& texels, const MapFrame& size)
       : folder_(folder), texels_(texels), size_(size) {}
 
   // `value`: of a texel of the template and a channel.
@@ -45,7 +45,7 @@ class CopyWriter {
  private:
   const fs::path& folder_;
   const std::vector<std::uint32_t>& texels_;
-  MapSize size_;
+  MapFrame size_;
 };
 
 void write_parameters(CopyWriter& writer, const WarpMaterial& material) {
@@ -90,7 +90,7 @@ void write_entries(CopyWriter& writer, const TabulatedMaterial& material, const 
 }  // namespace
 
 std::vector<fs::path> write_copied_set(const fs::path& folder, const std::vector<std::uint32_t>& texels,
-                                       const MapSize& source, const CopiedTemplate& goal) {
+                                       const MapFrame& source, const CopiedTemplate& goal) {
   CopyWriter writer(folder, texels, source);
   if (const WarpMaterial* parametric = goal.material.parametric())
     write_parameters(writer, *parametric);
@@ -99,7 +99,7 @@ std::vector<fs::path> write_copied_set(const fs::path& folder, const std::vector
   else
     write_entries(writer, *goal.material.tabulated(), goal.table);
   writer.write("template_texel.exr", {"X", "Y"}, [&](std::uint32_t texel, std::size_t c) {
-    return static_cast<float>(c == 0 ? texel % goal.size.width : texel / goal.size.width);
+    return static_cast<float>(c == 0 ? texel % goal.frame.width : texel / goal.frame.width);
   });
   return std::move(writer.files);
 }

@@ -8,15 +8,10 @@
 
 namespace remapc {
 
-// A map of as many texels, row by row from the top.
-struct MapSize {
-  std::size_t width = 0, height = 0;
-};
-
 // What the template is, and where its table stands.
 struct CopiedTemplate {
   MaterialRef material;
-  MapSize size;
+  MapFrame frame;
   std::filesystem::path table;  // of a tabulated one: profiles.exr, profiles.csv or brdfs.txt
 };
 
@@ -29,6 +24,6 @@ struct CopiedTemplate {
 // `texels`: of copy_exactly(). Returns the files. Throws kOutput.
 std::vector<std::filesystem::path> write_copied_set(const std::filesystem::path& folder,
                                                     const std::vector<std::uint32_t>& texels,
-                                                    const MapSize& source, const CopiedTemplate& goal);
+                                                    const MapFrame& source, const CopiedTemplate& goal);
 
 }  // namespace remapc

@@ -55,6 +55,12 @@ class MaterialRef {
   const TabulatedMaterial* tabulated_ = nullptr;
 };
 
+// The map that the texels of a material make, row by row from the top.
+struct MapFrame {
+  std::string name;  // of the material, for messages
+  std::size_t width = 0, height = 0;
+};
+
 // Texels that take part, at most `limit`, evenly spread over the list and scattered, so that they stand in no
 // columns of a map.
 std::vector<std::uint32_t> sample_texels(const MaterialRef& material, std::size_t limit);

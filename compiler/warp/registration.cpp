@@ -8,7 +8,6 @@
 namespace remapc {
 namespace {
 
-constexpr double kAxesPrior = 0.3;
 constexpr Eigen::Index kCentres = 80;
 constexpr double kWidth = 1.2;  // RMS radii
 constexpr int kSteps = 25;
@@ -80,13 +79,13 @@ Points stroke_centres(const Points& positions, const std::vector<std::vector<std
   return centres;
 }
 
-AffineMap affine_from_strokes(const PointSets& sets) {
+AffineMap affine_from_strokes(const PointSets& sets, double prior) {
   const Eigen::RowVectorXd from_mean = sets.source_centres.colwise().mean();
   const Eigen::RowVectorXd to_mean = sets.target_centres.colwise().mean();
   const Points from = sets.source_centres.rowwise() - from_mean, to = sets.target_centres.rowwise() - to_mean;
   const Eigen::Index n = from.cols();
-  const Eigen::MatrixXd left = from.transpose() * from + kAxesPrior * Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd linear = left.ldlt().solve(from.transpose() * to + kAxesPrior * sets.common_axes);
+  const Eigen::MatrixXd left = from.transpose() * from + prior * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd linear = left.ldlt().solve(from.transpose() * to + prior * sets.common_axes);
   return {linear, to_mean - from_mean * linear};
 }
 

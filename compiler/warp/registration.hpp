@@ -23,9 +23,11 @@ Eigen::MatrixXd common_axes(const AppearanceSpace& source, const AppearanceSpace
 // The means of the positions of each stroke's finite texels, a row each.
 Points stroke_centres(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes);
 
-// Least squares over the centres of strokes, with the sum of squares .3 |linear - common axes|^2 on top:
-// directions that strokes do not fix follow the prior.
-AffineMap affine_from_strokes(const PointSets& sets);
+// Least squares over the centres of strokes, with the sum of squares prior |linear - common axes|^2 on top:
+// directions that strokes do not fix follow the prior. A registration wants a strong one, to start near; a
+// map that nothing follows is best with a weak one.
+inline constexpr double kStartPrior = 0.3, kAlonePrior = 0.05;
+AffineMap affine_from_strokes(const PointSets& sets, double prior = kStartPrior);
 
 // Soft matches between two sets of points by unbalanced Sinkhorn scaling (Chizat et al. 2018): `mass`, how
 // far each moved point is matched at all (about 1 / count), and where to.

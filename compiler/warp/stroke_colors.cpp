@@ -66,7 +66,7 @@ struct Painting {
   std::vector<Color> texels;  // kTransparent where alpha is below a half
 };
 
-Painting read_painting(const fs::path& path, const TextureMaterial& material) {
+Painting read_painting(const fs::path& path, const MapFrame& material) {
   Painting painting{path, material.width, std::vector<Color>(material.width * material.height, 0)};
   std::vector<char> is_transparent(painting.texels.size(), 0);
   unsigned colors = 0;
@@ -223,7 +223,7 @@ std::vector<Cluster> without_rims(const std::vector<Cluster>& clusters, const Pa
 }
 
 // In the order of their first texels.
-std::vector<ColorStroke> strokes_in(const Painting& painting, const TextureMaterial& material) {
+std::vector<ColorStroke> strokes_in(const Painting& painting, const MapFrame& material) {
   const auto count = static_cast<double>(painting.texels.size());
   const auto transparent =
       static_cast<double>(std::count(painting.texels.begin(), painting.texels.end(), kTransparent));
@@ -278,8 +278,8 @@ void require_partners(const std::vector<ColorStroke>& strokes, const fs::path& i
 
 }  // namespace
 
-std::vector<StrokePair> read_color_strokes(const fs::path& source_image, const TextureMaterial& source,
-                                           const fs::path& template_image, const TextureMaterial& target) {
+std::vector<StrokePair> read_color_strokes(const fs::path& source_image, const MapFrame& source,
+                                           const fs::path& template_image, const MapFrame& target) {
   std::vector<ColorStroke> from = strokes_in(read_painting(source_image, source), source);
   std::vector<ColorStroke> to = strokes_in(read_painting(template_image, target), target);
   require_partners(from, source_image, to, template_image);

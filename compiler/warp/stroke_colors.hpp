@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "warp/texture_material.hpp"
+#include "warp/material.hpp"
 
 namespace remapc {
 
@@ -15,9 +15,8 @@ namespace remapc {
 // than eight texels or 0.002 % are part of none. Throws kInput as read_stroke_image() and
 // require_background() do, where an image has no stroke or is no painting in flat colours, and for a colour
 // that one image alone has.
-std::vector<StrokePair> read_color_strokes(const std::filesystem::path& source_image,
-                                           const TextureMaterial& source,
+std::vector<StrokePair> read_color_strokes(const std::filesystem::path& source_image, const MapFrame& source,
                                            const std::filesystem::path& template_image,
-                                           const TextureMaterial& target);
+                                           const MapFrame& target);
 
 }  // namespace remapc

@@ -12,7 +12,7 @@ std::string size_text(std::size_t width, std::size_t height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-void read_stroke_image(const std::filesystem::path& image, const TextureMaterial& material,
+void read_stroke_image(const std::filesystem::path& image, const MapFrame& material,
                        const StrokeChannel& use) {
   remap::ImageReader reader(image);
   const remap::ImageLayout& layout = reader.layout();
@@ -20,7 +20,7 @@ void read_stroke_image(const std::filesystem::path& image, const TextureMaterial
   if (width != material.width || height != material.height)
     throw Error(ErrorKind::kInput, image.string() + ": is " + size_text(width, height) + "; expected " +
                                        size_text(material.width, material.height) +
-                                       ", the size of the maps in " + material.material.name);
+                                       ", the size of the maps in " + material.name);
   std::vector<std::byte> texels(height * layout.row_bytes());
   reader.read_rows(0, layout.height, texels.data());
   std::vector<float> values(width * height);
@@ -32,8 +32,7 @@ void read_stroke_image(const std::filesystem::path& image, const TextureMaterial
   }
 }
 
-void require_background(const std::filesystem::path& image, std::size_t marked,
-                        const TextureMaterial& material) {
+void require_background(const std::filesystem::path& image, std::size_t marked, const MapFrame& material) {
   if (4 * marked > 3 * material.width * material.height)
     throw Error(ErrorKind::kInput, image.string() +
                                        ": marks more than three quarters of all texels; expected strokes on "

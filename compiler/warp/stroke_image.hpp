@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "warp/texture_material.hpp"
+#include "warp/material.hpp"
 
 namespace remapc {
 
@@ -19,12 +19,11 @@ using StrokeChannel = std::function<void(const std::vector<float>& values, bool 
 
 // Calls `use` with one channel after another, in the order of the file. Throws kInput for an image of another
 // size than the material, and where it cannot be read.
-void read_stroke_image(const std::filesystem::path& image, const TextureMaterial& material,
+void read_stroke_image(const std::filesystem::path& image, const MapFrame& material,
                        const StrokeChannel& use);
 
 // Throws kInput, naming the image, where strokes of `marked` texels cover more than three quarters of it:
 // they are most likely inverted.
-void require_background(const std::filesystem::path& image, std::size_t marked,
-                        const TextureMaterial& material);
+void require_background(const std::filesystem::path& image, std::size_t marked, const MapFrame& material);
 
 }  // namespace remapc

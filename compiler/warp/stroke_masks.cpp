@@ -10,7 +10,7 @@ namespace remapc {
 using remap::Error;
 using remap::ErrorKind;
 
-std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const TextureMaterial& material) {
+std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MapFrame& material) {
   std::vector<char> marked(material.width * material.height, 0);
   read_stroke_image(mask, material, [&](const std::vector<float>& values, bool is_alpha) {
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -25,7 +25,7 @@ std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const 
   return stroke;
 }
 
-std::vector<std::uint32_t> box_stroke(const std::string& box, const TextureMaterial& material) {
+std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& material) {
   const auto fail = [&] {
     throw Error(ErrorKind::kUsage, "--box: is " + box + "; expected x0,y0,x1,y1 within " +
                                        size_text(material.width, material.height) +

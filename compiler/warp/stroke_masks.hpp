@@ -4,17 +4,17 @@
 #include <filesystem>
 #include <string>
 
-#include "warp/texture_material.hpp"
+#include "warp/material.hpp"
 
 namespace remapc {
 
 // Texels of the mask above a half in any colour channel. Throws kInput for a mask of another size than the
 // material, one without such texels, and one that marks more than three quarters of it (most likely
 // inverted).
-std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const TextureMaterial& material);
+std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MapFrame& material);
 
 // `x0,y0,x1,y1`: texels from the first corner up to, not including, the second; rows from the top. Throws
 // kUsage for other text and for a box that is empty or leaves the material.
-std::vector<std::uint32_t> box_stroke(const std::string& box, const TextureMaterial& material);
+std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& material);
 
 }  // namespace remapc

@@ -21,6 +21,8 @@ struct TabulatedSet {
   TabulatedMaterial material;
   std::size_t width = 0, height = 0;
   std::filesystem::path table;  // profiles.exr, profiles.csv or brdfs.txt
+
+  MapFrame frame() const { return {material.name, width, height}; }
 };
 
 bool is_tabulated_folder(const std::filesystem::path& folder);

@@ -11,6 +11,8 @@ struct TextureMaterial {
   WarpMaterial material;  // row by row
   std::size_t width = 0, height = 0;
   bool is_albedo = false;  // of a diffuse map alone
+
+  MapFrame frame() const { return {material.name, width, height}; }
 };
 
 // What to make of a folder that has neither roughness nor specular.

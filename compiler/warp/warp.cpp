@@ -65,7 +65,7 @@ Selection selection_of(const MaterialRef& material, const std::vector<StrokePair
 AppearanceWarp warp_by(WarpMethod method, const PointSets& sets) {
   switch (method) {
     case WarpMethod::kAffine:
-      return affine_from_strokes(sets);
+      return affine_from_strokes(sets, kAlonePrior);
     case WarpMethod::kHistogram:
       return warp_by_histograms(sets);
     case WarpMethod::kPaper:

@@ -1,0 +1,164 @@
+// remapc warp on tables: scattering profiles in a list and in a map, measured BRDFs; and exact copies of
+// maps. What the files say is read back by OpenImageIO.
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/remapc_session.hpp"
+#include "support/test_image.hpp"
+
+using namespace remap;
+
+namespace {
+
+constexpr int kEdge = 24;
+constexpr int kRadii = 40;
+constexpr double kStep = 0.1;
+
+// Two parameters of a wax, which vary along rows and columns.
+double share(int place) { return static_cast<double>(place) / (kEdge - 1); }
+
+// albedo exp(-r / length) / (2 pi length^2).
+double profile(double albedo, double length, int radius) {
+  return albedo * std::exp(-kStep * (radius + 1) / length) / (2.0 * std::numbers::pi * length * length);
+}
+double blue_wax(int x, int y, int radius) {
+  return profile(0.3 + 0.5 * share(x), 0.5 + 0.3 * share(y), radius);
+}
+double yellow_wax(int x, int y, int radius) {
+  return profile(0.9 - 0.4 * share(x), 0.4 + 0.35 * share(y) * share(y), radius);
+}
+
+std::vector<std::string> radius_names(const std::string& colors) {
+  std::vector<std::string> names;
+  for (const char color : colors)
+    for (int radius = 0; radius < kRadii; ++radius)
+      names.push_back(std::string(1, color) + "@" +
+                      number_text(std::round(10.0 * kStep * (radius + 1)) / 10.0));
+  return names;
+}
+
+// A profile a row, one channel, and the map of their numbers.
+template <typename Profile>
+void write_list(const Session& session, const std::string& folder, const Profile& value) {
+  std::string text;
+  for (const std::string& name : radius_names("Y")) text += (text.empty() ? "" : ",") + name;
+  text += "\n";
+  for (int y = 0; y < kEdge; ++y)
+    for (int x = 0; x < kEdge; ++x)
+      for (int radius = 0; radius < kRadii; ++radius)
+        text += number_text(value(x, y, radius)) + (radius + 1 < kRadii ? "," : "\n");
+  session.write(folder + "/profiles.csv", text);
+  write_image(session.path(folder + "/index.png"), test_spec(kEdge, kEdge, {"Y"}, OIIO::TypeUInt16),
+              [](int x, int y, int) { return static_cast<float>(y * kEdge + x) / 65535.0f; });
+}
+
+template <typename Profile>
+void write_map(const Session& session, const std::string& folder, const Profile& value) {
+  std::filesystem::create_directories(session.path(folder));
+  write_image(session.path(folder + "/profiles.exr"),
+              test_spec(kEdge, kEdge, radius_names("RGB"), OIIO::TypeFloat),
+              [&](int x, int y, int c) { return static_cast<float>(value(x, y, c % kRadii)); });
+}
+
+// The four corners, which mean each other.
+std::vector<std::string> corners() {
+  std::vector<std::string> words;
+  for (const char* box : {"0,0,6,6", "18,0,24,6", "0,18,6,24", "18,18,24,24"})
+    words.insert(words.end(), {"--box", box, box});
+  return words;
+}
+
+ProcessResult warp(const Session& session, const std::string& source, const std::string& target,
+                   const std::vector<std::string>& more) {
+  std::vector<std::string> words = {"warp", session.path(source), session.path(target)};
+  const std::vector<std::string> strokes = corners();
+  words.insert(words.end(), strokes.begin(), strokes.end());
+  words.insert(words.end(), more.begin(), more.end());
+  return session.remapc(words);
+}
+
+// RMS distance of the places that texels come from to their own, which are right: shares of the edge.
+double place_error(const TestImage& places) {
+  const int column = places.channel("X"), row = places.channel("Y");
+  double sum = 0.0;
+  for (int y = 0; y < kEdge; ++y)
+    for (int x = 0; x < kEdge; ++x)
+      sum += std::pow(places.at(x, y, column) - static_cast<float>(x), 2) +
+             std::pow(places.at(x, y, row) - static_cast<float>(y), 2);
+  return std::sqrt(sum / (kEdge * kEdge)) / kEdge;
+}
+
+}  // namespace
+
+TEST_CASE("remapc warp: profiles of a list take those of another list") {
+  const Session session;
+  write_list(session, "blue", blue_wax);
+  write_list(session, "yellow", yellow_wax);
+  const ProcessResult result = warp(session, "blue", "yellow", {"--copy", session.path("copied"), "--json"});
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  const auto json = nlohmann::json::parse(result.output);
+  CHECK(json["diagnostics"]["dimensions"] == 2);
+  CHECK(json["files"].size() == 3);
+  const TestImage index = read_image(session.path("copied/index.exr")),
+                  places = read_image(session.path("copied/template_texel.exr"));
+  REQUIRE(index.spec.width == kEdge);
+  const int column = places.channel("X"), row = places.channel("Y");
+  for (int y = 0; y < kEdge; ++y)
+    for (int x = 0; x < kEdge; ++x)
+      CHECK(index.at(x, y, 0) == places.at(x, y, row) * kEdge + places.at(x, y, column));
+  CHECK(place_error(places) < 0.15);  // unrelated places: .58
+  CHECK(read_file(session.path("copied/profiles.csv")) == read_file(session.path("yellow/profiles.csv")));
+  // The copy is a set itself.
+  CHECK(warp(session, "copied", "blue", {"--copy", session.path("back")}).exit_code == 0);
+}
+
+TEST_CASE("remapc warp: a map of profiles takes those of a list, and the other way") {
+  const Session session;
+  write_map(session, "blue", blue_wax);
+  write_list(session, "yellow", yellow_wax);
+  const ProcessResult there = warp(session, "blue", "yellow", {"--copy", session.path("there")});
+  INFO(there.errors);
+  REQUIRE(there.exit_code == 0);
+  CHECK(place_error(read_image(session.path("there/template_texel.exr"))) < 0.15);
+  const ProcessResult back = warp(session, "yellow", "blue", {"--copy", session.path("back")});
+  INFO(back.errors);
+  REQUIRE(back.exit_code == 0);
+  const TestImage profiles = read_image(session.path("back/profiles.exr")),
+                  places = read_image(session.path("back/template_texel.exr"));
+  CHECK(place_error(places) < 0.15);
+  const int first = profiles.channel("G@0.1");
+  REQUIRE(first >= 0);
+  const int x = static_cast<int>(places.at(5, 7, places.channel("X"))),
+            y = static_cast<int>(places.at(5, 7, places.channel("Y")));
+  CHECK(profiles.at(5, 7, first) == static_cast<float>(blue_wax(x, y, 0)));
+}
+
+TEST_CASE("remapc warp: tables that cannot be used are refused by name") {
+  const Session session;
+  write_list(session, "blue", blue_wax);
+  write_list(session, "yellow", yellow_wax);
+  const auto refused = [&](const std::string& target, const std::vector<std::string>& more, int exit_code,
+                           const std::string& message) {
+    const ProcessResult result = warp(session, "blue", target, more);
+    CAPTURE(message, result.errors);
+    CHECK(result.exit_code == exit_code);
+    CHECK(result.errors.find(message) != std::string::npos);
+  };
+  const std::vector<std::string> copy = {"--copy", session.path("copied")};
+  refused("yellow", {"-o", session.path("x.json")}, 2, "is a table, of which there is no fit");
+  refused("yellow", {"--copy", session.path("copied"), "--distance", "relative"}, 2, "expected plain");
+  session.write("nameless/profiles.csv", "a,b\n1,2\n");
+  refused("nameless", copy, 1, "has no columns R@<radius>");
+  session.write("negative/profiles.csv", "Y@1,Y@2\n1,2\n1,-2\n");
+  refused("negative", copy, 1, "profiles.csv:3:3: is -2; expected a finite number from 0");
+  session.write("mapless/profiles.csv", "Y@1,Y@2\n1,2\n1,0\n");
+  refused("mapless", copy, 1, "but no map of its entries");
+  session.write("measured/brdfs.txt", "gold.binary\n");
+  refused("measured", copy, 1, "gold.binary: is no BRDF of the MERL database");
+  CHECK_FALSE(std::filesystem::exists(session.path("copied")));
+}
