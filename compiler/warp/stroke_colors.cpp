@@ -154,30 +154,39 @@ std::vector<std::uint8_t> labels_of(const Painting& painting, const std::vector<
 struct Surroundings {
   double count = 0.0;
   double flat = 0.0;                                  // texels with three or more of their own beside them
-  double beside = 0.0;                                // with another stroke two texels away, or nearer
+  double beside = 0.0;                                // with another stroke six texels away, or nearer
   double at_rim = 0.0;                                // with a larger one there
+  double close = 0.0;                                 // with a larger one two texels away, or nearer
   std::array<std::size_t, kNoCluster + 1> rims = {};  // how often which
 };
 
+// Looks in eight directions, as far as blurred rims of strokes reach.
 void look_around(const std::vector<std::uint8_t>& labels, std::size_t width, std::size_t texel,
                  std::size_t first_stroke, Surroundings& found) {
   const std::uint8_t own = labels[texel];
-  const auto x = static_cast<std::ptrdiff_t>(texel % width), y = static_cast<std::ptrdiff_t>(texel / width);
   const auto columns = static_cast<std::ptrdiff_t>(width),
              rows = static_cast<std::ptrdiff_t>(labels.size() / width);
+  const auto x = static_cast<std::ptrdiff_t>(texel) % columns,
+             y = static_cast<std::ptrdiff_t>(texel) / columns;
   int alike = 0;
-  bool beside = false;
+  bool beside = false, close = false;
   std::uint8_t larger = kNoCluster;
-  for (std::ptrdiff_t v = std::max<std::ptrdiff_t>(y - 2, 0); v <= std::min(y + 2, rows - 1); ++v)
-    for (std::ptrdiff_t u = std::max<std::ptrdiff_t>(x - 2, 0); u <= std::min(x + 2, columns - 1); ++u) {
+  for (const std::ptrdiff_t reach : {1, 2, 4, 6})
+    for (std::ptrdiff_t direction = 0; direction < 9; ++direction) {
+      const std::ptrdiff_t u = x + reach * (direction % 3 - 1), v = y + reach * (direction / 3 - 1);
+      if (direction == 4 || u < 0 || v < 0 || u >= columns || v >= rows) continue;
       const std::uint8_t other = labels[static_cast<std::size_t>(v * columns + u)];
-      if (other == own && std::abs(u - x) <= 1 && std::abs(v - y) <= 1) ++alike;
-      beside = beside || (other >= first_stroke && other != own && other != kNoCluster);
-      if (other >= first_stroke && other < own) larger = std::min(larger, other);
+      if (other == own && reach == 1) ++alike;
+      if (other == own || other < first_stroke || other == kNoCluster) continue;
+      beside = true;
+      if (other > own) continue;
+      larger = std::min(larger, other);
+      close = close || reach <= 2;
     }
   found.count += 1.0;
-  found.flat += alike > 3 ? 1.0 : 0.0;  // itself is one of them
+  found.flat += alike >= 3 ? 1.0 : 0.0;
   found.beside += beside ? 1.0 : 0.0;
+  found.close += close ? 1.0 : 0.0;
   if (larger == kNoCluster) return;
   found.at_rim += 1.0;
   ++found.rims[larger];
@@ -187,15 +196,13 @@ void look_around(const std::vector<std::uint8_t>& labels, std::size_t width, std
 // a shade of the background that shows beside strokes, as JPEG leaves it.
 bool is_rim(const std::vector<Cluster>& clusters, std::size_t index, const Surroundings& around,
             std::size_t first_stroke) {
-  if (first_stroke > 0 && distance(clusters[index].color, clusters.front().color) < kShadeRadius &&
-      around.beside > 0.25 * around.count)
-    return true;
+  if (around.close > 0.75 * around.count && around.flat < 0.4 * around.count) return true;
+  if (first_stroke == 0) return false;
+  const Color color = clusters[index].color, background = clusters.front().color;
+  if (distance(color, background) < kShadeRadius && around.beside > 0.25 * around.count) return true;
   if (around.at_rim < 0.75 * around.count) return false;
-  if (around.flat < 0.4 * around.count) return true;
   const auto most = std::max_element(around.rims.begin(), around.rims.end()) - around.rims.begin();
-  return first_stroke > 0 &&
-         distance_to_blends(clusters[index].color, clusters.front().color,
-                            clusters[static_cast<std::size_t>(most)].color) < kBlendRadius;
+  return distance_to_blends(color, background, clusters[static_cast<std::size_t>(most)].color) < kBlendRadius;
 }
 
 struct ColorStroke {

@@ -332,9 +332,9 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   TargetChoice choice;
   choice.folder = options.output;
   const bool is_other_kind = workflow.is_material() && kind_of(*workflow.source) != kind_of(*workflow.target);
-  const std::string word = !options.layout.empty() ? options.layout
-                           : is_other_kind         ? "separate"
-                                                   : "as-inputs";
+  const std::string word = !options.layout.empty()                        ? options.layout
+                           : is_other_kind || !workflow.constants.empty() ? "separate"
+                                                                          : "as-inputs";
   const auto layout = layout_from_name(word);
   if (!layout) fail_unknown("--layout", options.layout, layout_names());
   choice.layout = *layout;

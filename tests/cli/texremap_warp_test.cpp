@@ -149,7 +149,7 @@ TEST_CASE("texremap warps: a diffuse map alone becomes a set of three maps") {
     words.insert(words.end(), {"--diffuse", map});
   require_success(session.texremap(words));
   const std::string stem = by_folder ? "out/oak_" : "out/";
-  const TestImage diffuse = read_image(map), found_diffuse = read_image(session.path("out/oak_diffuse.exr")),
+  const TestImage diffuse = read_image(map), found_diffuse = read_image(session.path(stem + "diffuse.exr")),
                   specular = read_image(session.path(stem + "specular.exr")),
                   roughness = read_image(session.path(stem + "roughness.exr"));
   REQUIRE(specular.spec.nchannels == 3);
@@ -212,4 +212,17 @@ TEST_CASE("texremap warps: texels that are not finite harm no other") {
         for (int c = 0; c < image.spec.nchannels; ++c)
           REQUIRE((std::isfinite(image.at(x, y, c)) || (x == 7 && y < 9)));
   }
+}
+
+TEST_CASE("texremap warps: a grey diffuse map alone gets colours") {
+  const AlbedoSession session;
+  write_image(session.path("wood/oak_diffuse.exr"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeFloat), noise);
+  require_success(session.texremap(
+      {"convert", session.path("wood"), "--fit", session.path("stony.json"), "-o", session.path("out")}));
+  const TestImage diffuse = read_image(session.path("out/oak_diffuse.exr"));
+  REQUIRE(diffuse.spec.nchannels == 3);
+  const float grey = noise(7, 9, 0);
+  const WarpTexel expected = evaluate_warp(session.fit.warp, {grey, grey, grey, 0, 0, 0, 1});
+  for (int c = 0; c < 3; ++c)
+    CHECK(diffuse.at(7, 9, c) == Approx(expected[static_cast<std::size_t>(c)]).margin(1e-4));
 }
