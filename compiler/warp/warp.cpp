@@ -172,9 +172,10 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
       rms_distance(images_of(fit.warp, sets.source_centres), sets.target_centres, &found.worst_stroke);
   found.stroke_contradiction =
       rms_distance(images_of(affine_from_strokes(sets), sets.source_centres), sets.target_centres);
-  const std::size_t nodes = options.nodes != 0 ? options.nodes : default_nodes(found.dimensions, options.exact);
-  fit.compiled.table = compile_table(fit.warp, from_positions, NearestTexel(to_positions), to.material, nodes,
-                                     options.exact);
+  const std::size_t nodes =
+      options.nodes != 0 ? options.nodes : default_nodes(found.dimensions, options.exact);
+  fit.compiled.table =
+      compile_table(fit.warp, from_positions, NearestTexel(to_positions), to.material, nodes, options.exact);
   return fit;
 }
 
