@@ -61,26 +61,72 @@ inline code::CopiedView<kDimension> view_of(const PackedWarp& warp, const Packed
   return {grid_of<kDimension>(warp), table.indices.data(), table.palette.data()};
 }
 
-template <std::size_t kDimension, class Coordinates>
-inline std::size_t convert_by(const PackedWarp& warp, const Coordinates& coordinates, std::size_t count,
-                              const Sources& in, const Targets& out) noexcept {
-  const auto by = [&](const auto& table) {
-    return code::convert_rows<code::kWarpBlock>(count, in, out, [&](const auto& from, const auto& to) {
-      return code::warp_block<kDimension>(coordinates, table, from, to);
-    });
-  };
-  if (const auto* blended = std::get_if<PackedBlended>(&warp.table))
-    return by(view_of<kDimension>(warp, *blended));
-  return by(view_of<kDimension>(warp, *std::get_if<PackedCopied>(&warp.table)));
+// Coordinates and table of whatever kind; which, is asked once a block. Code for each pair of kinds would
+// take twice as long to compile and be no faster.
+template <std::size_t kDimension>
+struct AnyCoordinates {
+  bool separable = false;
+  code::SeparableView<kDimension> by_separable{};
+  code::QuadraticView<kDimension> by_quadratic{};
+};
+template <std::size_t kDimension>
+struct AnyTable {
+  bool blended = false;
+  code::BlendedView<kDimension> by_blended{};
+  code::CopiedView<kDimension> by_copied{};
+};
+
+template <std::size_t kDimension>
+inline void locate(const AnyCoordinates<kDimension>& use,
+                   const code::HeldBlock<kWarpParameters, code::kWarpBlock>& held,
+                   code::Positions<kDimension>& position) noexcept {
+  if (use.separable)
+    code::locate(use.by_separable, held, position);
+  else
+    code::locate(use.by_quadratic, held, position);
+}
+
+template <std::size_t kDimension>
+inline void look_up(const AnyTable<kDimension>& use, const code::Positions<kDimension>& position,
+                    code::TexelLanes<code::kEntryLanes>& found) noexcept {
+  if (use.blended)
+    code::look_up(use.by_blended, position, found);
+  else
+    code::look_up(use.by_copied, position, found);
+}
+
+template <std::size_t kDimension>
+inline AnyCoordinates<kDimension> coordinates_of(const PackedWarp& warp) noexcept {
+  AnyCoordinates<kDimension> any;
+  if (const auto* separable = std::get_if<PackedSeparable>(&warp.coordinates)) {
+    any.separable = true;
+    any.by_separable = view_of<kDimension>(warp, *separable);
+  } else {
+    any.by_quadratic = view_of<kDimension>(warp, *std::get_if<PackedQuadratic>(&warp.coordinates));
+  }
+  return any;
+}
+
+template <std::size_t kDimension>
+inline AnyTable<kDimension> table_of(const PackedWarp& warp) noexcept {
+  AnyTable<kDimension> any;
+  if (const auto* blended = std::get_if<PackedBlended>(&warp.table)) {
+    any.blended = true;
+    any.by_blended = view_of<kDimension>(warp, *blended);
+  } else {
+    any.by_copied = view_of<kDimension>(warp, *std::get_if<PackedCopied>(&warp.table));
+  }
+  return any;
 }
 
 template <std::size_t kDimension>
 inline std::size_t convert_in(const PackedWarp& warp, std::size_t count, const Sources& in,
                               const Targets& out) noexcept {
-  if (const auto* separable = std::get_if<PackedSeparable>(&warp.coordinates))
-    return convert_by<kDimension>(warp, view_of<kDimension>(warp, *separable), count, in, out);
-  return convert_by<kDimension>(
-      warp, view_of<kDimension>(warp, *std::get_if<PackedQuadratic>(&warp.coordinates)), count, in, out);
+  const auto coordinates = coordinates_of<kDimension>(warp);
+  const auto table = table_of<kDimension>(warp);
+  return code::convert_rows<code::kWarpBlock>(count, in, out, [&](const auto& from, const auto& to) {
+    return code::warp_block<kDimension>(coordinates, table, from, to);
+  });
 }
 
 inline std::size_t convert(const PackedWarp& warp, std::size_t count, const Sources& in,
