@@ -30,7 +30,7 @@ TEST_CASE("remapc warp: strokes at the corners of a pattern give every texel the
 TEST_CASE("remapc warp: a fit becomes a header, alone and with the registry of its folder") {
   const Session session;
   write_materials(session);
-  std::vector<std::string> words = strokes(session);
+  std::vector<std::string> words = mask_words(session);
   words.insert(words.end(), {"--exact", "--json"});
   const ProcessResult made = session.remapc(warp_words(session, words));
   INFO(made.errors);
@@ -118,7 +118,7 @@ TEST_CASE("remapc warp: strokes that share most of a region are warned of") {
 TEST_CASE("remapc warp: --report writes one HTML file with its pictures, or one PNG") {
   const Session session;
   write_materials(session);
-  std::vector<std::string> words = strokes(session);
+  std::vector<std::string> words = mask_words(session);
   words.insert(words.end(), {"--report", session.path("report.html")});
   const ProcessResult result = session.remapc(warp_words(session, words));
   INFO(result.errors);
