@@ -148,7 +148,7 @@ std::string warps_text(const WarpsOptions& options, const WarpsResult& result) {
   const auto error = [&](const char* name) {
     return fixed(summary_of(result, variant_named(result, WarpGroup::kMethod, name)).figures.mean, 1);
   };
-  return text + "\nThe registration is " + error("registration") + " % off, the paper's initialisation " +
+  return text + "\nThe registration is " + error("registration") + " % off, the paper's way " +
          error("paper") + ", histogram matching " + error("histogram") + ", a copy without a warp " +
          error("nearest") + ".\n";
 }

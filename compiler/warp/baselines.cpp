@@ -12,7 +12,6 @@ namespace remapc {
 namespace {
 
 constexpr int kRotations = 20;
-constexpr double kPaperSigma = 0.2;  // of the diagonal of the template's box
 
 // Evenly spread rotations: the additive recurrence of the plastic numbers in place of random numbers, and the
 // uniform map to quaternions of Shoemake 1992.
@@ -66,31 +65,6 @@ ShiftedPoints warp_by_histograms(const PointSets& sets) {
   const Points& points = sets.source.points;
   const Points start = images_of(affine_from_strokes(sets, kAlonePrior), points);
   return {points, match_histograms(start, sets.target.points) - points};
-}
-
-MovingAffine warp_of_paper(const PointSets& sets) {
-  std::vector<Eigen::RowVectorXd> from, to;
-  for (std::size_t k = 0; k < sets.source.strokes.size(); ++k) {
-    const Points own = sets.source.points(sets.source.strokes[k], Eigen::all);
-    const Points goal = sets.target.points(sets.target.strokes[k], Eigen::all);
-    const Points matched = match_histograms(own, goal);
-    for (Eigen::Index i = 0; i < own.rows(); ++i) {
-      Eigen::Index nearest = 0;
-      (goal.rowwise() - matched.row(i)).rowwise().squaredNorm().minCoeff(&nearest);
-      from.push_back(own.row(i));
-      to.push_back(goal.row(nearest));
-    }
-  }
-  const auto count = static_cast<Eigen::Index>(from.size());
-  const Eigen::Index n = sets.source.points.cols();
-  MovingAffine warp{Points(count, n), Points(count, n), 1.0, affine_from_strokes(sets, kAlonePrior)};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    warp.from.row(i) = from[static_cast<std::size_t>(i)];
-    warp.to.row(i) = to[static_cast<std::size_t>(i)];
-  }
-  const Points& target = sets.target.points;
-  warp.width = kPaperSigma * (target.colwise().maxCoeff() - target.colwise().minCoeff()).norm();
-  return warp;
 }
 
 }  // namespace remapc

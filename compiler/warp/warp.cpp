@@ -10,6 +10,7 @@
 #include "error.hpp"
 #include "named_values.hpp"
 #include "report_text.hpp"
+#include "warp/paper_warp.hpp"
 #include "warp/warp_table.hpp"
 
 namespace remapc {
@@ -69,7 +70,7 @@ AppearanceWarp warp_by(WarpMethod method, const PointSets& sets) {
     case WarpMethod::kHistogram:
       return warp_by_histograms(sets);
     case WarpMethod::kPaper:
-      return warp_of_paper(sets);
+      return warp_of_paper(sets).warp;
     case WarpMethod::kRegistration:
       break;
   }

@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "warp/nearest_texel.hpp"
+
 namespace remapc {
 namespace {
 
@@ -29,7 +31,9 @@ Points moved(const ShiftedPoints& warp, const Points& points) {
   return result;
 }
 
-Eigen::RowVectorXd moved_point(const MovingAffine& warp, const Eigen::RowVectorXd& point) {
+}  // namespace
+
+AffineMap affine_at(const MovingAffine& warp, const Eigen::RowVectorXd& point) {
   const Eigen::ArrayXd distances = (warp.from.rowwise() - point).rowwise().squaredNorm();
   // Less the nearest one: far from all strokes weights would be zero.
   const Eigen::ArrayXd exponents = (distances.minCoeff() - distances) / (2.0 * warp.width * warp.width);
@@ -40,12 +44,27 @@ Eigen::RowVectorXd moved_point(const MovingAffine& warp, const Eigen::RowVectorX
   const Eigen::Index n = point.size();
   const Eigen::MatrixXd left = weighted * from + kTowardsGlobal * Eigen::MatrixXd::Identity(n, n);
   const Eigen::MatrixXd linear = left.ldlt().solve(weighted * to + kTowardsGlobal * warp.global.linear);
-  return (point - centre) * linear + image;
+  return {linear, image - centre * linear};
 }
+
+namespace {
 
 Points moved(const MovingAffine& warp, const Points& points) {
   Points result(points.rows(), points.cols());
-  for (Eigen::Index i = 0; i < points.rows(); ++i) result.row(i) = moved_point(warp, points.row(i));
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const AffineMap map = affine_at(warp, points.row(i));
+    result.row(i) = points.row(i) * map.linear + map.offset;
+  }
+  return result;
+}
+
+Points moved(const BinnedAffine& warp, const Points& points) {
+  Points result = moved(warp.start, points);
+  const std::vector<std::uint32_t> bins = NearestTexel(warp.bins).find(points);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const AffineMap& correction = warp.corrections[bins[static_cast<std::size_t>(i)]];
+    result.row(i) += points.row(i) * correction.linear + correction.offset;
+  }
   return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <variant>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -37,7 +38,18 @@ struct MovingAffine {
   AffineMap global;
 };
 
-using AppearanceWarp = std::variant<AffineMap, SmoothWarp, ShiftedPoints, MovingAffine>;
+// F(x) = start(x) + the correction of the nearest bin at x: affine maps that were moved on from those of
+// `start`.
+struct BinnedAffine {
+  MovingAffine start;
+  Points bins;
+  std::vector<AffineMap> corrections;  // one each
+};
+
+// The map of a point by moving least squares.
+AffineMap affine_at(const MovingAffine& warp, const Eigen::RowVectorXd& point);
+
+using AppearanceWarp = std::variant<AffineMap, SmoothWarp, ShiftedPoints, MovingAffine, BinnedAffine>;
 
 // The images of points, a row each. A point that is NaN gives NaN.
 Points images_of(const AppearanceWarp& warp, const Points& points);
