@@ -239,6 +239,14 @@ PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoic
   return new_map(file_name(parameter, choice), kGrey, {TargetChannel::of(parameter)}, set, choice);
 }
 
+// The colour of a file that holds nothing else, in one channel, where the result has three.
+std::optional<Parameter> grey_alone(const PlannedMap& planned, const TargetChoice& choice) {
+  if (choice.colors_stay_grey || planned.parts.size() != 1) return std::nullopt;
+  const std::vector<TargetChannel>& channels = planned.parts.front().channels;
+  if (channels.size() != 1 || find_color(channels) == channels.end()) return std::nullopt;
+  return channels.front().parameter;
+}
+
 TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   TargetPlan plan;
   std::vector<bool> seen(set.maps.size());
@@ -256,6 +264,8 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
       holds_something = holds_something || is_changed;
       planned.parts.push_back(std::move(part));
     }
+    if (const auto color = grey_alone(planned, choice))
+      planned = {planned.path, color_map(set, *color, choice).parts};
     if (holds_something) plan.maps.push_back(std::move(planned));
   }
   for (const Parameter parameter : choice.parameters) {

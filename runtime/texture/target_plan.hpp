@@ -85,14 +85,14 @@ struct TargetChoice {
 std::string file_name(Parameter parameter, const TargetChoice& choice);
 
 // As inputs: every map of the set that holds something converted gives a file of its name, in which only that
-// is changed; a constant gives a map of its own (`roughness`, `specular`), and files of what is carried are
-// copied. The other layouts name their files themselves; what is carried and has no channel there has a file,
-// and coverage is the alpha of diffuse or base colour. Parameters that the set does not have, since the
-// converter makes them, have no place in as inputs: kUsage.
-// Throws kUsage where two results would have one name, where one is an input, where one channel is two
-// things, where a layout would lose a channel of an input or has no place for a constant, and for an unknown
-// extension; kInput where a file to copy is not there; kOutput where a result exists and `force` is not set
-// or where the folder is a file.
+// is changed (a colour that is grey there and none in the result becomes three channels); a constant gives a
+// map of its own (`roughness`, `specular`), and files of what is carried are copied. The other layouts name
+// their files themselves; what is carried and has no channel there has a file, and coverage is the alpha of
+// diffuse or base colour. Parameters that the set does not have, since the converter makes them, have no
+// place in as inputs: kUsage. Throws kUsage where two results would have one name, where one is an input,
+// where one channel is two things, where a layout would lose a channel of an input or has no place for a
+// constant, and for an unknown extension; kInput where a file to copy is not there; kOutput where a result
+// exists and `force` is not set or where the folder is a file.
 TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice);
 
 // Throws kOutput where the folder of the results is not there and cannot be made, and where one cannot be

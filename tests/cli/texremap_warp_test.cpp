@@ -68,6 +68,29 @@ TEST_CASE("texremap warps: a folder becomes what the warp says of each texel") {
     }
 }
 
+TEST_CASE("texremap warps: grey maps become colours under their names") {
+  const WarpSession session;
+  write_image(session.path("wood/oak_specular.exr"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeFloat),
+              [](int x, int y, int) { return 0.5f * noise(x, y, 3); });
+  require_success(session.texremap(
+      {"convert", session.path("wood"), "--fit", session.path("stony.json"), "-o", session.path("out")}));
+  const TestImage diffuse = read_image(session.path("wood/oak_diffuse.exr")),
+                  roughness = read_image(session.path("wood/oak_roughness.exr")),
+                  found = read_image(session.path("out/oak_specular.exr"));
+  REQUIRE(found.spec.nchannels == 3);
+  for (int x = 0; x < kSize; ++x) {
+    WarpTexel texel{};
+    for (int c = 0; c < 3; ++c) {
+      texel[static_cast<std::size_t>(c)] = diffuse.at(x, 7, c);
+      texel[static_cast<std::size_t>(3 + c)] = 0.5f * noise(x, 7, 3);
+    }
+    texel[6] = roughness.at(x, 7, 0) * roughness.at(x, 7, 0);
+    const WarpTexel expected = evaluate_warp(session.fit.warp, texel);
+    for (int c = 0; c < 3; ++c)
+      CHECK(found.at(x, 7, c) == Approx(expected[static_cast<std::size_t>(3 + c)]).margin(1e-4));
+  }
+}
+
 TEST_CASE("texremap warps: what means nothing to them is refused, and nothing is written") {
   const WarpSession session;
   const auto refused = [&](const std::vector<std::string>& more, const std::string& message) {
