@@ -37,6 +37,17 @@ struct BrdfModel {
 // kUsage with the nearest known name, and for a model that is neither scaled nor given by F0.
 BrdfModel builtin_brdf(const std::string& name);
 
+// A model whose specular map holds a scale or F0: `lobe` where reflectance is linear in it; else `lobe` is of
+// a mirror-white surface, and F0 that of a dielectric under exact Fresnel reflectance.
+struct MapModel {
+  BrdfModel lobe;
+  bool is_dielectric = false;
+};
+
+// The built-in model of this name for maps, which hold values of 0 to 1: where a model is given by an index,
+// its F0. Throws kUsage with the nearest known name, and for conductors, of which F0 does not tell the index.
+MapModel builtin_map_model(const std::string& name);
+
 // The lobe of a mirror-white surface: reflectance without Fresnel.
 double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& geometry);
 

@@ -315,6 +315,27 @@ BrdfModel builtin_brdf(const std::string& name) {
                                      "plain scale or F0");
 }
 
+MapModel builtin_map_model(const std::string& name) {
+  find_model(BuiltinRenderer(), name);
+  const BuiltinModel* model = find_builtin(name);
+  switch (model->reflectance) {
+    case Reflectance::kScale:
+    case Reflectance::kTrimmedScale:
+      return {{model->brdf, Fresnel::kNone}, false};
+    case Reflectance::kSchlick:
+    case Reflectance::kSchlickIor:
+    case Reflectance::kMetallic:
+      return {{model->brdf, Fresnel::kSchlick}, false};
+    case Reflectance::kDielectric:
+      return {{model->brdf, Fresnel::kNone}, true};
+    case Reflectance::kConductor:
+      break;
+  }
+  throw Error(ErrorKind::kUsage, name +
+                                     ": is a conductor, whose index maps of F0 do not tell; expected a "
+                                     "model of a scale, of F0 or of a dielectric");
+}
+
 std::unique_ptr<Renderer> make_builtin_renderer() { return std::make_unique<BuiltinRenderer>(); }
 
 }  // namespace remapc

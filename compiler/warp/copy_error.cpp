@@ -9,7 +9,7 @@ constexpr std::size_t kMostSources = std::size_t{1} << 14, kMostCopies = std::si
 
 // The same material of fewer texels, all of them finite.
 WarpMaterial thinned(const WarpMaterial& material, std::size_t limit) {
-  WarpMaterial result{material.name, material.model, {}};
+  WarpMaterial result{material.name, material.model, {}, material.is_dielectric};
   for (const std::uint32_t texel : sample_texels(material, limit))
     result.texels.push_back(held(material.texels[texel]));
   return result;

@@ -37,7 +37,8 @@ bool is_quadratic(AppearanceDistance distance) {
 }
 
 Eigen::VectorXd mean_of(const MaterialRef& material, const std::vector<QuadratureDirection>& directions) {
-  if (material.parametric() == nullptr) return mean_reflectance(*material.tabulated());
+  if (material.tabulated() != nullptr) return mean_reflectance(*material.tabulated());
+  if (!material.is_separable()) return mean_of_samples(*material.parametric());
   return mean_reflectance(*material.parametric(), lobe_table(material.parametric()->model, directions));
 }
 
@@ -112,7 +113,7 @@ Eigen::VectorXd direction_weights(const MaterialRef& source, const MaterialRef& 
 
 FeaturePair appearance_features(const MaterialRef& source, const MaterialRef& target,
                                 AppearanceDistance distance) {
-  if (is_quadratic(distance) && source.parametric() != nullptr && target.parametric() != nullptr)
+  if (is_quadratic(distance) && source.is_separable() && target.is_separable())
     return separable_features(*source.parametric(), *target.parametric(), distance);
   if (source.is_profiles() != target.is_profiles())
     throw remap::Error(

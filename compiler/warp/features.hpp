@@ -41,6 +41,7 @@ struct SampledFeatures {
   Eigen::VectorXd weights;    // of the samples of one channel: square roots of what their differences count
   Eigen::MatrixXd basis;      // 3 x samples rows; orthonormal columns that span 512 texels of both materials
   LobeTable lobes;            // of parameters; empty for tables
+  Eigen::VectorXd cosines;    // of dielectrics: between light and half vector at every direction; else empty
 };
 
 using AppearanceFeatures = std::variant<SeparableFeatures, SampledFeatures>;

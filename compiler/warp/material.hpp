@@ -20,6 +20,7 @@ struct WarpMaterial {
   std::string name;  // for messages
   BrdfModel model;   // of the specular lobe; GGX with Schlick's Fresnel unless said otherwise
   std::vector<remap::WarpTexel> texels;
+  bool is_dielectric = false;  // as MapModel has it: reflectance is not linear in specular
 };
 
 // Texels that are entries of a table: measured BRDFs, or scattering profiles P(r) of the diffuse component of
@@ -45,6 +46,8 @@ class MaterialRef {
   }
   // Whether all values of a texel are finite, or it is an entry of the table.
   bool takes_part(std::size_t texel) const noexcept;
+  // Parameters in which reflectance is linear, but for alpha.
+  bool is_separable() const noexcept { return parametric_ != nullptr && !parametric_->is_dielectric; }
   bool is_profiles() const noexcept { return tabulated_ != nullptr && !tabulated_->radii.empty(); }
   // Empty where it is of the other kind.
   const WarpMaterial* parametric() const noexcept { return parametric_; }

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "error.hpp"
+#include "sweep/fresnel.hpp"
 
 namespace remapc {
 namespace {
@@ -18,6 +19,8 @@ constexpr std::size_t kBasisTexels = 256;  // of each material
 constexpr double kLeastShare = 1e-9;       // of the largest eigenvalue: weaker directions are noise
 constexpr Eigen::Index kLargestBasis = 64;
 constexpr double kLogFloor = 0.05;
+constexpr double kLargestF0 = 0.999;
+constexpr std::size_t kReferenceTexels = 400;
 
 // The radii of both, growing, each once.
 std::vector<double> merged_radii(const TabulatedMaterial& a, const TabulatedMaterial& b) {
@@ -88,6 +91,22 @@ Eigen::VectorXd samples_at(const SampledFeatures& features, const MaterialRef& m
   return samples_of(features, *material.tabulated(), material.tabulated()->entries[texel]);
 }
 
+// Exact Fresnel reflectance of a dielectric of this F0; of a mirror where F0 is almost 1.
+Eigen::VectorXd dielectric_reflectance(const Eigen::VectorXd& cosines, double f0) {
+  const double ior = ior_of_reflectance(std::min(f0, kLargestF0));
+  return cosines.unaryExpr([&](double cosine) { return fresnel_dielectric(cosine, ior).mean(); });
+}
+
+// What parameters are sampled by.
+void add_lobes(const WarpMaterial& material, SampledFeatures* features) {
+  const std::vector<QuadratureDirection> directions = half_vector_quadrature();
+  features->lobes = lobe_table(material.model, directions);
+  if (!material.is_dielectric) return;
+  features->cosines.resize(static_cast<Eigen::Index>(directions.size()));
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    features->cosines[static_cast<Eigen::Index>(i)] = directions[i].geometry.cos_light_half;
+}
+
 // An orthonormal basis of what some texels of both span; the principal directions about the origin.
 Eigen::MatrixXd basis_of(const SampledFeatures& source, const MaterialRef& source_material,
                          const SampledFeatures& target, const MaterialRef& target_material) {
@@ -117,8 +136,10 @@ Eigen::VectorXd samples_of(const SampledFeatures& features, const remap::WarpTex
   for (Eigen::Index c = 0; c < 3; ++c) {
     const double diffuse = static_cast<double>(texel[static_cast<std::size_t>(c)]) / std::numbers::pi;
     const double specular = static_cast<double>(texel[static_cast<std::size_t>(3 + c)]);
-    const auto lobe = [&](Eigen::Index node) {
-      return specular * features.lobes.slope.col(node) + features.lobes.base.col(node);
+    const auto lobe = [&](Eigen::Index node) -> Eigen::VectorXd {
+      if (features.cosines.size() == 0)
+        return specular * features.lobes.slope.col(node) + features.lobes.base.col(node);
+      return features.lobes.slope.col(node).cwiseProduct(dielectric_reflectance(features.cosines, specular));
     };
     samples.segment(c * rows, rows) =
         ((1.0 - width.fraction) * lobe(width.node) + width.fraction * lobe(width.node + 1)).array() + diffuse;
@@ -139,6 +160,20 @@ Eigen::VectorXd samples_of(const SampledFeatures& features, const TabulatedMater
   return samples;
 }
 
+Eigen::VectorXd mean_of_samples(const WarpMaterial& material) {
+  SampledFeatures features;
+  features.weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(half_vector_quadrature().size()));
+  add_lobes(material, &features);
+  const Eigen::Index rows = features.weights.size();
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows);
+  const std::vector<std::uint32_t> texels = sample_texels(material, kReferenceTexels);
+  for (const std::uint32_t texel : texels) {
+    const Eigen::VectorXd samples = samples_of(features, held(material.texels[texel]));
+    for (Eigen::Index c = 0; c < 3; ++c) sum += samples.segment(c * rows, rows);
+  }
+  return sum / (3.0 * static_cast<double>(texels.size()));
+}
+
 Eigen::VectorXd features_of_samples(const SampledFeatures& features, const Eigen::VectorXd& samples) {
   return features.basis.transpose() * weighted(features, samples);
 }
@@ -148,8 +183,7 @@ FeaturePair sampled_features(const MaterialRef& source, const MaterialRef& targe
   const SampledFeatures frame = frame_of(source, target, distance, weights);
   const auto with_lobes = [&](const MaterialRef& material) {
     SampledFeatures features = frame;
-    if (material.parametric() != nullptr)
-      features.lobes = lobe_table(material.parametric()->model, half_vector_quadrature());
+    if (material.parametric() != nullptr) add_lobes(*material.parametric(), &features);
     return features;
   };
   SampledFeatures from = with_lobes(source), to = with_lobes(target);

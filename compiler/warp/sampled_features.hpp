@@ -9,6 +9,9 @@ namespace remapc {
 FeaturePair sampled_features(const MaterialRef& source, const MaterialRef& target,
                              AppearanceDistance distance, const Eigen::VectorXd& weights);
 
+// The mean reflectance over 400 texels and all channels, at every direction.
+Eigen::VectorXd mean_of_samples(const WarpMaterial& material);
+
 Eigen::VectorXd features_of_samples(const SampledFeatures& features, const Eigen::VectorXd& samples);
 
 // What the features compare: reflectance at every direction, or a profile at every radius, of red, green and

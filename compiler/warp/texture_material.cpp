@@ -127,7 +127,9 @@ remap::SourceParameter source_of(const remap::SetParameter& parameter, const rem
 TextureMaterial read_texture_material(const fs::path& folder, const std::string& model, AlbedoAlone albedo) {
   TextureMaterial result;
   result.material.name = folder.string();
-  result.material.model = builtin_brdf(model);
+  const MapModel map_model = builtin_map_model(model);
+  result.material.model = map_model.lobe;
+  result.material.is_dielectric = map_model.is_dielectric;
   const MaterialRequest request = request_of(folder, albedo);
   result.is_albedo = request.is_albedo;
   remap::TextureSet set = open_texture_set(request.maps);

@@ -206,7 +206,7 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
   fit.compiled.coordinates = std::get<remap::AppearanceCoordinates>(fit.source.coordinates);
   const std::size_t nodes =
       options.nodes != 0 ? options.nodes : default_nodes(fit.diagnostics.dimensions, options.exact);
-  WarpMaterial chosen{target.name, target.model, {}};
+  WarpMaterial chosen{target.name, target.model, {}, target.is_dielectric};
   chosen.texels.reserve(matched_texels.target.texels.size());
   for (const std::uint32_t texel : matched_texels.target.texels)
     chosen.texels.push_back(held(target.texels[texel]));

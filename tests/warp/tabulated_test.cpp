@@ -127,6 +127,39 @@ TEST_CASE("distances without a closed form find the same correspondence", "[warp
   }
 }
 
+TEST_CASE("dielectrics: exact Fresnel reflectance is near Schlick's, and finds the same correspondence",
+          "[warp]") {
+  const WarpSet set = leaf_set(64);
+  WarpSet exact = set;
+  const MapModel model = builtin_map_model("mitsuba/ggx-dielectric");
+  exact.target.model = model.lobe;
+  exact.target.is_dielectric = model.is_dielectric;
+  // By plain distances, which need no reference, of one texel in both ways.
+  const FeaturePair pair = appearance_features(set.target, exact.target, AppearanceDistance::kPlain);
+  const remap::WarpTexel texel = set.target.texels[1234];
+  const Eigen::VectorXd by_schlick = features_of(pair.source, texel),
+                        by_fresnel = features_of(pair.target, texel);
+  const double difference = (by_schlick - by_fresnel).norm() / by_schlick.norm();
+  CHECK(difference > 1e-4);
+  CHECK(difference < 0.1);
+  const auto strokes = strokes_of(set, 0);
+  const double schlick = error_of(set, fit_warp(set.source, set.target, strokes), set.source, set.target);
+  const WarpFit fit = fit_warp(set.source, exact.target, strokes);
+  const double fresnel = error_of(set, fit, set.source, exact.target);
+  CAPTURE(schlick, fresnel, fit.diagnostics.coordinates_error);
+  CHECK(std::abs(schlick - fresnel) < 0.05);
+  CHECK(fit.diagnostics.coordinates_error < 0.03);
+}
+
+TEST_CASE("models for maps: all of the renderer but conductors", "[warp]") {
+  CHECK(builtin_map_model("mitsuba/as-ior").lobe == BrdfModel{Brdf::kAs, Fresnel::kSchlick});
+  CHECK(builtin_map_model("mitsuba/ward-conserving").lobe == BrdfModel{Brdf::kWard, Fresnel::kNone});
+  CHECK(builtin_map_model("mitsuba/beckmann-metallic").lobe == BrdfModel{Brdf::kBeckmann, Fresnel::kSchlick});
+  CHECK(builtin_map_model("mitsuba/beckmann-dielectric").is_dielectric);
+  CHECK_THROWS_WITH(builtin_map_model("mitsuba/ggx-conductor"), Catch::Contains("is a conductor"));
+  CHECK_THROWS_WITH(builtin_map_model("mitsuba/gxx"), Catch::Contains("mitsuba/ggx"));
+}
+
 TEST_CASE("tables: a material tabulated lies where its parameters do", "[warp]") {
   const WarpSet set = leaf_set(48);
   const auto strokes = strokes_of(set, 0);
