@@ -77,7 +77,7 @@ struct WarpFit : AppearanceMatch {
   }
 };
 
-// 0.1 s for 512^2 texels.
+// 0.12 s for 512^2 texels in two dimensions, 0.14 s in three.
 WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
                  const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
 
