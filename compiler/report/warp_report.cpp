@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base64.hpp"
 #include "error.hpp"
 #include "files.hpp"
 #include "report/appearance_plot.hpp"
@@ -72,20 +73,6 @@ std::vector<PlottedPoints> layers_over(const Cloud& below, const Cloud& cloud) {
   return layers;
 }
 
-std::string base64(const std::string& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(bytes.size() - i, 3);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < count ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
-  }
-  return text;
-}
-
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char letter : text) switch (letter) {
@@ -109,7 +96,8 @@ std::string escaped(const std::string& text) {
 
 std::string figure_html(const Image& picture, const std::string& caption) {
   return "<figure><img alt=\"" + escaped(caption) + "\" src=\"data:image/png;base64," +
-         base64(png_bytes(picture)) + "\"><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+         remap::base64(png_bytes(picture)) + "\"><figcaption>" + escaped(caption) +
+         "</figcaption></figure>\n";
 }
 
 std::string stroke_key(std::size_t stroke_count) {

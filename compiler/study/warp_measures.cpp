@@ -9,6 +9,7 @@ namespace remapc {
 namespace {
 
 constexpr double kShift = 0.02, kMostApart = 0.05;  // of neighbours, in spreads of the source
+constexpr int kAxes = 3;                            // on which texels are beside each other
 constexpr double kTorn = 0.25;                      // of the template's spread
 constexpr int kLeastTexels = 4;                     // of an occupied bin
 
@@ -17,11 +18,6 @@ Eigen::MatrixXd columns_of(const AppearanceFeatures& features, const std::vector
   for (std::size_t i = 0; i < texels.size(); ++i)
     columns.col(static_cast<Eigen::Index>(i)) = features_of(features, texels[i]);
   return columns;
-}
-
-// Coordinates on the first three axes, in spreads.
-Points projected(const AppearanceSpace& space, const Eigen::MatrixXd& features) {
-  return ((features.colwise() - space.mean).transpose() * space.axes) / space.radius;
 }
 
 // For each texel one that is a little farther along one axis, each axis in turn. Texels at the rim have none.
@@ -53,7 +49,7 @@ WarpMeasures::WarpMeasures(const WarpCase& measured)
       source_(columns_of(pair_.source, measured.source.texels)),
       target_(columns_of(pair_.target, measured.target.texels)),
       truth_(columns_of(pair_.target, measured.truth)) {
-  neighbours_ = neighbours_of(projected(appearance_space(measured.source, pair_.source), source_));
+  neighbours_ = neighbours_of(projected(appearance_space(measured.source, pair_.source), source_, kAxes));
   const Points positions = on_target_axes(target_).leftCols(dimension_of(target_space_));
   const BinGrid grid(positions, occupancy_of(positions, {}).spacing);
   std::vector<int> counts(grid.size(), 0);
@@ -69,7 +65,7 @@ WarpMeasures::WarpMeasures(const WarpCase& measured)
 }
 
 Points WarpMeasures::on_target_axes(const Eigen::MatrixXd& features) const {
-  return projected(target_space_, features);
+  return projected(target_space_, features, kAxes);
 }
 
 TexelCopy WarpMeasures::nearest() const {

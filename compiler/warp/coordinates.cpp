@@ -43,11 +43,6 @@ std::array<double, 3> stress_of(const Eigen::MatrixXd& columns, const Eigen::Mat
   return error;
 }
 
-// Positions of texels that take part, by the features themselves.
-Points projected(const AppearanceSpace& space, const Eigen::MatrixXd& columns, int dimension) {
-  return (columns.colwise() - space.mean).transpose() * space.axes.leftCols(dimension) / space.radius;
-}
-
 // Least squares over the 36 terms of texels, drawn to small weights.
 Placement fitted(const WarpMaterial& material, const AppearanceFeatures& features,
                  const AppearanceSpace& space, int dimension) {
@@ -99,6 +94,10 @@ AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFe
   space.axes.leftCols(found) = solver.eigenvectors().rightCols(found).rowwise().reverse();
   space.stress = stress_of(columns, space.axes);
   return space;
+}
+
+Points projected(const AppearanceSpace& space, const Eigen::MatrixXd& columns, int dimension) {
+  return (columns.colwise() - space.mean).transpose() * space.axes.leftCols(dimension) / space.radius;
 }
 
 int dimension_of(const AppearanceSpace& space) {

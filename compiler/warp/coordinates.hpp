@@ -27,6 +27,9 @@ struct AppearanceSpace {
 // alike (radius below 1e-3 of the mean's length): there is nothing to tell apart.
 AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFeatures& features);
 
+// Positions of features, a column each, by the features themselves.
+Points projected(const AppearanceSpace& space, const Eigen::MatrixXd& columns, int dimension);
+
 // The smallest number of dimensions, at most 3, whose stress is below 3 %.
 int dimension_of(const AppearanceSpace& space);
 

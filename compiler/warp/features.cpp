@@ -37,8 +37,7 @@ bool is_quadratic(AppearanceDistance distance) {
 }
 
 Eigen::VectorXd mean_of(const MaterialRef& material, const std::vector<QuadratureDirection>& directions) {
-  if (material.tabulated() != nullptr) return mean_reflectance(*material.tabulated());
-  if (!material.is_separable()) return mean_of_samples(*material.parametric());
+  if (!material.is_separable()) return mean_of_samples(material);
   return mean_reflectance(*material.parametric(), lobe_table(material.parametric()->model, directions));
 }
 

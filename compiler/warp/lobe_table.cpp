@@ -7,8 +7,6 @@
 namespace remapc {
 namespace {
 
-constexpr std::size_t kReferenceTexels = 400;
-
 double node_width(Eigen::Index node) {
   const double share = static_cast<double>(node) / static_cast<double>(kWidthNodes - 1);
   return kLeastWidth * std::pow(kLargestWidth / kLeastWidth, share);
@@ -64,18 +62,6 @@ Eigen::VectorXd mean_reflectance(const WarpMaterial& material, const LobeTable& 
   }
   const Eigen::VectorXd sum = table.slope * slope + table.base * base;
   return (sum.array() + diffuse / std::numbers::pi) / static_cast<double>(texels.size());
-}
-
-Eigen::VectorXd mean_reflectance(const TabulatedMaterial& material) {
-  const Eigen::Index rows = material.samples.rows() / 3;
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows);
-  const std::vector<std::uint32_t> texels = sample_texels(material, kReferenceTexels);
-  for (const std::uint32_t texel : texels)
-    for (Eigen::Index c = 0; c < 3; ++c)
-      sum += material.samples.col(static_cast<Eigen::Index>(material.entries[texel]))
-                 .segment(c * rows, rows)
-                 .cast<double>();
-  return sum / (3.0 * static_cast<double>(texels.size()));
 }
 
 }  // namespace remapc

@@ -26,8 +26,9 @@ struct LobeTable {
 };
 LobeTable lobe_table(const BrdfModel& model, const std::vector<QuadratureDirection>& directions);
 
+inline constexpr std::size_t kReferenceTexels = 400;
+
 // The mean reflectance of a material over 400 texels and all channels, at every direction.
 Eigen::VectorXd mean_reflectance(const WarpMaterial& material, const LobeTable& table);
-Eigen::VectorXd mean_reflectance(const TabulatedMaterial& material);
 
 }  // namespace remapc

@@ -20,7 +20,6 @@ constexpr double kLeastShare = 1e-9;       // of the largest eigenvalue: weaker 
 constexpr Eigen::Index kLargestBasis = 64;
 constexpr double kLogFloor = 0.05;
 constexpr double kLargestF0 = 0.999;
-constexpr std::size_t kReferenceTexels = 400;
 
 // The radii of both, growing, each once.
 std::vector<double> merged_radii(const TabulatedMaterial& a, const TabulatedMaterial& b) {
@@ -160,15 +159,15 @@ Eigen::VectorXd samples_of(const SampledFeatures& features, const TabulatedMater
   return samples;
 }
 
-Eigen::VectorXd mean_of_samples(const WarpMaterial& material) {
+Eigen::VectorXd mean_of_samples(const MaterialRef& material) {
   SampledFeatures features;
-  features.weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(half_vector_quadrature().size()));
-  add_lobes(material, &features);
-  const Eigen::Index rows = features.weights.size();
+  const auto rows = static_cast<Eigen::Index>(half_vector_quadrature().size());
+  features.weights = Eigen::VectorXd::Ones(rows);
+  if (material.parametric() != nullptr) add_lobes(*material.parametric(), &features);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows);
   const std::vector<std::uint32_t> texels = sample_texels(material, kReferenceTexels);
   for (const std::uint32_t texel : texels) {
-    const Eigen::VectorXd samples = samples_of(features, held(material.texels[texel]));
+    const Eigen::VectorXd samples = samples_at(features, material, texel);
     for (Eigen::Index c = 0; c < 3; ++c) sum += samples.segment(c * rows, rows);
   }
   return sum / (3.0 * static_cast<double>(texels.size()));

@@ -10,7 +10,7 @@ FeaturePair sampled_features(const MaterialRef& source, const MaterialRef& targe
                              AppearanceDistance distance, const Eigen::VectorXd& weights);
 
 // The mean reflectance over 400 texels and all channels, at every direction.
-Eigen::VectorXd mean_of_samples(const WarpMaterial& material);
+Eigen::VectorXd mean_of_samples(const MaterialRef& material);
 
 Eigen::VectorXd features_of_samples(const SampledFeatures& features, const Eigen::VectorXd& samples);
 

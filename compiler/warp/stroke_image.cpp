@@ -2,6 +2,7 @@
 
 #include "error.hpp"
 #include "texture/image_io.hpp"
+#include "warp/image_texels.hpp"
 
 namespace remapc {
 
@@ -21,8 +22,7 @@ void read_stroke_image(const std::filesystem::path& image, const MapFrame& mater
     throw Error(ErrorKind::kInput, image.string() + ": is " + size_text(width, height) + "; expected " +
                                        size_text(material.width, material.height) +
                                        ", the size of the maps in " + material.name);
-  std::vector<std::byte> texels(height * layout.row_bytes());
-  reader.read_rows(0, layout.height, texels.data());
+  const std::vector<std::byte> texels = texels_of(reader);
   std::vector<float> values(width * height);
   for (std::size_t c = 0; c < layout.channels.size(); ++c) {
     const remap::Channel& channel = layout.channels[c];

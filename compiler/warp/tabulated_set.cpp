@@ -12,6 +12,7 @@
 #include "number_text.hpp"
 #include "table/csv.hpp"
 #include "texture/image_io.hpp"
+#include "warp/image_texels.hpp"
 
 namespace remapc {
 namespace {
@@ -85,13 +86,6 @@ std::vector<float> channel_values(remap::ImageReader& image, std::size_t channel
   return values;
 }
 
-std::vector<std::byte> all_texels(remap::ImageReader& image) {
-  const remap::ImageLayout& layout = image.layout();
-  std::vector<std::byte> texels(static_cast<std::size_t>(layout.height) * layout.row_bytes());
-  image.read_rows(0, layout.height, texels.data());
-  return texels;
-}
-
 void set_size(TabulatedSet& set, const remap::ImageLayout& layout) {
   set.width = static_cast<std::size_t>(layout.width);
   set.height = static_cast<std::size_t>(layout.height);
@@ -103,7 +97,7 @@ void read_profile_map(TabulatedSet& set) {
   std::vector<std::string> names;
   for (const remap::Channel& channel : image.layout().channels) names.push_back(channel.name);
   const ProfileLayout layout = profile_layout(names, set.table.string());
-  const std::vector<std::byte> texels = all_texels(image);
+  const std::vector<std::byte> texels = texels_of(image);
   TabulatedMaterial& material = set.material;
   material.radii = layout.radii;
   material.samples.resize(static_cast<Eigen::Index>(layout.columns.size()),
@@ -185,7 +179,7 @@ void read_index_map(const fs::path& folder, TabulatedSet& set) {
   set_size(set, layout);
   const auto entries = static_cast<double>(set.material.samples.cols());
   const double largest = largest_of(layout.channels[0].type);
-  for (const float value : channel_values(image, 0, all_texels(image))) {
+  for (const float value : channel_values(image, 0, texels_of(image))) {
     const double entry = std::round(static_cast<double>(value) * largest);
     const bool is_entry = entry >= 0.0 && entry < entries;  // not NaN either
     set.material.entries.push_back(is_entry ? static_cast<std::uint32_t>(entry) : kNoEntry);

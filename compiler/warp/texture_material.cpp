@@ -5,6 +5,7 @@
 #include "sets/discovery.hpp"
 #include "texture/convert_maps.hpp"
 #include "texture/texture_set.hpp"
+#include "warp/image_texels.hpp"
 
 namespace remapc {
 namespace {
@@ -93,14 +94,6 @@ MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
                     ": has neither diffuse and specular nor base colour and metallic maps; "
                     "expected either pair");
   return result;
-}
-
-// All texels of a map in memory.
-std::vector<std::byte> texels_of(remap::ImageReader& map) {
-  const remap::ImageLayout& layout = map.layout();
-  std::vector<std::byte> texels(static_cast<std::size_t>(layout.height) * layout.row_bytes());
-  map.read_rows(0, layout.height, texels.data());
-  return texels;
 }
 
 remap::SourceParameter source_of(const remap::SetParameter& parameter, const remap::TextureSet& set,

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base64.hpp"
 #include "error.hpp"
 #include "model/fit_fields.hpp"
 #include "model/fit_json.hpp"
@@ -20,20 +21,6 @@ constexpr const char* kQuadratic = "quadratic";
 constexpr const char* kBlended = "blended";
 constexpr const char* kCopied = "copied";
 
-constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
-  }
-  return text;
-}
-
 std::vector<std::uint8_t> read_base64(const Field& field) {
   const std::string text = field.text();
   field.require(text.size() % 4 == 0, "base64 in whole groups of four");
@@ -45,7 +32,7 @@ std::vector<std::uint8_t> read_base64(const Field& field) {
     for (std::size_t k = 0; k < 4; ++k) {
       const bool pads =
           text[i + k] == '=' && i + 4 == text.size() && (k == 3 || (k == 2 && text[i + 3] == '='));
-      const std::size_t digit = pads ? 0 : kDigits.find(text[i + k]);
+      const std::size_t digit = pads ? 0 : kBase64Digits.find(text[i + k]);
       field.require(digit != std::string_view::npos, "base64 (A-Z a-z 0-9 + /)");
       if (pads) --count;
       group = group << 6 | static_cast<std::uint32_t>(digit);
