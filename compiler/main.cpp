@@ -3,7 +3,7 @@
 
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
-#include "version.hpp"
+#include "remap/version.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -31,6 +31,5 @@ int main(int argc, char** argv) {
   remapc::add_worker_check_command(app);
   remapc::add_show_command(app);
   remapc::add_preview_command(app);
-  remapc::add_study_command(app);
   return remap::run_app(app, argc, argv);
 }

@@ -1,5 +1,5 @@
 // Converts the maps of a material in memory, as an asset pipeline would: an 8-bit RGBA buffer with specular
-// in its colours (sRGB) and glossiness in its alpha, in place. No files, no image library.
+// in its colors (sRGB) and glossiness in its alpha, in place. No files, no image library.
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -7,7 +7,7 @@
 
 #include "convert/chained_converter.hpp"
 #include "convert/path.hpp"
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "texture/convert_maps.hpp"
 
 int main() try {

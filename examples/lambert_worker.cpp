@@ -1,4 +1,4 @@
-// A whole worker (compiler/workers/PROTOCOL.md), around the renderer of blinn_phong.hpp. Put yours in its
+// A whole worker (compiler/adapters/PROTOCOL.md), around the renderer of blinn_phong.hpp. Put yours in its
 // place.
 #include <fstream>
 #include <iostream>

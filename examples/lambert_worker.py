@@ -1,4 +1,4 @@
-"""A whole worker (compiler/workers/PROTOCOL.md), around a renderer that is a few lines of Python. Put yours in its place."""
+"""A whole worker (compiler/adapters/PROTOCOL.md), around a renderer that is a few lines of Python. Put yours in its place."""
 import array
 import json
 import sys

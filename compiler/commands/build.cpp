@@ -1,5 +1,5 @@
 // `remapc build`: everything that a manifest asks for, as far as it is not there yet.
-#include "build/build.hpp"
+#include "manifest/build.hpp"
 
 #include <chrono>
 #include <iostream>
@@ -11,8 +11,8 @@
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
-#include "error.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fit/split.hpp"
+#include "fit/rows/split.hpp"
 
 namespace remapc {
 namespace {

@@ -1,16 +1,16 @@
 #include "commands/casting_options.hpp"
 
 #include "commands/parameter_setting.hpp"
-#include "error.hpp"
+#include "remap/error.hpp"
 
 namespace remapc {
 
-void CastingOptions::add_options(CLI::App& app) {
+void RoleOptions::add_options(CLI::App& app) {
   source_.add_options(app, "--source");
   target_.add_options(app, "--target");
 }
 
-void CastingOptions::Side::add_options(CLI::App& app, const std::string& prefix) {
+void RoleOptions::Side::add_options(CLI::App& app, const std::string& prefix) {
   const std::string group = "Models with more parameters (remapc list --models, remapc renderers)";
   app.add_option(prefix + "-roughness", roughness,
                  "NAME or NAME:CONVENTION: the parameter that is the roughness; default: the model's own")
@@ -22,20 +22,20 @@ void CastingOptions::Side::add_options(CLI::App& app, const std::string& prefix)
       ->group(group);
 }
 
-Casting CastingOptions::Side::casting(const std::string& prefix) const {
-  Casting casting;
-  if (!roughness.empty()) cast_roughness(roughness, &casting);
-  casting.specular = specular;
-  casting.diffuse = diffuse;
+ParameterRoles RoleOptions::Side::roles(const std::string& prefix) const {
+  ParameterRoles roles;
+  if (!roughness.empty()) cast_roughness(roughness, &roles);
+  roles.specular = specular;
+  roles.diffuse = diffuse;
   for (const std::string& text : settings) {
     const ParameterSetting setting = parse_setting(prefix + "-set", text);
     if (setting.values.size() != 1)
       throw remap::Error(remap::ErrorKind::kUsage, prefix + "-set " + text + ": has " +
                                                        std::to_string(setting.values.size()) +
                                                        " values; expected one, as sweeps are of grey");
-    casting.fixed[setting.name] = setting.values[0];
+    roles.fixed[setting.name] = setting.values[0];
   }
-  return casting;
+  return roles;
 }
 
 }  // namespace remapc

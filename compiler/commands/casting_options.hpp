@@ -1,4 +1,4 @@
-// The options by which a command takes the castings of two models.
+// The options by which a command takes the roles of two models.
 #pragma once
 
 #include <string>
@@ -6,17 +6,17 @@
 
 #include <CLI/CLI.hpp>
 
-#include "sweep/casting.hpp"
+#include "probe/parameter_roles.hpp"
 
 namespace remapc {
 
-class CastingOptions {
+class RoleOptions {
  public:
   void add_options(CLI::App& app);
 
   // Throw kUsage.
-  Casting source() const { return source_.casting("--source"); }
-  Casting target() const { return target_.casting("--target"); }
+  ParameterRoles source() const { return source_.roles("--source"); }
+  ParameterRoles target() const { return target_.roles("--target"); }
 
  private:
   struct Side {
@@ -24,7 +24,7 @@ class CastingOptions {
     std::vector<std::string> settings;
 
     void add_options(CLI::App& app, const std::string& prefix);
-    Casting casting(const std::string& prefix) const;
+    ParameterRoles roles(const std::string& prefix) const;
   };
 
   Side source_, target_;

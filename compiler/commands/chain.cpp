@@ -4,17 +4,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include "build/build.hpp"
-#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
-#include "error.hpp"
-#include "files.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/inverse_table.hpp"
-#include "fit/split.hpp"
+#include "fit/rows/split.hpp"
+#include "fit_file/fit_json.hpp"
 #include "lower/lower.hpp"
-#include "model/fit_json.hpp"
+#include "manifest/build.hpp"
+#include "manifest/fit_folder.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
 
 namespace remapc {
 namespace {

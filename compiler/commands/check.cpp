@@ -9,9 +9,9 @@
 
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
-#include "error.hpp"
-#include "files.hpp"
-#include "table/named_table.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
+#include "table/material_table.hpp"
 
 namespace remapc {
 namespace {
@@ -30,9 +30,9 @@ struct Checked {
 
 Checked check(const CheckOptions& options) {
   const std::string content = remap::read_file(options.table.path);
-  if (is_named_table(content, options.table.path)) {
-    const NamedTable table = parse_named_table(content, options.table.path);
-    return {table.name, table.rows.size(), check_named_table(table)};
+  if (is_material_table(content, options.table.path)) {
+    const MaterialTable table = parse_material_table(content, options.table.path);
+    return {table.name, table.rows.size(), check_material_table(table)};
   }
   const Table table = options.table.read();
   return {table.name, table.rows.size(), check_table(table)};

@@ -25,6 +25,5 @@ void add_preview_command(CLI::App& app);
 void add_build_command(CLI::App& app);
 void add_chain_command(CLI::App& app);
 void add_invert_command(CLI::App& app);
-void add_study_command(CLI::App& app);
 
 }  // namespace remapc

@@ -5,16 +5,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
-#include "error.hpp"
 #include "fit/baselines.hpp"
 #include "fit/edge.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/plot.hpp"
-#include "fit/split.hpp"
+#include "fit/rows/split.hpp"
+#include "manifest/fit_folder.hpp"
+#include "remap/error.hpp"
+#include "report/fit_plot.hpp"
 
 namespace remapc {
 namespace {
@@ -186,7 +186,7 @@ void add_compare_command(CLI::App& app) {
   command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
   command->add_flag("--json", options->json, "Figures as JSON on standard output");
   command->footer(
-      "Errors over all usable rows: max is the largest, chroma shift the change of colour beyond the domain\n"
+      "Errors over all usable rows: max is the largest, chroma shift the change of color beyond the domain\n"
       "(`remapc fit --model auto` prints the same table with cross-validation and the edge of the domain).\n"
       "Example:\n  remapc compare ward_to_as.csv mitsuba_ward_to_mitsuba_as");
   command->callback([options] { run(*options); });

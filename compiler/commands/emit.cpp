@@ -5,10 +5,10 @@
 #include <iostream>
 #include <memory>
 
-#include "build/fit_folder.hpp"
 #include "commands/commands.hpp"
-#include "error.hpp"
-#include "files.hpp"
+#include "manifest/fit_folder.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
 
 namespace remapc {
 namespace {
@@ -35,7 +35,7 @@ FitFolder chosen_fits(const EmitCommand& options) {
   FitFolder chosen;
   for (const std::string& name : options.fits) {
     const remap::AnyFit fit = find_any_fit(name, options.fit_folder);
-    if (const auto* analytic = std::get_if<remap::AnalyticFit>(&fit))
+    if (const auto* analytic = std::get_if<remap::WorkflowFit>(&fit))
       chosen.analytic.push_back(*analytic);
     else if (const auto* warp = std::get_if<remap::WarpMapFit>(&fit))
       chosen.warps.push_back(*warp);
@@ -53,7 +53,7 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
   std::vector<GeneratedFile> files;
   for (const remap::Fit& fit : chosen.fits)
     files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit, code)});
-  for (const remap::AnalyticFit& fit : chosen.analytic)
+  for (const remap::WorkflowFit& fit : chosen.analytic)
     files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
   for (const remap::WarpMapFit& fit : chosen.warps)
     files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});

@@ -4,13 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
-#include "error.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/split.hpp"
+#include "fit/rows/split.hpp"
+#include "manifest/fit_folder.hpp"
+#include "remap/error.hpp"
 
 namespace remapc {
 namespace {

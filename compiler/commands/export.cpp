@@ -5,14 +5,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "build/fit_folder.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
-#include "error.hpp"
-#include "export/lookup_table.hpp"
-#include "files.hpp"
-#include "fit/split.hpp"
+#include "emit/lookup_table.hpp"
+#include "fit/rows/split.hpp"
+#include "manifest/fit_folder.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
 
 namespace remapc {
 namespace {
@@ -104,7 +104,7 @@ const char* const kFormat =
     "  lookup_error_max, _rms   of such reading against the fit, in the unit of each column, measured at\n"
     "                           lookup_error_samples points between the samples\n"
     "then a row of names and one row a sample: axes, then columns, in the models' own parameters. The\n"
-    "width of a coloured specular is read at its largest channel. The table has one axis where no column\n"
+    "width of a colored specular is read at its largest channel. The table has one axis where no column\n"
     "depends on specular; --only leaves out the one that does. --json gives axes, columns and errors.\n";
 
 }  // namespace

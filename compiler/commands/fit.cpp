@@ -11,14 +11,14 @@
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
-#include "error.hpp"
-#include "files.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/material_network.hpp"
-#include "fit/parametric_form.hpp"
-#include "fit/plot.hpp"
-#include "fit/split.hpp"
-#include "model/fit_json.hpp"
+#include "fit/network/material_network.hpp"
+#include "fit/parametric/parametric_form.hpp"
+#include "fit/rows/split.hpp"
+#include "fit_file/fit_json.hpp"
+#include "remap/error.hpp"
+#include "report/fit_plot.hpp"
+#include "system/files.hpp"
 #include "table/check.hpp"
 #include "table/domain.hpp"
 
@@ -122,10 +122,10 @@ MaterialNetworkOptions network_options(const FitCommand& command, const CLI::App
 void run_on_materials(const FitCommand& command, const CLI::App& app, const std::string& bytes) {
   require_material_options(command);
   remap::create_parent(command.folder / "fit.json");
-  const NamedTable table = parse_named_table(bytes, command.table.path);
+  const MaterialTable table = parse_material_table(bytes, command.table.path);
   constexpr double kUnits = 1000.0;
   remap::watch_interruptions();
-  remap::AnalyticFit fit;
+  remap::WorkflowFit fit;
   {
     remap::Progress progress("fit " + command.table.path, static_cast<std::size_t>(kUnits));
     fit = fit_material_network(table, bytes, network_options(command, app), [&](double share) {
@@ -146,7 +146,7 @@ void run_on_materials(const FitCommand& command, const CLI::App& app, const std:
     std::cout << json.dump(2) << "\n";
     return;
   }
-  std::cerr << path.string() << ": " << fit.training->method.at("network") << "; held out: base colour rms "
+  std::cerr << path.string() << ": " << fit.training->method.at("network") << "; held out: base color rms "
             << error_text(fit.training->base_color.rms) << ", metallic rms "
             << error_text(fit.training->metallic.rms) << "\n";
 }
@@ -154,7 +154,7 @@ void run_on_materials(const FitCommand& command, const CLI::App& app, const std:
 void run(const FitCommand& command, const CLI::App& app) {
   require_consistent(command, app);
   if (const std::string text = remap::read_file(command.table.path);
-      is_named_table(text, command.table.path)) {
+      is_material_table(text, command.table.path)) {
     run_on_materials(command, app, text);
     return;
   }

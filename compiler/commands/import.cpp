@@ -6,11 +6,11 @@
 
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
-#include "error.hpp"
-#include "files.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/svr_import.hpp"
-#include "model/fit_json.hpp"
+#include "fit/svr/svr_import.hpp"
+#include "fit_file/fit_json.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
 #include "table/table.hpp"
 
 namespace remapc {

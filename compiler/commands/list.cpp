@@ -5,13 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
-#include "number_text.hpp"
-#include "report_text.hpp"
-#include "sweep/renderer.hpp"
+#include "manifest/fit_folder.hpp"
+#include "renderer/renderer.hpp"
 #include "table/domain.hpp"
+#include "text/number_text.hpp"
+#include "text/report_text.hpp"
 
 namespace remapc {
 namespace {
@@ -57,7 +57,7 @@ void list_fits(const ListOptions& options) {
       std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << kind_name(fit.mapping)
                 << errors_text(fit, "held out") << "\n";
   }
-  for (const remap::AnalyticFit& fit : folder.analytic) {
+  for (const remap::WorkflowFit& fit : folder.analytic) {
     const std::string formula(formula_name(fit.conversion.formula));
     list.push_back({{"id", fit.id},
                     {"source", fit.conversion.source_model()},

@@ -16,14 +16,14 @@ void PairSelection::add_options(CLI::App& app) {
       ->capture_default_str();
   app.add_flag("--no-irradiance-matching", keep_irradiance,
                "Leave a factor between the light of two renderers in specular and diffuse");
-  castings.add_options(app);
+  roles.add_options(app);
 }
 
 void PairSelection::fill(PairOptions* options) const {
   options->source = source;
   options->target = target;
-  options->source_casting = castings.source();
-  options->target_casting = castings.target();
+  options->source_roles = roles.source();
+  options->target_roles = roles.target();
   options->objective = objective_preset(objective);
   options->objective_name = objective;
   const Objective preset = options->objective;

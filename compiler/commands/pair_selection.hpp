@@ -18,7 +18,7 @@ struct PairSelection {
   int resolution = 512;
   int pixel_samples = 1;
   bool keep_irradiance = false;
-  CastingOptions castings;
+  RoleOptions roles;
 
   void add_options(CLI::App& app);
   // Throws kUsage.

@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "error.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 

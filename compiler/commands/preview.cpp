@@ -1,5 +1,5 @@
 // `remapc preview`: source and conversion side by side, as pictures and figures.
-#include "study/preview.hpp"
+#include "report/preview.hpp"
 
 #include <cmath>
 #include <iomanip>
@@ -8,14 +8,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "build/fit_folder.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
-#include "error.hpp"
-#include "number_text.hpp"
-#include "sweep/image_file.hpp"
-#include "sweep/objective.hpp"
+#include "manifest/fit_folder.hpp"
+#include "probe/objective.hpp"
+#include "remap/error.hpp"
+#include "renderer/image_file.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

@@ -4,11 +4,11 @@
 #include "commands/commands.hpp"
 #include "commands/parameter_setting.hpp"
 #include "commands/renderer_options.hpp"
-#include "error.hpp"
-#include "number_text.hpp"
-#include "sweep/image_file.hpp"
-#include "sweep/objective.hpp"
-#include "sweep/renderer.hpp"
+#include "probe/objective.hpp"
+#include "remap/error.hpp"
+#include "renderer/image_file.hpp"
+#include "renderer/renderer.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

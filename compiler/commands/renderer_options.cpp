@@ -7,8 +7,9 @@ namespace remapc {
 
 void add_renderer_options(CLI::App& app, RendererOptions& options) {
   const std::string group = "Real renderers (remapc renderers lists them)";
-  app.add_option("--worker", options.workers,
-                 "NAME=COMMAND: a worker for models NAME/..., as compiler/workers/PROTOCOL.md describes them")
+  app.add_option(
+         "--worker", options.workers,
+         "NAME=COMMAND: a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes them")
       ->allow_extra_args(false)
       ->group(group);
   app.add_option("--worker-processes", options.processes, "Of one worker at once; 0: one a core")

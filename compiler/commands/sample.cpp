@@ -11,9 +11,9 @@
 #include "commands/parameter_setting.hpp"
 #include "commands/renderer_options.hpp"
 #include "commands/table_summary.hpp"
-#include "error.hpp"
-#include "files.hpp"
-#include "sweep/random_sweep.hpp"
+#include "remap/error.hpp"
+#include "sweep/material_sample.hpp"
+#include "system/files.hpp"
 
 namespace remapc {
 namespace {
@@ -33,8 +33,8 @@ struct SampleCommand {
   RendererOptions renderers;
 };
 
-RandomSweepOptions random_sweep_options(const SampleCommand& command) {
-  RandomSweepOptions options;
+MaterialSampleOptions material_sample_options(const SampleCommand& command) {
+  MaterialSampleOptions options;
   command.pair.fill(&options);
   options.count = command.count;
   options.seed = command.seed;
@@ -50,7 +50,7 @@ RandomSweepOptions random_sweep_options(const SampleCommand& command) {
   return options;
 }
 
-void report(const SampleCommand& command, const NamedTable& table, const PictureCount& pictures,
+void report(const SampleCommand& command, const MaterialTable& table, const PictureCount& pictures,
             double seconds) {
   TableSummary summary;
   for (const NamedRow& row : table.rows) summary.add(row.status, row.error);
@@ -68,11 +68,11 @@ void report(const SampleCommand& command, const NamedTable& table, const Picture
 void run(const SampleCommand& command) {
   const auto start = std::chrono::steady_clock::now();
   remap::watch_interruptions();
-  const RandomSweepOptions options = random_sweep_options(command);
+  const MaterialSampleOptions options = material_sample_options(command);
   if (!command.force && std::filesystem::exists(command.output))
     throw Error(ErrorKind::kOutput, command.output.string() + ": exists; --force replaces it");
   const auto renderer = make_renderers(command.renderers);
-  NamedTable table;
+  MaterialTable table;
   {
     PictureProgress progress(renderer.get(), "sample " + options.source + " -> " + options.target,
                              options.count, !command.quiet);
@@ -80,9 +80,9 @@ void run(const SampleCommand& command) {
     execution.jobs = command.jobs;
     execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };
     execution.cancelled = &remap::interruption();
-    table = run_random_sweep(*renderer, options, execution);
+    table = run_material_sample(*renderer, options, execution);
   }
-  remap::write_file(command.output, named_table_text(table));
+  remap::write_file(command.output, material_table_text(table));
   for (const std::string& remark : renderer->remarks()) std::cerr << "remapc: " << remark << "\n";
   report(command, table, renderer->pictures(),
          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -107,7 +107,7 @@ void add_options(CLI::App& app, SampleCommand& command) {
   app.add_option("--search", command.searched,
                  "A parameter of the target that is matched too; roughness, specular and diffuse always are")
       ->allow_extra_args(false);
-  app.add_flag("--grey", command.grey, "Grey materials: one value of each colour");
+  app.add_flag("--grey", command.grey, "Grey materials: one value of each color");
   app.add_option("--jobs", command.jobs, "Threads; 0: one a core. The table does not depend on it")
       ->capture_default_str();
   add_renderer_options(app, command.renderers);

@@ -4,17 +4,17 @@
 #include <iostream>
 #include <memory>
 
-#include "build/fit_folder.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
-#include "error.hpp"
-#include "fit/split.hpp"
+#include "fit/rows/split.hpp"
+#include "fit_file/fit_json.hpp"
 #include "lower/lower.hpp"
-#include "model/fit_json.hpp"
+#include "manifest/fit_folder.hpp"
 #include "model/round_trip.hpp"
-#include "number_text.hpp"
-#include "report_text.hpp"
+#include "remap/error.hpp"
 #include "table/domain.hpp"
+#include "text/number_text.hpp"
+#include "text/report_text.hpp"
 
 namespace remapc {
 namespace {
@@ -157,10 +157,10 @@ void print_round_trip(const remap::Fit& fit, const std::filesystem::path& folder
 
 // The three things that are apart: the models, the fit, its polynomials.
 void print_trust(const remap::Fit& fit) {
-  if (fit.likeness) {
-    std::cout << "How alike the models can be\n  picture " << figures_text(fit.likeness->image_error)
+  if (fit.image_similarity) {
+    std::cout << "How alike the models can be\n  picture " << figures_text(fit.image_similarity->image_error)
               << ", relative to the source's\n";
-    for (const remap::SphereSimilarity& sphere : fit.likeness->ssim)
+    for (const remap::SphereSimilarity& sphere : fit.image_similarity->ssim)
       std::cout << "  sphere  SSIM " << std::fixed << std::setprecision(3) << sphere.ssim << " at alpha "
                 << std::defaultfloat << number_text(sphere.alpha) << "\n";
   } else {
@@ -207,14 +207,14 @@ void print_training(const remap::NetworkTraining& training) {
            error_text(errors.max);
   };
   std::cout << "Errors on " << training.split.held_out_rows << " rows that it was not trained on (seed "
-            << training.split.seed << ")\n  base colour  " << figures(training.base_color)
+            << training.split.seed << ")\n  base color  " << figures(training.base_color)
             << "\n  metallic     " << figures(training.metallic) << "\nTraining\n";
   for (const auto& [key, value] : training.method) std::cout << "  " << key << ": " << value << "\n";
   std::cout << "Table " << training.table.name << ", sha256 " << training.table.sha256 << "\n";
   for (const auto& [key, value] : training.table.comments) std::cout << "  " << key << ": " << value << "\n";
 }
 
-void show_card(const remap::AnalyticFit& fit, const ShowOptions&) {
+void show_card(const remap::WorkflowFit& fit, const ShowOptions&) {
   const remap::WorkflowConversion& conversion = fit.conversion;
   std::cout << fit.id << "\n"
             << "  from    " << conversion.source_model() << "\n"

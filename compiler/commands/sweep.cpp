@@ -12,9 +12,9 @@
 #include "commands/pair_selection.hpp"
 #include "commands/renderer_options.hpp"
 #include "commands/table_summary.hpp"
-#include "error.hpp"
-#include "files.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -31,7 +31,7 @@ struct SweepCommand {
   int stages = 2;
   double diffuse = 0.0;
   unsigned jobs = 0;
-  bool resume = false, force = false, json = false, quiet = false;
+  bool force = false, json = false, quiet = false;
   std::filesystem::path output;
   RendererOptions renderers;
 };
@@ -57,7 +57,7 @@ void choose_samples(const SweepCommand& command, const Renderer& renderer, Sweep
   const remap::Range speculars =
       command.specular_range.empty()
           ? canonical_speculars(renderer,
-                                recast(find_model(renderer, options->source), options->source_casting))
+                                recast(find_model(renderer, options->source), options->source_roles))
           : parse_range("--specular-range", command.specular_range);
   options->samples = grid_samples(alphas, command.roughness_samples, speculars, command.specular_samples);
   options->sampling = grid_text(alphas, command.roughness_samples, speculars, command.specular_samples);
@@ -72,14 +72,9 @@ SweepOptions sweep_options(const SweepCommand& command, const Renderer& renderer
   return options;
 }
 
-void require_free_output(const SweepCommand& command, const std::filesystem::path& journal) {
-  if (command.force) return;
-  if (std::filesystem::exists(command.output))
-    throw Error(ErrorKind::kOutput, command.output.string() + ": exists; --force replaces it");
-  if (!command.resume && std::filesystem::exists(journal))
-    throw Error(
-        ErrorKind::kOutput,
-        journal.string() + ": an unfinished sweep lies here; --resume continues it, --force starts again");
+void require_free_output(const SweepCommand& command) {
+  if (!command.force && std::filesystem::exists(command.output))
+    throw Error(ErrorKind::kOutput, command.output.string() + ": already exists (--force overwrites)");
 }
 
 void warn_of_subpixel(const Table& table, const SweepOptions& options) {
@@ -109,8 +104,7 @@ void run(const SweepCommand& command) {
   remap::watch_interruptions();
   const auto renderer = make_renderers(command.renderers);
   const SweepOptions options = sweep_options(command, *renderer);
-  const std::filesystem::path journal = command.output.string() + ".partial";
-  require_free_output(command, journal);
+  require_free_output(command);
   remap::create_parent(command.output);
 
   Table table;
@@ -121,10 +115,9 @@ void run(const SweepCommand& command) {
     execution.jobs = command.jobs;
     execution.progress = [&](std::size_t done, std::size_t) { progress.advance_to(done); };
     execution.cancelled = &remap::interruption();
-    table = run_sweep(*renderer, options, execution, journal, command.resume);
+    table = run_sweep(*renderer, options, execution);
   }
   remap::write_file(command.output, table_text(table));
-  std::filesystem::remove(journal);
   warn_of_subpixel(table, options);
   for (const std::string& remark : renderer->remarks()) std::cerr << "remapc: " << remark << "\n";
   report(command, table, renderer->pictures(),
@@ -160,7 +153,6 @@ void add_options(CLI::App& app, SweepCommand& command) {
   app.add_option("--jobs", command.jobs, "Threads; 0: one a core. The table does not depend on it")
       ->capture_default_str();
   add_renderer_options(app, command.renderers);
-  app.add_flag("--resume", command.resume, "Continue a sweep that was interrupted");
   app.add_flag("--force", command.force, "Replace the table");
   app.add_flag("--json", command.json, "Summary as JSON on standard output");
   app.add_flag("--quiet", command.quiet, "No progress, no summary");

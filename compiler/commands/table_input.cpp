@@ -1,6 +1,6 @@
 #include "commands/table_input.hpp"
 
-#include "files.hpp"
+#include "system/files.hpp"
 
 namespace remapc {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "commands/renderer_options.hpp"
-#include "number_text.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

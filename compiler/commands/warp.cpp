@@ -8,17 +8,17 @@
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "commands/warp_command.hpp"
-#include "error.hpp"
-#include "files.hpp"
-#include "model/fit_json.hpp"
-#include "number_text.hpp"
+#include "fit_file/fit_json.hpp"
+#include "remap/error.hpp"
+#include "remap/version.hpp"
 #include "report/warp_report.hpp"
-#include "report_text.hpp"
-#include "version.hpp"
-#include "warp/copied_set.hpp"
+#include "system/files.hpp"
+#include "text/number_text.hpp"
+#include "text/report_text.hpp"
 #include "warp/copy_error.hpp"
-#include "warp/tabulated_set.hpp"
-#include "warp/texture_material.hpp"
+#include "warp/input/copied_set.hpp"
+#include "warp/input/tabulated_set.hpp"
+#include "warp/input/texture_material.hpp"
 
 namespace remapc {
 namespace {
@@ -87,7 +87,7 @@ void print_words(const WarpCommand& command, const WarpFit& fit, const WarpOutco
             << byte_count(fit.compiled) << " bytes, " << percent(outcome.file.copy_rms_error)
             << " of the spread from an exact copy\n";
   if (is_albedo)
-    std::cerr << "  the source is diffuse alone: taken with specular 0 and alpha 1, told apart by colour\n";
+    std::cerr << "  the source is diffuse alone: taken with specular 0 and alpha 1, told apart by color\n";
   for (const std::string& warning : outcome.file.remarks)
     remap::print_message("remapc", "warning: " + warning);
 }
@@ -155,8 +155,8 @@ void add_warp_command(CLI::App& app) {
       ->type_name("SOURCE_MASK TEMPLATE_MASK");
   command
       ->add_option("--strokes", options->paintings,
-                   "Two images, of the source and of the template, with a colour for each region; the "
-                   "background is transparent, or the most frequent colour")
+                   "Two images, of the source and of the template, with a color for each region; the "
+                   "background is transparent, or the most frequent color")
       ->type_size(2)
       ->type_name("SOURCE_IMAGE TEMPLATE_IMAGE");
   command->add_option("--box", options->boxes, "The same as boxes of texels, x0,y0,x1,y1 each")

@@ -3,13 +3,13 @@
 
 #include "command_line/run_app.hpp"
 #include "commands/warp_command.hpp"
-#include "error.hpp"
-#include "report_text.hpp"
-#include "warp/copied_set.hpp"
-#include "warp/stroke_colors.hpp"
-#include "warp/stroke_masks.hpp"
-#include "warp/tabulated_set.hpp"
-#include "warp/texture_material.hpp"
+#include "remap/error.hpp"
+#include "text/report_text.hpp"
+#include "warp/input/copied_set.hpp"
+#include "warp/input/stroke_colors.hpp"
+#include "warp/input/stroke_masks.hpp"
+#include "warp/input/tabulated_set.hpp"
+#include "warp/input/texture_material.hpp"
 
 namespace remapc {
 namespace {

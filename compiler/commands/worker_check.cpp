@@ -9,7 +9,7 @@
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "worker/conformance.hpp"
 #include "worker/worker_list.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "fit_file/any_fit.hpp"
 #include "lower/lower.hpp"
-#include "model/analytic_fit.hpp"
 #include "model/fit.hpp"
 
 namespace remapc {
@@ -26,7 +26,7 @@ std::string emit_lowered_header(const remap::Fit& fit, const remap::Lowered& low
 
 // The generated header of an analytic fit: materials in, materials out. Throws kInput for a conversion that
 // require_valid() refuses.
-std::string emit_header(const remap::AnalyticFit& fit);
+std::string emit_header(const remap::WorkflowFit& fit);
 
 // The generated header of an appearance warp: the same contract, in the specular workflow on both sides.
 // Throws kInput for a warp that require_valid() refuses.
@@ -34,7 +34,7 @@ std::string emit_header(const remap::WarpMapFit& fit);
 
 // `registry.hpp` for headers of these fits, which stand beside it: one entry a converter, in the order of
 // ids. Warps are listed among converters of whole materials.
-std::string emit_registry(std::vector<remap::Fit> fits, const std::vector<remap::AnalyticFit>& analytic,
+std::string emit_registry(std::vector<remap::Fit> fits, const std::vector<remap::WorkflowFit>& analytic,
                           const std::vector<remap::WarpMapFit>& warps = {});
 
 }  // namespace remapc

@@ -10,10 +10,10 @@
 #include "emit/header_frame.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
-#include "error.hpp"
 #include "model/interpreter.hpp"
-#include "number_text.hpp"
-#include "version.hpp"
+#include "remap/error.hpp"
+#include "remap/version.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -69,7 +69,7 @@ struct Output {
 };
 
 // What the measured table covers. Beyond it @in_roughness@ is held at the edge, and @in_specular@ is extrapolated in
-// proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels count as out
+// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. @out_specular@ is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{@roughness_min@, @specular_min@};
 inline constexpr Input kDomainMax{@roughness_max@, @specular_max@};
@@ -200,7 +200,7 @@ void require_free_name(const std::string& name) {
 std::string two_digits(double value) { return remap::number_text(remap::rounded_up(value, 2)); }
 
 double image_rms_error(const Fit& fit) {
-  return fit.likeness ? remap::rounded_up(fit.likeness->image_error.rms, 2) : -1.0;
+  return fit.image_similarity ? remap::rounded_up(fit.image_similarity->image_error.rms, 2) : -1.0;
 }
 
 std::string roughness_meaning(RoughnessConvention convention) {

@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lower/lowered_value.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
-#include "number_text.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "emit/header_frame.hpp"
 #include "emit/text_template.hpp"
-#include "number_text.hpp"
-#include "version.hpp"
+#include "remap/version.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "emit/emit.hpp"
 #include "emit/text_template.hpp"
-#include "version.hpp"
+#include "remap/version.hpp"
 
 namespace remapc {
 namespace {
@@ -54,7 +54,7 @@ struct MaterialConverterEntry {
   const char* id;
   const char* formula;
   const char* source_model;
-  const char* source_workflow;   // specular: diffuse, specular, width; metallic: base colour, metallic, width
+  const char* source_workflow;   // specular: diffuse, specular, width; metallic: base color, metallic, width
   const char* source_diffuse;    // plain or scaled
   const char* source_roughness;  // alpha, roughness or glossiness
   const char* target_model;
@@ -160,10 +160,10 @@ struct MaterialConverter {
   std::string id, dielectric_f0;
 };
 
-std::vector<MaterialConverter> material_converters(const std::vector<remap::AnalyticFit>& analytic,
+std::vector<MaterialConverter> material_converters(const std::vector<remap::WorkflowFit>& analytic,
                                                    const std::vector<remap::WarpMapFit>& warps) {
   std::vector<MaterialConverter> all;
-  for (const remap::AnalyticFit& fit : analytic) all.push_back({fit.id, fit.id + "::kDielectricF0"});
+  for (const remap::WorkflowFit& fit : analytic) all.push_back({fit.id, fit.id + "::kDielectricF0"});
   for (const remap::WarpMapFit& fit : warps) all.push_back({fit.id, "0.0f"});
   sort_by_id(all);
   return all;
@@ -171,7 +171,7 @@ std::vector<MaterialConverter> material_converters(const std::vector<remap::Anal
 
 }  // namespace
 
-std::string emit_registry(std::vector<remap::Fit> fits, const std::vector<remap::AnalyticFit>& analytic,
+std::string emit_registry(std::vector<remap::Fit> fits, const std::vector<remap::WorkflowFit>& analytic,
                           const std::vector<remap::WarpMapFit>& warps) {
   sort_by_id(fits);
   Listing converters, materials;

@@ -7,8 +7,8 @@
 #include "emit/emit.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/material_header.hpp"
-#include "number_text.hpp"
-#include "report_text.hpp"
+#include "text/number_text.hpp"
+#include "text/report_text.hpp"
 #include "warp/packed_warp.hpp"
 
 namespace remapc {

@@ -3,7 +3,7 @@
 #include "emit/emit.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/material_header.hpp"
-#include "number_text.hpp"
+#include "text/number_text.hpp"
 #include "workflow/conversion.hpp"
 
 namespace remapc {
@@ -111,11 +111,11 @@ std::string training_lines(const remap::NetworkTraining& training) {
            remap::number_text(remap::rounded_up(figures.max, 2));
   };
   return "// Table " + training.table.name + ", sha256 " + training.table.sha256 + "; seed " +
-         std::to_string(training.split.seed) + ".\n// Error on unseen rows: base colour " +
+         std::to_string(training.split.seed) + ".\n// Error on unseen rows: base color " +
          text(training.base_color) + "; metallic " + text(training.metallic) + ".\n";
 }
 
-std::string provenance(const remap::AnalyticFit& fit) {
+std::string provenance(const remap::WorkflowFit& fit) {
   std::string text = "// By " + formula_text(fit.conversion.formula) + ".\n";
   if (fit.training) text += training_lines(*fit.training);
   for (const std::string& remark : fit.remarks) text += "// " + remark + "\n";
@@ -125,7 +125,7 @@ std::string provenance(const remap::AnalyticFit& fit) {
 
 }  // namespace
 
-std::string emit_header(const remap::AnalyticFit& fit) {
+std::string emit_header(const remap::WorkflowFit& fit) {
   const WorkflowConversion& conversion = fit.conversion;
   require_valid(conversion, fit.id);
   const bool to_metallic = conversion.is_to_metallic();

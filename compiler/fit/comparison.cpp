@@ -4,14 +4,14 @@
 #include <cmath>
 #include <mutex>
 
-#include "error.hpp"
 #include "fit/edge.hpp"
-#include "fit/folds.hpp"
-#include "fit/split.hpp"
+#include "fit/rows/folds.hpp"
+#include "fit/rows/split.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
-#include "number_text.hpp"
-#include "parallel.hpp"
+#include "remap/error.hpp"
+#include "system/parallel.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
-#include "fit/split.hpp"
+#include "fit/rows/split.hpp"
 #include "model/interpreter.hpp"
-#include "number_text.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -27,11 +27,11 @@ double at(const std::set<double>& values, std::size_t position) {
   return *std::next(values.begin(), static_cast<std::ptrdiff_t>(position));
 }
 
-using Colour = std::array<double, 3>;
+using Color = std::array<double, 3>;
 
-// The colour that `colour` times `scale` is mapped to; `fault` is filled where it is none.
-Colour map_colour(const remap::MappingKind& mapping, double alpha, Colour colour, std::string* fault) {
-  for (double& channel : colour) {
+// The color that `color` times `scale` is mapped to; `fault` is filled where it is none.
+Color map_color(const remap::MappingKind& mapping, double alpha, Color color, std::string* fault) {
+  for (double& channel : color) {
     const double specular = channel;
     const remap::MappedTexel texel = remap::evaluate_mapping(mapping, alpha, specular);
     channel = texel.specular;
@@ -41,10 +41,10 @@ Colour map_colour(const remap::MappingKind& mapping, double alpha, Colour colour
       *fault = "alpha2 " + number_text(texel.alpha) + " and specular2 " + number_text(texel.specular) +
                " at alpha1 " + number_text(alpha) + ", specular1 " + number_text(specular);
   }
-  return colour;
+  return color;
 }
 
-double chroma_difference(const Colour& a, const Colour& b) {
+double chroma_difference(const Color& a, const Color& b) {
   const double a_sum = a[0] + a[1] + a[2], b_sum = b[0] + b[1] + b[2];
   if (!(a_sum > 0.0) || !(b_sum > 0.0)) return 1.0;
   double largest = 0.0;
@@ -100,11 +100,11 @@ BeyondDomain look_beyond(const remap::MappingKind& mapping, const remap::Domain&
     const double alpha = domain.alpha.min + share * (domain.alpha.max - domain.alpha.min);
     for (const double second : kChannels) {
       for (const double third : kChannels) {
-        const Colour inside = {edge, second * edge, third * edge};
-        const Colour outside = {kBeyond * inside[0], kBeyond * inside[1], kBeyond * inside[2]};
+        const Color inside = {edge, second * edge, third * edge};
+        const Color outside = {kBeyond * inside[0], kBeyond * inside[1], kBeyond * inside[2]};
         beyond.chroma_shift = std::max(beyond.chroma_shift,
-                                       chroma_difference(map_colour(mapping, alpha, inside, &beyond.fault),
-                                                         map_colour(mapping, alpha, outside, &beyond.fault)));
+                                       chroma_difference(map_color(mapping, alpha, inside, &beyond.fault),
+                                                         map_color(mapping, alpha, outside, &beyond.fault)));
       }
     }
   }

@@ -30,7 +30,7 @@ EdgeErrors edge_errors(const remap::MappingKind& mapping, const remap::Domain& d
 // How far beyond the largest specular of the domain a mapping is looked at.
 inline constexpr double kBeyond = 1.5;
 
-// Chroma shift: colours whose largest channel is the largest specular of the domain and whose others are 0.1,
+// Chroma shift: colors whose largest channel is the largest specular of the domain and whose others are 0.1,
 // 0.5 and 1 of it, and the same times kBeyond, are mapped channel by channel without the domain rule, at 33
 // alphas over the domain. The largest difference between the two in a chromaticity coordinate, channel / sum
 // of the channels. 0 for a proportional mapping.

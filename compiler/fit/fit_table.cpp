@@ -7,14 +7,14 @@
 
 #include <openssl/evp.h>
 
-#include "error.hpp"
 #include "fit/comparison.hpp"
-#include "fit/split.hpp"
+#include "fit/rows/split.hpp"
 #include "model/interpreter.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "remap/version.hpp"
 #include "table/check.hpp"
 #include "table/domain.hpp"
-#include "version.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -56,44 +56,16 @@ std::vector<remap::SphereSimilarity> spheres_of(const Table& table) {
 }
 
 // How alike the pictures are at the best parameters over `rows`; none where the table does not say.
-std::optional<remap::Likeness> likeness(const Table& table, const std::vector<TableRow>& rows) {
+std::optional<remap::ImageSimilarity> image_similarity(const Table& table,
+                                                       const std::vector<TableRow>& rows) {
   std::vector<double> errors;
   for (const TableRow& row : rows)
     if (!std::isnan(row.error)) errors.push_back(row.error);
   if (errors.empty() || errors.size() != rows.size()) return std::nullopt;
-  return remap::Likeness{error_figures(std::move(errors)), spheres_of(table)};
+  return remap::ImageSimilarity{error_figures(std::move(errors)), spheres_of(table)};
 }
 
 }  // namespace
-
-std::string sha256(std::string_view bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-    throw Error(ErrorKind::kNumeric, "sha256: the digest could not be computed");
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  for (unsigned i = 0; i < length; ++i) {
-    text += kDigits[digest[i] >> 4];
-    text += kDigits[digest[i] & 15];
-  }
-  return text;
-}
-
-remap::TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
-                                const std::vector<std::pair<std::string, std::string>>& comments) {
-  remap::TableRecord record{path.filename().string(), sha256(bytes), {}};
-  for (const auto& [key, value] : comments) record.comments[key] = value;
-  return record;
-}
-
-std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model) {
-  const std::string chosen = id.empty() ? remap::converter_id(source_model, target_model) : id;
-  if (!remap::is_valid_id(chosen))
-    throw Error(ErrorKind::kUsage,
-                "id: \"" + chosen + "\"; expected a C++ identifier without leading or doubled underscore");
-  return chosen;
-}
 
 RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows) {
   std::vector<double> alpha_errors, specular_errors;
@@ -115,7 +87,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   fit.target = table.target;
   fit.domain = table_domain(table);
   fit.table = table_record(table.name, bytes, table.comments);
-  fit.likeness = likeness(table, rows_inside(usable_rows(table), fit.domain));
+  fit.image_similarity = image_similarity(table, rows_inside(usable_rows(table), fit.domain));
   fit.tool_version = remap::kVersion;
 
   const RowSplit split = split_rows(table, fit.domain, options.regression.seed, options.held_out_fraction);

@@ -9,6 +9,7 @@
 #include "fit/regressors.hpp"
 #include "model/fit.hpp"
 #include "table/table.hpp"
+#include "table/table_record.hpp"
 
 namespace remapc {
 
@@ -37,15 +38,5 @@ struct RowErrors {
   remap::ErrorFigures specular;
 };
 RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows);
-
-// What a fit says of the table that it was made from, whose file is `bytes`.
-remap::TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
-                                const std::vector<std::pair<std::string, std::string>>& comments);
-
-// `id`, or where it is empty that of a converter between the models. Throws kUsage where it is no identifier.
-std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model);
-
-// SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
-std::string sha256(std::string_view bytes);
 
 }  // namespace remapc

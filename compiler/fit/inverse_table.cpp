@@ -6,8 +6,8 @@
 #include "fit/fit_table.hpp"
 #include "model/interpreter.hpp"
 #include "model/inverse.hpp"
-#include "number_text.hpp"
-#include "version.hpp"
+#include "remap/version.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

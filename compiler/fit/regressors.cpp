@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "fit/parametric.hpp"
-#include "fit/parametric_parts.hpp"
-#include "fit/specular_terms.hpp"
+#include "fit/parametric/parametric.hpp"
+#include "fit/parametric/parametric_parts.hpp"
+#include "fit/parametric/specular_terms.hpp"
 
 namespace remapc {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "fit/mlp.hpp"
-#include "fit/regression.hpp"
-#include "fit/svr.hpp"
+#include "fit/network/mlp.hpp"
+#include "fit/rows/regression.hpp"
+#include "fit/svr/svr.hpp"
 
 namespace remapc {
 

@@ -16,7 +16,7 @@ std::array<double, 2> place_of(const Points& positions, Eigen::Index i) {
 }
 
 // Covers pixels as far as the disc covers them.
-void draw_disc(double x, double y, double radius, const DisplayColour& colour, Image* picture) {
+void draw_disc(double x, double y, double radius, const DisplayColor& color, Image* picture) {
   const int left = std::max(static_cast<int>(std::floor(x - radius - 1.0)), 0);
   const int right = std::min(static_cast<int>(std::ceil(x + radius + 1.0)), picture->width - 1);
   const int top = std::max(static_cast<int>(std::floor(y - radius - 1.0)), 0);
@@ -26,7 +26,7 @@ void draw_disc(double x, double y, double radius, const DisplayColour& colour, I
       const double distance = std::hypot(column + 0.5 - x, row + 0.5 - y);
       const auto cover = static_cast<float>(std::clamp(radius + 0.5 - distance, 0.0, 1.0));
       float* pixel = &picture->values[3 * static_cast<std::size_t>(row * picture->width + column)];
-      for (std::size_t c = 0; c < 3; ++c) pixel[c] += cover * (colour[c] - pixel[c]);
+      for (std::size_t c = 0; c < 3; ++c) pixel[c] += cover * (color[c] - pixel[c]);
     }
 }
 
@@ -69,9 +69,9 @@ Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& b
       if (!std::isfinite(place[0]) || !std::isfinite(place[1])) continue;
       const double x = (place[0] - box.x + box.half_width) * scale;
       const double y = (box.half_height - place[1] + box.y) * scale;
-      const std::size_t colour = layer.colours.size() == 1 ? 0 : static_cast<std::size_t>(i);
+      const std::size_t color = layer.colors.size() == 1 ? 0 : static_cast<std::size_t>(i);
       if (std::abs(x) < 1e6 && std::abs(y) < 1e6)
-        draw_disc(x, y, layer.radius, layer.colours[colour], &picture);
+        draw_disc(x, y, layer.radius, layer.colors[color], &picture);
     }
   return picture;
 }

@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "report/shaded_map.hpp"
-#include "warp/coordinates.hpp"
+#include "warp/space/coordinates.hpp"
 
 namespace remapc {
 
 // Points of one kind; later ones lie above earlier ones.
 struct PlottedPoints {
-  Points positions;                    // the first two coordinates are shown; rows that are NaN are not
-  std::vector<DisplayColour> colours;  // one each, or one for all
-  double radius = 1.0;                 // pixels
+  Points positions;                  // the first two coordinates are shown; rows that are NaN are not
+  std::vector<DisplayColor> colors;  // one each, or one for all
+  double radius = 1.0;               // pixels
 };
 
 // A part of the plane.

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/warp.hpp"
-#include "sweep/image.hpp"
+#include "renderer/image.hpp"
+#include "warp/compiled_warp.hpp"
 
 namespace remapc {
 
@@ -28,7 +28,7 @@ PictureGrid picture_grid(std::size_t width, std::size_t height, int side);
 std::vector<remap::WarpTexel> samples_of(const PictureGrid& grid,
                                          const std::vector<remap::WarpTexel>& texels);
 
-// A picture of one colour.
+// A picture of one color.
 Image blank_picture(int width, int height, float grey);
 
 // Rows of pictures on light paper, with gaps. Columns are as wide as the widest picture, rows as high as

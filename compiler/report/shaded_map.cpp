@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sweep/likeness.hpp"
+#include "renderer/image_similarity.hpp"
 
 namespace remapc {
 namespace {
@@ -83,7 +83,7 @@ Image shaded_map(const PictureGrid& grid, const std::vector<remap::WarpTexel>& s
   return picture;
 }
 
-DisplayColour shaded_colour(const remap::WarpTexel& texel, const BrdfModel& model) {
+DisplayColor shaded_color(const remap::WarpTexel& texel, const BrdfModel& model) {
   const Radiance radiance = radiance_of(texel, model, {0.0, 0.0, 1.0});
   return {display_value(radiance[0]), display_value(radiance[1]), display_value(radiance[2])};
 }

@@ -5,21 +5,19 @@
 namespace remapc {
 namespace {
 
-// Colours that differ for colour-blind eyes too (Okabe and Ito 2008).
-constexpr std::array<DisplayColour, 7> kStrokeColours = {{{0.84f, 0.37f, 0.00f},
-                                                          {0.00f, 0.45f, 0.70f},
-                                                          {0.00f, 0.62f, 0.45f},
-                                                          {0.94f, 0.89f, 0.26f},
-                                                          {0.80f, 0.47f, 0.65f},
-                                                          {0.34f, 0.71f, 0.91f},
-                                                          {0.90f, 0.62f, 0.00f}}};
+// Colors that differ for color-blind eyes too (Okabe and Ito 2008).
+constexpr std::array<DisplayColor, 7> kStrokeColors = {{{0.84f, 0.37f, 0.00f},
+                                                        {0.00f, 0.45f, 0.70f},
+                                                        {0.00f, 0.62f, 0.45f},
+                                                        {0.94f, 0.89f, 0.26f},
+                                                        {0.80f, 0.47f, 0.65f},
+                                                        {0.34f, 0.71f, 0.91f},
+                                                        {0.90f, 0.62f, 0.00f}}};
 constexpr float kDimmed = 0.55f;
 
 }  // namespace
 
-const DisplayColour& stroke_colour(std::size_t stroke) {
-  return kStrokeColours[stroke % kStrokeColours.size()];
-}
+const DisplayColor& stroke_color(std::size_t stroke) { return kStrokeColors[stroke % kStrokeColors.size()]; }
 
 Image with_strokes(const Image& picture, const PictureGrid& grid, const std::vector<StrokePair>& strokes,
                    StrokeSide side) {
@@ -35,8 +33,8 @@ Image with_strokes(const Image& picture, const PictureGrid& grid, const std::vec
     const int stroke = stroke_of[grid.texels[i]];
     if (stroke < 0) continue;
     const std::size_t pixel = i / columns / step * static_cast<std::size_t>(grid.width) + i % columns / step;
-    const DisplayColour& colour = stroke_colour(static_cast<std::size_t>(stroke));
-    std::copy(colour.begin(), colour.end(), &marked.values[3 * pixel]);
+    const DisplayColor& color = stroke_color(static_cast<std::size_t>(stroke));
+    std::copy(color.begin(), color.end(), &marked.values[3 * pixel]);
   }
   return marked;
 }

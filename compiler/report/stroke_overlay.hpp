@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "report/shaded_map.hpp"
-#include "warp/material.hpp"
+#include "warp/space/material.hpp"
 
 namespace remapc {
 
 using StrokeSide = std::vector<std::uint32_t> StrokePair::*;
 
 // Of the stroke with this index; seven differ.
-const DisplayColour& stroke_colour(std::size_t stroke);
+const DisplayColor& stroke_color(std::size_t stroke);
 
-// The picture, dimmed, with one side of the strokes in their colours. `grid` is that of the picture.
+// The picture, dimmed, with one side of the strokes in their colors. `grid` is that of the picture.
 Image with_strokes(const Image& picture, const PictureGrid& grid, const std::vector<StrokePair>& strokes,
                    StrokeSide side);
 

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 
-#include "base64.hpp"
-#include "error.hpp"
-#include "files.hpp"
+#include "remap/error.hpp"
+#include "renderer/image_file.hpp"
 #include "report/appearance_plot.hpp"
 #include "report/stroke_overlay.hpp"
-#include "sweep/image_file.hpp"
+#include "system/files.hpp"
+#include "text/base64.hpp"
 
 namespace remapc {
 namespace {
 
 constexpr int kSide = 512;  // pixels
 constexpr std::size_t kMostPoints = 16384, kMostStrokePoints = 512;
-constexpr DisplayColour kGrey = {0.72f, 0.72f, 0.72f};
+constexpr DisplayColor kGrey = {0.72f, 0.72f, 0.72f};
 
 std::vector<remap::WarpTexel> texels_at(const TextureMaterial& material,
                                         const std::vector<std::uint32_t>& indices, std::size_t most) {
@@ -39,11 +39,11 @@ Cloud cloud_of(const TextureMaterial& material, const remap::AppearanceCoordinat
   cloud.texels.positions = positions_of(coordinates, texels);
   cloud.texels.radius = 0.8;
   for (const remap::WarpTexel& texel : texels)
-    cloud.texels.colours.push_back(shaded_colour(texel, material.material.model));
+    cloud.texels.colors.push_back(shaded_color(texel, material.material.model));
   for (std::size_t k = 0; k < strokes.size(); ++k)
     cloud.strokes.push_back(
         {positions_of(coordinates, texels_at(material, strokes[k].*side, kMostStrokePoints)),
-         {stroke_colour(k)},
+         {stroke_color(k)},
          1.8});
   return cloud;
 }
@@ -103,10 +103,10 @@ std::string figure_html(const Image& picture, const std::string& caption) {
 std::string stroke_key(std::size_t stroke_count) {
   std::string text = "<p>Strokes:";
   for (std::size_t k = 0; k < stroke_count; ++k) {
-    const DisplayColour& colour = stroke_colour(k);
+    const DisplayColor& color = stroke_color(k);
     text += " <span class=\"key\" style=\"background:rgb(";
     for (std::size_t c = 0; c < 3; ++c)
-      text += (c == 0 ? "" : ",") + std::to_string(static_cast<int>(255.0f * colour[c]));
+      text += (c == 0 ? "" : ",") + std::to_string(static_cast<int>(255.0f * color[c]));
     text += ")\"></span> " + std::to_string(k + 1);
   }
   return text + "</p>\n";
@@ -135,8 +135,8 @@ std::string report_html(const WarpPictures& pictures, const WarpWords& words) {
           "</div>\n<h2>Strokes</h2>\n" + stroke_key(words.stroke_count) + "<div class=\"row\">\n" +
           figure_html(pictures.source_strokes, "On the source") +
           figure_html(pictures.target_strokes, "On the template") +
-          "</div>\n<h2>Appearance spaces</h2>\n<p>The first two coordinates; a point a texel, in its colour; "
-          "those of strokes in the colours of the strokes.</p>\n<div class=\"row small\">\n" +
+          "</div>\n<h2>Appearance spaces</h2>\n<p>The first two coordinates; a point a texel, in its color; "
+          "those of strokes in the colors of the strokes.</p>\n<div class=\"row small\">\n" +
           figure_html(pictures.source_space, "Source") + figure_html(pictures.target_space, "Template") +
           figure_html(pictures.before, "Before the warp: the source over the template (grey)") +
           figure_html(pictures.after, "After it") + "</div>\n<h2>Figures</h2>\n<table>\n";

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "sweep/image.hpp"
-#include "warp/texture_material.hpp"
+#include "renderer/image.hpp"
+#include "warp/input/texture_material.hpp"
 #include "warp/warp.hpp"
 
 namespace remapc {
@@ -16,9 +16,9 @@ namespace remapc {
 // Display values; maps with a longer side of 512 pixels, spaces as wide.
 struct WarpPictures {
   Image source, target, result;          // as shaded_map() lights them
-  Image source_strokes, target_strokes;  // the maps, dimmed, with the strokes in their colours
-  // The first two coordinates: points in the colours of texels, those of strokes larger, in the strokes'
-  // colours.
+  Image source_strokes, target_strokes;  // the maps, dimmed, with the strokes in their colors
+  // The first two coordinates: points in the colors of texels, those of strokes larger, in the strokes'
+  // colors.
   Image source_space, target_space;
   Image before, after;  // the source's points over the template's, which are grey; and their images
 };

@@ -7,14 +7,14 @@
 #include <map>
 #include <set>
 
-#include "files.hpp"
-#include "number_text.hpp"
-#include "parallel.hpp"
+#include "match/match.hpp"
+#include "renderer/fresnel.hpp"
 #include "study/materials.hpp"
 #include "study/study_plot.hpp"
 #include "study/study_sweep.hpp"
-#include "sweep/fresnel.hpp"
-#include "sweep/match.hpp"
+#include "system/files.hpp"
+#include "system/parallel.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -58,12 +58,12 @@ Material conductor(double alpha, double eta, double k) {
 
 // What exact Fresnel is compared with, and remapped to.
 struct ExactMatching {
-  const Photographer& photographer;
+  const PictureTaker& picture_taker;
   ModelDescription source;
   TargetBank bank;
 
   TableRow match(double alpha, double f0, const std::vector<float>& picture) const {
-    Matcher matcher(bank, {picture}, squared_weights(photographer.objective(), picture, {}));
+    Matcher matcher(bank, {picture}, squared_weights(picture_taker.objective(), picture, {}));
     std::vector<std::size_t> minima;
     const Match found = matcher.match({1.0}, &minima);
     return {alpha, f0, found.alpha, found.specular, found.error, found.status, 0};
@@ -88,8 +88,8 @@ void match_metal(const ExactMatching& matching, const Conductor& metal, double a
   double difference = 0.0, power = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
     const double f0 = reflectance(metal, c);
-    const auto exact = matching.photographer.take(conductor(alpha, metal.eta[c], metal.k[c]));
-    const auto schlick = matching.photographer.take(matching.source, Sitting{alpha, f0, 0.0});
+    const auto exact = matching.picture_taker.take(conductor(alpha, metal.eta[c], metal.k[c]));
+    const auto schlick = matching.picture_taker.take(matching.source, RoleValues{alpha, f0, 0.0});
     difference += square_difference(exact, schlick);
     power += square_sum(exact);
     rows[c].material = metal.name;
@@ -102,12 +102,12 @@ void match_metal(const ExactMatching& matching, const Conductor& metal, double a
 
 void match_exactly(const Renderer& renderer, const StudyOptions& options, ConductorsStudy* study) {
   const SweepOptions setting = study_sweep_options(kSource, kTarget, {}, options.resolution);
-  const Photographer photographer(renderer, setting.objective, options.resolution, 1);
+  const PictureTaker picture_taker(renderer, setting.objective, options.resolution, 1);
   const ModelDescription target = find_model(renderer, kTarget);
   const remap::Range alphas{options.alphas.front() / 4.0, target.alpha.max};
-  const Subject subject{target, probe_specular(photographer, target, alphas)};
-  const ExactMatching matching{photographer, find_model(renderer, kSource),
-                               TargetBank(photographer, subject, alphas, kBankRatio)};
+  const ProbedModel probed_model{target, probe_specular(picture_taker, target, alphas)};
+  const ExactMatching matching{picture_taker, find_model(renderer, kSource),
+                               TargetBank(picture_taker, probed_model, alphas, kBankRatio)};
   const auto metals = measured_conductors();
   const std::size_t tasks = metals.size() * options.alphas.size();
   study->rows.resize(3 * tasks);

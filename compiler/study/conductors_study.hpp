@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/renderer.hpp"
 #include "study/study_sweep.hpp"
-#include "sweep/renderer.hpp"
 #include "table/table.hpp"
 
 namespace remapc {

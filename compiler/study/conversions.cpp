@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "error.hpp"
 #include "lower/lower.hpp"
+#include "remap/error.hpp"
 #include "sweep/sweep.hpp"
 
 namespace remapc {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/environments.hpp"
+#include "study/environments_options.hpp"
 
 namespace remapc {
 

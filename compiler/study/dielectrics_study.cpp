@@ -7,13 +7,13 @@
 #include <map>
 #include <set>
 
-#include "files.hpp"
-#include "number_text.hpp"
-#include "parallel.hpp"
+#include "match/joint_match.hpp"
 #include "study/materials.hpp"
 #include "study/study_plot.hpp"
 #include "study/study_sweep.hpp"
-#include "sweep/joint_match.hpp"
+#include "system/files.hpp"
+#include "system/parallel.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -27,8 +27,8 @@ constexpr double kLostError = 1.01;    // above the best error known: another mi
 constexpr double kSameError = 1e-4;    // errors below this are rounding of pictures
 
 // Guesses of every kind: narrow, middle and wide, without and with all specular, dark and bright.
-std::vector<Sitting> trial_guesses() {
-  std::vector<Sitting> guesses;
+std::vector<RoleValues> trial_guesses() {
+  std::vector<RoleValues> guesses;
   for (const double alpha : {0.02, 0.3, 0.98})
     for (const double specular : {0.0, 1.0})
       for (const double diffuse : {0.0, 1.0}) guesses.push_back({alpha, specular, diffuse});
@@ -105,21 +105,21 @@ using Errors = std::vector<double>;
 std::map<std::pair<double, double>, Errors> try_guesses(const Renderer& renderer, const StudyOptions& options,
                                                         double diffuse) {
   const SweepOptions setting = study_sweep_options(kSource, kTarget, {}, options.resolution);
-  const Photographer photographer(renderer, setting.objective, options.resolution, 1);
+  const PictureTaker picture_taker(renderer, setting.objective, options.resolution, 1);
   const ModelDescription source = find_model(renderer, kSource), target = find_model(renderer, kTarget);
   const remap::Range alphas{options.alphas.front() / 4.0, target.alpha.max};
-  const Subject subject{target, probe_specular(photographer, target, alphas)};
-  const TargetBank bank(photographer, subject, alphas, kBankRatio);
-  const BankPictures pictures(photographer, subject, bank);
-  const std::vector<Sitting> guesses = trial_guesses();
+  const ProbedModel probed_model{target, probe_specular(picture_taker, target, alphas)};
+  const TargetBank bank(picture_taker, probed_model, alphas, kBankRatio);
+  const BankPictures pictures(picture_taker, probed_model, bank);
+  const std::vector<RoleValues> guesses = trial_guesses();
   std::vector<Errors> found(options.alphas.size() * kIorCount);
   std::atomic<std::size_t> done{0};
   remap::run_parallel(found.size(), options.jobs, [&](std::size_t task) {
-    const Sitting sitting{options.alphas[task / kIorCount], grid_ior(task % kIorCount), diffuse};
-    auto picture = photographer.take(source, sitting);
-    auto weights = squared_weights(photographer.objective(), picture, {});
+    const RoleValues role_values{options.alphas[task / kIorCount], grid_ior(task % kIorCount), diffuse};
+    auto picture = picture_taker.take(source, role_values);
+    auto weights = squared_weights(picture_taker.objective(), picture, {});
     const JointMatcher matcher(pictures, std::move(picture), std::move(weights), {true, diffuse > 0.0});
-    for (const Sitting& guess : guesses)
+    for (const RoleValues& guess : guesses)
       found[task].push_back(matcher.best_match({matcher.point_of(guess)}).error);
     if (options.progress)
       options.progress(0.6 + 0.4 * static_cast<double>(++done) / static_cast<double>(found.size()));
@@ -132,7 +132,7 @@ std::map<std::pair<double, double>, Errors> try_guesses(const Renderer& renderer
 
 std::vector<GuessTrial> judge_guesses(const std::map<std::pair<double, double>, Errors>& errors,
                                       const Table& three, const std::vector<double>& alphas) {
-  const std::vector<Sitting> guesses = trial_guesses();
+  const std::vector<RoleValues> guesses = trial_guesses();
   std::vector<GuessTrial> trials;
   for (const double alpha : alphas) {
     const std::vector<const TableRow*> rows = grid_rows(three, alpha);
@@ -172,7 +172,7 @@ const char* stages_name(int stages) {
   return stages == 1 ? "one stage" : stages == 2 ? "two stages" : "three stages";
 }
 
-std::string guess_text(const Sitting& guess) {
+std::string guess_text(const RoleValues& guess) {
   return "(" + number_text(guess.alpha) + ", " + number_text(guess.specular) + ", " +
          number_text(guess.diffuse) + ")";
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "probe/picture_taker.hpp"
 #include "study/study_sweep.hpp"
-#include "sweep/photographer.hpp"
 #include "table/table.hpp"
 
 namespace remapc {
@@ -32,7 +32,7 @@ struct DielectricCurve {
 // The one-stage match from another fixed guess (shares of the target's ranges): where it ends elsewhere than
 // in the best minimum known.
 struct GuessTrial {
-  Sitting guess;
+  RoleValues guess;
   double alpha = 0.0;  // source width
   std::size_t rows = 0;
   std::size_t lost = 0;  // rows whose error is above that of three stages by more than 1 %

@@ -5,17 +5,17 @@
 #include <cmath>
 #include <span>
 
-#include "error.hpp"
-#include "number_text.hpp"
-#include "parallel.hpp"
-#include "study/colour.hpp"
-#include "study/contact_sheet.hpp"
+#include "remap/error.hpp"
+#include "renderer/image_similarity.hpp"
+#include "renderer/renderer.hpp"
+#include "report/color.hpp"
+#include "report/contact_sheet.hpp"
+#include "report/displayed_sphere.hpp"
+#include "report/lit_sphere.hpp"
 #include "study/conversions.hpp"
-#include "study/displayed_sphere.hpp"
-#include "study/floor.hpp"
-#include "study/lit_sphere.hpp"
-#include "sweep/likeness.hpp"
-#include "sweep/renderer.hpp"
+#include "study/least_error.hpp"
+#include "system/parallel.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -35,7 +35,7 @@ double mean_radiance(const std::vector<float>& radiance) {
 struct Picture {
   DisplayedSphere display;
   double mean = 0.0;                           // linear luminance
-  std::array<std::vector<float>, 2> halves{};  // display colours by each half of the directions
+  std::array<std::vector<float>, 2> halves{};  // display colors by each half of the directions
 };
 
 Picture picture_of(const SpherePictures& pictures, std::size_t material, std::size_t environment) {
@@ -48,7 +48,7 @@ Picture picture_of(const SpherePictures& pictures, std::size_t material, std::si
 }
 
 // The materials of one alpha, each once: sources, and what they become.
-struct Sitters {
+struct RenderedMaterials {
   std::vector<SphereMaterial> materials;
   std::size_t place(const SphereMaterial& material) {
     const auto found = std::find(materials.begin(), materials.end(), material);
@@ -58,12 +58,12 @@ struct Sitters {
   }
 };
 
-struct Sitting {
+struct ComparedPair {
   Conversion conversion;
-  std::size_t source, target;  // places in Sitters::materials
+  std::size_t source, target;  // places in RenderedMaterials::materials
 };
 
-// Mean square over the colours of half of what two differences of pictures differ by: each was made with one
+// Mean square over the colors of half of what two differences of pictures differ by: each was made with one
 // half of the directions, so this is the sampling error of their mean.
 double squared_noise(const Picture& source, const Picture& target) {
   double sum = 0.0;
@@ -76,51 +76,50 @@ double squared_noise(const Picture& source, const Picture& target) {
 }
 
 // Shows the comparisons of one environment on its sheet.
-void fill_sheet(const std::vector<Sitting>& sittings, const std::vector<Picture>& shots,
+void fill_sheet(const std::vector<ComparedPair>& pairs, const std::vector<Picture>& shots,
                 const SpherePictures& pictures, Image* sheet) {
-  for (const Sitting& sitting : sittings) {
-    const std::size_t row = sitting.conversion.pair;
-    const std::size_t column = 1 + static_cast<std::size_t>(sitting.conversion.method);
+  for (const ComparedPair& pair : pairs) {
+    const std::size_t row = pair.conversion.pair;
+    const std::size_t column = 1 + static_cast<std::size_t>(pair.conversion.method);
     const auto place = [&](std::size_t material, std::size_t at) {
-      place_picture(sheet, pictures.resolution(), row, at, pictures.pixels(),
-                    shots[material].display.colours);
+      place_picture(sheet, pictures.resolution(), row, at, pictures.pixels(), shots[material].display.colors);
     };
-    place(sitting.source, 0);
-    place(sitting.target, column);
+    place(pair.source, 0);
+    place(pair.target, column);
   }
 }
 
 // One alpha: renders all of its materials together and compares them.
 void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                    std::span<const Conversion> conversions, EnvironmentsResult* result) {
-  Sitters sitters;
-  std::vector<Sitting> sittings;
+  RenderedMaterials rendered;
+  std::vector<ComparedPair> pairs;
   for (const Conversion& c : conversions) {
     const ModelPair& pair = options.pairs[c.pair];
-    sittings.push_back({c, sitters.place({builtin_brdf(pair.source), c.alpha, options.specular}),
-                        sitters.place({builtin_brdf(pair.target), c.target_alpha, c.target_specular})});
+    pairs.push_back({c, rendered.place({builtin_brdf(pair.source), c.alpha, options.specular}),
+                     rendered.place({builtin_brdf(pair.target), c.target_alpha, c.target_specular})});
   }
   SphereSampling sampling{options.resolution, options.samples, options.jobs, options.progress};
   sampling.cancelled = options.cancelled;
-  const SpherePictures pictures = render_spheres(pyramid, sitters.materials, sampling);
+  const SpherePictures pictures = render_spheres(pyramid, rendered.materials, sampling);
 
   const std::size_t environment_count = options.environments.size();
-  std::vector<EnvironmentComparison> comparisons(sittings.size() * environment_count);
+  std::vector<EnvironmentComparison> comparisons(pairs.size() * environment_count);
   const bool on_sheet = options.sheet_alpha == conversions.front().alpha;
   if (on_sheet)
-    result->sheets.assign(
-        environment_count,
-        contact_sheet(options.pairs.size(), 1 + kMethodCount + (options.floor ? 1 : 0), options.resolution));
+    result->sheets.assign(environment_count, contact_sheet(options.pairs.size(),
+                                                           1 + kMethodCount + (options.least_error ? 1 : 0),
+                                                           options.resolution));
   remap::run_parallel(environment_count, options.jobs, [&](std::size_t e) {
     std::vector<Picture> shots;
-    for (std::size_t m = 0; m < sitters.materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
-    if (on_sheet) fill_sheet(sittings, shots, pictures, &result->sheets[e]);
-    for (std::size_t i = 0; i < sittings.size(); ++i) {
-      const Picture &source = shots[sittings[i].source], &target = shots[sittings[i].target];
+    for (std::size_t m = 0; m < rendered.materials.size(); ++m) shots.push_back(picture_of(pictures, m, e));
+    if (on_sheet) fill_sheet(pairs, shots, pictures, &result->sheets[e]);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const Picture &source = shots[pairs[i].source], &target = shots[pairs[i].target];
       comparisons[i * environment_count + e] = {
-          sittings[i].conversion,
+          pairs[i].conversion,
           e,
-          {100.0 * rms_difference(source.display.colours, target.display.colours),
+          {100.0 * rms_difference(source.display.colors, target.display.colors),
            sphere_similarity(source.display, target.display, pictures.pixels(), pictures.resolution()),
            target.mean / source.mean - 1.0},
           squared_noise(source, target)};
@@ -190,7 +189,7 @@ std::vector<double> default_alphas() { return {0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0
 std::size_t progress_steps(const EnvironmentsOptions& options) {
   return options.pairs.size() * kMethodCount +
          options.alphas.size() * static_cast<std::size_t>(std::max(0, options.resolution) +
-                                                          (options.floor ? kFloorResolution : 0));
+                                                          (options.least_error ? kLeastErrorResolution : 0));
 }
 
 EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
@@ -202,7 +201,7 @@ EnvironmentsResult study_environments(const EnvironmentsOptions& options) {
     const auto end =
         std::find_if(begin, conversions.end(), [&](const Conversion& c) { return c.alpha != begin->alpha; });
     std::vector<Conversion> at_alpha(begin, end);
-    if (options.floor) add_best(options, pyramid, &at_alpha);
+    if (options.least_error) add_best(options, pyramid, &at_alpha);
     compare_alpha(options, pyramid, at_alpha, &result);
     begin = end;
   }
@@ -221,13 +220,13 @@ std::vector<const EnvironmentComparison*> comparisons_of(const EnvironmentsResul
   return chosen;
 }
 
-PictureLikeness mean_likeness(const std::vector<const EnvironmentComparison*>& comparisons) {
-  PictureLikeness mean;
+PictureSimilarity mean_similarity(const std::vector<const EnvironmentComparison*>& comparisons) {
+  PictureSimilarity mean;
   const auto count = static_cast<double>(comparisons.size());
   for (const EnvironmentComparison* comparison : comparisons) {
-    mean.rmse += comparison->likeness.rmse / count;
-    mean.ssim += comparison->likeness.ssim / count;
-    mean.energy += std::fabs(comparison->likeness.energy) / count;
+    mean.rmse += comparison->image_similarity.rmse / count;
+    mean.ssim += comparison->image_similarity.ssim / count;
+    mean.energy += std::fabs(comparison->image_similarity.energy) / count;
   }
   return mean;
 }

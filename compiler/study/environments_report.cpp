@@ -4,9 +4,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "number_text.hpp"
-#include "report_text.hpp"
-#include "version.hpp"
+#include "remap/version.hpp"
+#include "text/number_text.hpp"
+#include "text/report_text.hpp"
 
 namespace remapc {
 namespace {
@@ -17,8 +17,9 @@ constexpr std::array kMethods = {Method::kCopy, Method::kPaper, Method::kNatural
                                  Method::kBest};
 constexpr double kRmseStep = 0.01, kSsimStep = 0.001;  // of the figures in the text
 
-std::string figures_text(const PictureLikeness& likeness) {
-  return fixed(likeness.rmse, 2, 8) + fixed(likeness.ssim, 3, 8) + fixed(100.0 * likeness.energy, 1, 8);
+std::string figures_text(const PictureSimilarity& image_similarity) {
+  return fixed(image_similarity.rmse, 2, 8) + fixed(image_similarity.ssim, 3, 8) +
+         fixed(100.0 * image_similarity.energy, 1, 8);
 }
 
 // All environments are as bright; maps are floats, so not to the last digit.
@@ -72,8 +73,9 @@ std::string verdict_text(const EnvironmentsOptions& options, const EnvironmentsR
   for (const WorsePair& worse : worse_than_copy(options, result)) {
     if (worse.method != method) continue;
     text += (text.empty() ? " is worse than copying for " : ", ") + pair_name(options.pairs[worse.pair]) +
-            " (RMSE" + fixed(worse.likeness.rmse, 2, 5) + " against" + fixed(worse.copy.rmse, 2, 5) +
-            ", SSIM" + fixed(worse.likeness.ssim, 3, 6) + " against" + fixed(worse.copy.ssim, 3, 6) + ")";
+            " (RMSE" + fixed(worse.image_similarity.rmse, 2, 5) + " against" + fixed(worse.copy.rmse, 2, 5) +
+            ", SSIM" + fixed(worse.image_similarity.ssim, 3, 6) + " against" + fixed(worse.copy.ssim, 3, 6) +
+            ")";
   }
   return method_name(method) + (text.empty() ? " is worse than copying for no pair" : text) + ".\n";
 }
@@ -96,8 +98,9 @@ std::string comparisons_csv(const EnvironmentsOptions& options, const Environmen
     text += options.pairs[c.pair].source + "," + options.pairs[c.pair].target + "," + number_text(c.alpha) +
             "," + number_text(options.specular) + "," + options.environments[comparison.environment].name +
             "," + method_name(c.method) + "," + number_text(c.target_alpha) + "," +
-            number_text(c.target_specular) + "," + number_text(comparison.likeness.rmse) + "," +
-            number_text(comparison.likeness.ssim) + "," + number_text(comparison.likeness.energy) + "\n";
+            number_text(c.target_specular) + "," + number_text(comparison.image_similarity.rmse) + "," +
+            number_text(comparison.image_similarity.ssim) + "," +
+            number_text(comparison.image_similarity.energy) + "\n";
   }
   return text;
 }
@@ -107,7 +110,7 @@ std::string summary_csv(const EnvironmentsOptions& options, const EnvironmentsRe
   const auto add = [&](const std::string& models, Method method, std::size_t pair) {
     const auto chosen = comparisons_of(result, method, pair);
     if (chosen.empty()) return;
-    const PictureLikeness mean = mean_likeness(chosen);
+    const PictureSimilarity mean = mean_similarity(chosen);
     text += models + "," + method_name(method) + "," + number_text(mean.rmse) + "," + number_text(mean.ssim) +
             "," + number_text(mean.energy) + "\n";
   };
@@ -124,8 +127,8 @@ std::vector<WorsePair> worse_than_copy(const EnvironmentsOptions& options, const
     for (std::size_t p = 0; p < options.pairs.size(); ++p) {
       const auto chosen = comparisons_of(result, method, p);
       if (chosen.empty()) continue;
-      const PictureLikeness mean = mean_likeness(chosen);
-      const PictureLikeness copy = mean_likeness(comparisons_of(result, Method::kCopy, p));
+      const PictureSimilarity mean = mean_similarity(chosen);
+      const PictureSimilarity copy = mean_similarity(comparisons_of(result, Method::kCopy, p));
       if (mean.rmse > copy.rmse + 0.5 * kRmseStep || mean.ssim < copy.ssim - 0.5 * kSsimStep)
         worse.push_back({method, p, mean, copy});
     }
@@ -138,13 +141,13 @@ std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsR
   std::string text = heading(options, result) + padded("", width) + "    RMSE    SSIM  energy\n";
   for (const Method method : methods_of(result))
     text += padded(method_name(method) + counted_pairs(options, result, method), width) +
-            figures_text(mean_likeness(comparisons_of(result, method))) + "\n";
+            figures_text(mean_similarity(comparisons_of(result, method))) + "\n";
   for (std::size_t p = 0; p < options.pairs.size(); ++p)
     for (const Method method : methods_of(result)) {
       const auto chosen = comparisons_of(result, method, p);
       if (!chosen.empty())
         text += padded(pair_name(options.pairs[p]) + "  " + method_name(method), width) +
-                figures_text(mean_likeness(chosen)) + "\n";
+                figures_text(mean_similarity(chosen)) + "\n";
     }
   for (const Method method : methods_of(result))
     if (method != Method::kCopy) text += verdict_text(options, result, method);
@@ -153,9 +156,9 @@ std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsR
 }
 
 std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  // Colours that differ for colour-blind eyes too (Okabe and Ito 2008), in the order of Method.
-  static constexpr std::array<const char*, kMethods.size()> kColours = {"#000000", "#D55E00", "#0072B2",
-                                                                        "#009E73", "#999999"};
+  // Colors that differ for color-blind eyes too (Okabe and Ito 2008), in the order of Method.
+  static constexpr std::array<const char*, kMethods.size()> kColors = {"#000000", "#D55E00", "#0072B2",
+                                                                       "#009E73", "#999999"};
   std::ostringstream out;
   std::array<std::string, 2> curves;
   for (const Method method : methods_of(result)) {
@@ -164,7 +167,7 @@ std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsRe
       continue;  // means of other pairs mislead
     out << "$" << name << " << EOD\n";
     for (const double alpha : options.alphas) {
-      const PictureLikeness mean = mean_likeness(at_alpha(comparisons_of(result, method), alpha));
+      const PictureSimilarity mean = mean_similarity(at_alpha(comparisons_of(result, method), alpha));
       out << number_text(alpha) << ' ' << number_text(mean.rmse) << ' ' << number_text(mean.ssim) << '\n';
     }
     out << "EOD\n";
@@ -172,7 +175,7 @@ std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsRe
       curves[panel] += (curves[panel].empty() ? "plot $" : ", $") + name +
                        " using 1:" + std::to_string(panel + 2) +
                        " with linespoints linewidth 2 pointtype 7 pointsize 0.5 " + "linecolor rgb '" +
-                       kColours[static_cast<std::size_t>(method)] + "' title '" + name + "'";
+                       kColors[static_cast<std::size_t>(method)] + "' title '" + name + "'";
   }
   out << "set terminal svg size 1200,480 enhanced font 'Helvetica,13' background rgb 'white'\n"
       << "set multiplot layout 1,2 margins 0.07,0.98,0.13,0.85 spacing 0.09,0.1 title 'Spheres under "

@@ -25,7 +25,7 @@ std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsR
 struct WorsePair {
   Method method = Method::kPaper;
   std::size_t pair = 0;
-  PictureLikeness likeness, copy;
+  PictureSimilarity image_similarity, copy;
 };
 std::vector<WorsePair> worse_than_copy(const EnvironmentsOptions& options, const EnvironmentsResult& result);
 

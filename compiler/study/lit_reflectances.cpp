@@ -3,7 +3,7 @@
 #include <array>
 #include <numbers>
 
-#include "sweep/renderer.hpp"
+#include "renderer/renderer.hpp"
 
 namespace remapc {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "study/colour.hpp"
-#include "study/lit_sphere.hpp"
+#include "report/color.hpp"
+#include "report/lit_sphere.hpp"
 
 namespace remapc {
 

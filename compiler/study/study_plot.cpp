@@ -3,19 +3,19 @@
 #include <array>
 #include <sstream>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "fit/gnuplot.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "report/gnuplot.hpp"
+#include "system/files.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
 
 using remap::number_text;
 
-// Colours that differ for colour-blind eyes too (Okabe and Ito 2008).
-constexpr std::array<const char*, 6> kColours = {"#0072B2", "#D55E00", "#009E73",
-                                                 "#CC79A7", "#E69F00", "#56B4E9"};
+// Colors that differ for color-blind eyes too (Okabe and Ito 2008).
+constexpr std::array<const char*, 6> kColors = {"#0072B2", "#D55E00", "#009E73",
+                                                "#CC79A7", "#E69F00", "#56B4E9"};
 constexpr int kPanelWidth = 640, kHeight = 480;
 
 bool has_gnuplot() {
@@ -36,20 +36,20 @@ void write_data(const StudyPlot& plot, std::size_t panel, std::ostringstream& ou
   }
 }
 
-// A flagged curve has the colour of the one before it, whose continuation it is.
+// A flagged curve has the color of the one before it, whose continuation it is.
 void write_curves(const StudyPlot& plot, std::size_t panel, std::ostringstream& out) {
   out << "set title \"" << plot.title << "\" noenhanced\nset xlabel \"" << plot.x_label
       << "\" noenhanced\nset ylabel \"" << plot.y_label << "\" noenhanced\nplot ";
-  std::size_t colour = 0;
+  std::size_t color = 0;
   bool first = true;
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {
     const StudyCurve& curve = plot.curves[c];
-    if (!curve.flagged && c > 0) ++colour;
+    if (!curve.flagged && c > 0) ++color;
     if (curve.points.empty()) continue;
     out << (first ? "" : ", ") << "$data" << panel << "_" << c << " using 1:2 with "
         << (curve.flagged ? "points pointtype 6" : "linespoints pointtype 7")
-        << " pointsize 0.4 linecolor rgb '" << kColours[colour % kColours.size()] << "' title \""
-        << curve.label << "\"";
+        << " pointsize 0.4 linecolor rgb '" << kColors[color % kColors.size()] << "' title \"" << curve.label
+        << "\"";
     first = false;
   }
   out << "\n";

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "error.hpp"
+#include "remap/error.hpp"
+#include "renderer/image_file.hpp"
 #include "study/warp_sets.hpp"
-#include "sweep/image_file.hpp"
 
 namespace remapc {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "warp/material.hpp"
+#include "warp/space/material.hpp"
 
 namespace remapc {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "warp/material.hpp"
+#include "warp/space/material.hpp"
 
 namespace remapc {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/image.hpp"
 #include "study/warps.hpp"
-#include "sweep/image.hpp"
 
 namespace remapc {
 

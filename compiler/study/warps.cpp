@@ -5,9 +5,9 @@
 #include <cmath>
 #include <ctime>
 
-#include "error.hpp"
-#include "number_text.hpp"
-#include "parallel.hpp"
+#include "remap/error.hpp"
+#include "system/parallel.hpp"
+#include "text/number_text.hpp"
 #include "warp/warp_table.hpp"
 
 namespace remapc {

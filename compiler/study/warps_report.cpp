@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <sstream>
 
-#include "number_text.hpp"
-#include "report_text.hpp"
-#include "version.hpp"
+#include "remap/version.hpp"
+#include "text/number_text.hpp"
+#include "text/report_text.hpp"
 
 namespace remapc {
 namespace {
@@ -104,14 +104,14 @@ void write_curves(const WarpsOptions& options, const WarpsResult& result, WarpGr
 }
 
 std::string plots_of(const WarpsOptions& options, const char* data, const char* first, const char* style) {
-  // Colours that differ for colour-blind eyes too (Okabe and Ito 2008), again from the first.
-  static constexpr std::array<const char*, 6> kColours = {"#009E73", "#E69F00", "#0072B2",
-                                                          "#D55E00", "#CC79A7", "#56B4E9"};
+  // Colors that differ for color-blind eyes too (Okabe and Ito 2008), again from the first.
+  static constexpr std::array<const char*, 6> kColors = {"#009E73", "#E69F00", "#0072B2",
+                                                         "#D55E00", "#CC79A7", "#56B4E9"};
   std::string text = "plot ";
   for (std::size_t set = 0; set < options.cases.size(); ++set)
     text += (set == 0 ? "" : ", ") + std::string("$") + data + " using " + first + std::to_string(2 + set) +
             (std::string(first).empty() ? ":xtic(1) " : " ") + style + " linecolor rgb '" +
-            kColours[set % kColours.size()] + "' title \"" + options.cases[set].name + "\"";
+            kColors[set % kColors.size()] + "' title \"" + options.cases[set].name + "\"";
   return text + "\n";
 }
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/image.hpp"
 #include "study/warps.hpp"
-#include "sweep/image.hpp"
 
 namespace remapc {
 

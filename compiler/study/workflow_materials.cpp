@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <random>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "json_field.hpp"
-#include "number_text.hpp"
-#include "sweep/fresnel.hpp"
-#include "sweep/likeness.hpp"
+#include "remap/error.hpp"
+#include "renderer/fresnel.hpp"
+#include "renderer/image_similarity.hpp"
+#include "system/files.hpp"
+#include "text/json_field.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -24,13 +24,13 @@ class Draw {
   explicit Draw(std::uint64_t seed) : generator_(seed) {}
   double share() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + share() * (high - low); }
-  Rgb colour(double low, double high) {
+  Rgb color(double low, double high) {
     Rgb rgb{};
     for (double& value : rgb) value = between(low, high);
     return rgb;
   }
   // Linear; display values between these, each channel by itself.
-  Rgb display_colour(double low, double high) {
+  Rgb display_color(double low, double high) {
     Rgb rgb{};
     for (double& value : rgb) value = linear_of_display(between(low, high));
     return rgb;
@@ -59,20 +59,20 @@ Reflectances reflecting(const Rgb& diffuse, const Rgb& f0) {
   return {scaled(diffuse, 1.0 - largest(f0)), f0};
 }
 
-// Colours are uniform in display values, as people pick them.
+// Colors are uniform in display values, as people pick them.
 Reflectances random_surface(Draw& draw) {
-  const Rgb diffuse = draw.display_colour(0.0, 0.9);
-  return {diffuse, draw.display_colour(0.0, 0.9)};
+  const Rgb diffuse = draw.display_color(0.0, 0.9);
+  return {diffuse, draw.display_color(0.0, 0.9)};
 }
 
 Reflectances plastic_surface(Draw& draw) {
   const double f0 = draw.between(0.02, 0.12);
-  return reflecting(draw.display_colour(0.1, 1.0), {f0, f0, f0});
+  return reflecting(draw.display_color(0.1, 1.0), {f0, f0, f0});
 }
 
 Reflectances paint_surface(Draw& draw) {
-  const Rgb diffuse = draw.display_colour(0.0, 0.9);
-  return reflecting(diffuse, draw.display_colour(0.1, 0.6));
+  const Rgb diffuse = draw.display_color(0.0, 0.9);
+  return reflecting(diffuse, draw.display_color(0.1, 0.6));
 }
 
 struct NamedSurface {
@@ -123,24 +123,24 @@ std::vector<NamedSurface> ngan_surfaces(const fs::path& path) {
   return surfaces;
 }
 
-Rgb linear_colour(const Field& item) {
+Rgb linear_color(const Field& item) {
   for (const Field& entry : item["color"].list(1, [](const Field& each) { return each; }))
     if (entry["colorSpace"].text() == "srgb-linear") {
       Rgb rgb{};
       for (std::size_t c = 0; c < 3; ++c) rgb[c] = std::clamp(entry["color"].at(c, 3).number(), 0.0, 1.0);
       return rgb;
     }
-  item["color"].fail("has no entry of the colour space srgb-linear; expected one");
+  item["color"].fail("has no entry of the color space srgb-linear; expected one");
 }
 
 std::vector<NamedSurface> database_surfaces(const fs::path& path) {
   const nlohmann::ordered_json json = remap::parse_json(remap::read_file(path), path.string());
   return Field(json, path.string())["data"].list(1, [](const Field& item) {
     const std::string name = item["name"].text();
-    const Rgb colour = linear_colour(item);
-    if (item["metalness"].number() > 0.5) return NamedSurface{name, {{}, colour}, true};
+    const Rgb color = linear_color(item);
+    if (item["metalness"].number() > 0.5) return NamedSurface{name, {{}, color}, true};
     const double f0 = normal_reflectance(item["ior"].number());
-    return NamedSurface{name, {colour, {f0, f0, f0}}, false};
+    return NamedSurface{name, {color, {f0, f0, f0}}, false};
   });
 }
 

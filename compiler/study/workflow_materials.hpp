@@ -12,9 +12,9 @@
 namespace remapc {
 
 enum class MaterialGroup {
-  kRandom,    // any colours of diffuse reflectance and F0
-  kPlastic,   // coloured diffuse, grey F0 of 0.02 to 0.12
-  kPaint,     // coloured diffuse under a specular colour of its own
+  kRandom,    // any colors of diffuse reflectance and F0
+  kPlastic,   // colored diffuse, grey F0 of 0.02 to 0.12
+  kPaint,     // colored diffuse under a specular color of its own
   kNgan,      // 86 measured materials as Ngan et al. 2005 fitted Ward's model to them
   kMeasured,  // dielectrics and metals of physicallybased.info, and mixtures of one of each
 };

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "error.hpp"
-#include "number_text.hpp"
-#include "parallel.hpp"
-#include "study/contact_sheet.hpp"
-#include "study/displayed_sphere.hpp"
-#include "sweep/likeness.hpp"
+#include "remap/error.hpp"
+#include "renderer/image_similarity.hpp"
+#include "report/contact_sheet.hpp"
+#include "report/displayed_sphere.hpp"
+#include "system/parallel.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -68,7 +68,7 @@ struct Run {
   std::string convention;
   bool scaled = false;
   std::vector<WorkflowMethod> methods;
-  MetallicReflection floor;
+  MetallicReflection least_error;
 };
 
 // What all materials of a run share.
@@ -89,7 +89,7 @@ double mean_rmse(const WorkflowPictures& pictures, std::size_t environment_count
   return sum / static_cast<double>(environment_count);
 }
 
-// The pictures of one material by every method, and by the floor.
+// The pictures of one material by every method, and by the least error.
 std::vector<WorkflowPictures> compared(const Studio& studio, const Run& run, const StudyMaterial& material) {
   const Reflectances& maps = material.surface;
   const Reflectances shown = run.scaled ? scaled_surface(maps) : maps;
@@ -100,19 +100,19 @@ std::vector<WorkflowPictures> compared(const Studio& studio, const Run& run, con
     all.push_back({converted(method, maps, alpha), {}, {}});
     results.push_back(reflectances_of(all.back().surface, method.reflection));
   }
-  all.push_back({best_metallic(studio.lit, material.alpha, shown, run.floor), {}, {}});
-  results.push_back(reflectances_of(all.back().surface, run.floor));
+  all.push_back({best_metallic(studio.lit, material.alpha, shown, run.least_error), {}, {}});
+  results.push_back(reflectances_of(all.back().surface, run.least_error));
   for (std::size_t light = 0; light < studio.light_count(); ++light) {
     const DisplayedSphere source = studio.picture(material, light, shown);
     for (std::size_t m = 0; m < all.size(); ++m) {
       const DisplayedSphere target = studio.picture(material, light, results[m]);
-      all[m].rmse.push_back(100.0 * rms_difference(source.colours, target.colours));
+      all[m].rmse.push_back(100.0 * rms_difference(source.colors, target.colors));
       all[m].ssim.push_back(sphere_similarity(source, target, studio.lit.pixels(), studio.lit.resolution()));
     }
   }
   const std::size_t environments = studio.lit.environment_count();
   for (std::size_t m = 0; m + 1 < all.size(); ++m)
-    if (run.methods[m].reflection.dielectric_f0 == run.floor.dielectric_f0 &&
+    if (run.methods[m].reflection.dielectric_f0 == run.least_error.dielectric_f0 &&
         mean_rmse(all[m], environments) < mean_rmse(all.back(), environments))
       all.back() = all[m];
   return all;
@@ -121,7 +121,7 @@ std::vector<WorkflowPictures> compared(const Studio& studio, const Run& run, con
 WorkflowComparison comparison_of(const Studio& studio, const Run& run) {
   WorkflowComparison comparison{run.convention, {}, {}};
   for (const WorkflowMethod& method : run.methods) comparison.methods.push_back(method.name);
-  comparison.methods.push_back(kFloorMethod);
+  comparison.methods.push_back(kLeastErrorMethod);
   const std::vector<StudyMaterial>& materials = studio.options.materials;
   comparison.pictures.assign(comparison.methods.size(), std::vector<WorkflowPictures>(materials.size()));
   remap::run_parallel(materials.size(), studio.options.jobs, [&](std::size_t i) {
@@ -153,12 +153,12 @@ void add_sheets(const Studio& studio, const Run& run, const WorkflowComparison& 
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto place = [&](std::size_t column, const Reflectances& surface) {
         place_picture(&sheet, side, r, column, studio.lit.pixels(),
-                      studio.picture(materials[rows[r]], light, surface).colours);
+                      studio.picture(materials[rows[r]], light, surface).colors);
       };
       place(0, materials[rows[r]].surface);
       for (std::size_t m = 0; m < comparison.methods.size(); ++m)
         place(1 + m, reflectances_of(comparison.pictures[m][rows[r]].surface,
-                                     m < run.methods.size() ? run.methods[m].reflection : run.floor));
+                                     m < run.methods.size() ? run.methods[m].reflection : run.least_error));
     }
     result->sheets.push_back(std::move(sheet));
   }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "study/workflow_floor.hpp"
+#include "study/workflow_least_error.hpp"
 #include "study/workflow_materials.hpp"
 #include "workflow/conversion.hpp"
 
@@ -61,14 +61,14 @@ struct WorkflowFigures {
   double headlight_rmse = 0.0, headlight_ssim = 0.0;  // means under the light at the camera
 };
 
-// All methods in one convention; the last is the floor, `best`.
+// All methods in one convention; the last is the least error, `best`.
 struct WorkflowComparison {
   std::string convention;  // `plain`, `gltf`
   std::vector<std::string> methods;
   std::vector<std::vector<WorkflowPictures>> pictures;  // [method][material]; lights: environments, headlight
 };
 
-inline constexpr const char* kFloorMethod = "best (albedo, metallic)";
+inline constexpr const char* kLeastErrorMethod = "best (albedo, metallic)";
 
 struct WorkflowsResult {
   std::vector<WorkflowComparison> comparisons;  // plain, then glTF
@@ -78,9 +78,9 @@ struct WorkflowsResult {
   std::vector<std::string> sheet_materials;  // names of the rows
 };
 
-// Renders every material and what each method makes of it. The floor is the best of a search under these
-// environments and of all methods of its F0, so that none of them is below it. Throws kUsage for empty lists
-// and numbers out of range, kInterrupted.
+// Renders every material and what each method makes of it. The least error is the best of a search under
+// these environments and of all methods of its F0, so that none of them is below it. Throws kUsage for empty
+// lists and numbers out of range, kInterrupted.
 WorkflowsResult study_workflows(const WorkflowsOptions& options);
 
 // Of one method of a comparison, over the group or, without one, all materials.

@@ -4,9 +4,9 @@
 #include <array>
 #include <sstream>
 
-#include "number_text.hpp"
-#include "report_text.hpp"
-#include "version.hpp"
+#include "remap/version.hpp"
+#include "text/number_text.hpp"
+#include "text/report_text.hpp"
 
 namespace remapc {
 namespace {
@@ -38,14 +38,14 @@ std::string comparison_text(const WorkflowsOptions& options, const WorkflowCompa
   return text;
 }
 
-// How far above the floor the projection is, in words.
+// How far above the least error the projection is, in words.
 std::string verdict(const WorkflowsOptions& options, const WorkflowComparison& comparison) {
   const auto found = std::find(comparison.methods.begin(), comparison.methods.end(), "projection");
   const auto place = static_cast<std::size_t>(found - comparison.methods.begin());
   const double own = figures_of(options, comparison, place).rmse;
-  const double floor = figures_of(options, comparison, comparison.methods.size() - 1).rmse;
-  return "The projection is" + fixed(100.0 * (own / floor - 1.0), 1, 4) +
-         " % above what any base colour and metallic can do under these lights.\n";
+  const double least = figures_of(options, comparison, comparison.methods.size() - 1).rmse;
+  return "The projection is" + fixed(100.0 * (own / least - 1.0), 1, 4) +
+         " % above what any base color and metallic can do under these lights.\n";
 }
 
 std::string family_text(const std::vector<FamilyLine>& family, std::size_t width) {
@@ -155,9 +155,9 @@ std::string workflow_summary_csv(const WorkflowsOptions& options, const Workflow
 }
 
 std::string workflows_plot_script(const WorkflowsOptions& options, const WorkflowsResult& result) {
-  // Colours that differ for colour-blind eyes too (Okabe and Ito 2008), again from the first.
-  static constexpr std::array<const char*, 8> kColours = {"#000000", "#999999", "#CC79A7", "#E69F00",
-                                                          "#D55E00", "#56B4E9", "#0072B2", "#009E73"};
+  // Colors that differ for color-blind eyes too (Okabe and Ito 2008), again from the first.
+  static constexpr std::array<const char*, 8> kColors = {"#000000", "#999999", "#CC79A7", "#E69F00",
+                                                         "#D55E00", "#56B4E9", "#0072B2", "#009E73"};
   const WorkflowComparison& comparison = result.comparisons.front();
   std::ostringstream out;
   std::array<std::string, 2> bars;
@@ -177,7 +177,7 @@ std::string workflows_plot_script(const WorkflowsOptions& options, const Workflo
     for (std::size_t panel = 0; panel < bars.size(); ++panel)
       bars[panel] += (bars[panel].empty() ? "plot " : ", ") + std::string("$figures using ") +
                      std::to_string(2 + 2 * m + panel) + ":xtic(1) linecolor rgb '" +
-                     kColours[m % kColours.size()] + "' title \"" + comparison.methods[m] + "\"";
+                     kColors[m % kColors.size()] + "' title \"" + comparison.methods[m] + "\"";
   out << "set terminal svg size 1400,520 enhanced font 'Helvetica,13' background rgb 'white'\n"
       << "set multiplot layout 1,2 margins 0.05,0.99,0.09,0.84 spacing 0.07,0.1 title 'Specular to metallic, "
       << options.materials.size() << " materials under " << options.environments.size()

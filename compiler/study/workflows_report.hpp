@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/workflow_family.hpp"
+#include "study/round_trip.hpp"
 #include "study/workflows.hpp"
 
 namespace remapc {

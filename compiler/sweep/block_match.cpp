@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <optional>
 
-#include "sweep/joint_match.hpp"
-#include "sweep/match.hpp"
+#include "match/joint_match.hpp"
+#include "match/match.hpp"
 
 namespace remapc {
 namespace {
 
 using remap::Range;
 
-TableRow flat_row(const SamplePoint& sample, const Subject& target) {
+TableRow flat_row(const SamplePoint& sample, const ProbedModel& target) {
   const double alpha = std::clamp(sample.alpha, target.model.alpha.min, target.model.alpha.max);
   return {sample.alpha, sample.specular, alpha, target.linear_range().min, 0.0, RowStatus::kFlat, 0};
 }
@@ -24,7 +24,7 @@ TableRow matched_row(const SamplePoint& sample, const Match& match) {
 // the best of a grid of pictures.
 TableRow searched_row(const SweepSetup& setup, const SamplePoint& sample, std::vector<float> picture,
                       std::vector<float> weights) {
-  const std::vector<Sitting> starts = setup.grid->minima(picture, weights);
+  const std::vector<RoleValues> starts = setup.grid->minima(picture, weights);
   const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights), {false, false});
   const JointMatch match = matcher.best_match(starts);
   return {sample.alpha,
@@ -44,11 +44,11 @@ class SourcePictures {
     const bool rendered = setup.source.response.affine() && !setup.source.model.is_external;
     if (!rendered) family_ = setup.source.family();
     if (family_ && family_->picture_count() >= block.samples.size()) family_.reset();
-    if (family_) pictures_ = take_family(setup.photographer, setup.source, alpha_);
+    if (family_) pictures_ = take_family(setup.picture_taker, setup.source, alpha_);
   }
 
   std::vector<float> at(double specular) const {
-    if (!family_) return setup_.photographer.take(setup_.source, {alpha_, specular, 0.0});
+    if (!family_) return setup_.picture_taker.take(setup_.source, {alpha_, specular, 0.0});
     // Combinations of pictures leave rounding where there is none.
     if (specular <= family_->range.min && setup_.source.response.black_base)
       return std::vector<float>(pictures_.front().size());
@@ -76,7 +76,7 @@ std::vector<TableRow> match_each(const SweepSetup& setup, const SampleBlock& blo
       rows.push_back(flat_row(sample, setup.target));
       continue;
     }
-    auto weights = setup.photographer.weights(picture);
+    auto weights = setup.picture_taker.weights(picture);
     if (setup.bank == nullptr) {
       rows.push_back(searched_row(setup, sample, std::move(picture), std::move(weights)));
       continue;
@@ -90,8 +90,8 @@ std::vector<TableRow> match_each(const SweepSetup& setup, const SampleBlock& blo
 // Pictures of an affine source are combinations of two. Where the weights do not depend on specular either
 // (uniform, or relative to a picture that only scales), one set of inner products serves the whole block.
 std::vector<TableRow> match_together(const SweepSetup& setup, const SampleBlock& block) {
-  AffinePictures pictures = take_affine(setup.photographer, setup.source, block.alpha);
-  auto weights = setup.photographer.weights(pictures.full);
+  AffinePictures pictures = take_affine(setup.picture_taker, setup.source, block.alpha);
+  auto weights = setup.picture_taker.weights(pictures.full);
   const bool proportional = setup.source.response.proportional();
   std::vector<std::vector<float>> basis;
   basis.push_back(std::move(pictures.slope));
@@ -133,19 +133,19 @@ void match_diffuse_apart(const SweepSetup& setup, TableRow* row) {
 // The whole picture, diffuse and specular: its error where the stages were apart, the joint match where they
 // are not.
 void match_whole(const SweepSetup& setup, TableRow* row) {
-  const Sitting whole{row->alpha1, row->specular1, row->diffuse1};
+  const RoleValues whole{row->alpha1, row->specular1, row->diffuse1};
   if (row->status == RowStatus::kFlat) return;
-  auto picture = setup.photographer.take(setup.source, whole);
+  auto picture = setup.picture_taker.take(setup.source, whole);
   if (*std::max_element(picture.begin(), picture.end()) <= 0.0f) {
     row->status = RowStatus::kFlat;
     return;
   }
-  auto weights = setup.photographer.weights(picture);
+  auto weights = setup.picture_taker.weights(picture);
   const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights),
                              {true, row->diffuse1 > 0.0 || !setup.source.model.has(ParameterRole::kDiffuse)});
-  const Sitting apart{row->alpha2, row->specular2, row->diffuse2};
+  const RoleValues apart{row->alpha2, row->specular2, row->diffuse2};
   if (setup.options.stages == 2) {
-    row->error = matcher.error_of(setup.photographer.take(setup.target, apart));
+    row->error = matcher.error_of(setup.picture_taker.take(setup.target, apart));
     return;
   }
   const JointMatch match =

@@ -4,14 +4,15 @@
 #include <memory>
 #include <vector>
 
-#include "sweep/sweep.hpp"
-#include "sweep/target_bank.hpp"
-#include "sweep/target_grid.hpp"
-#include "sweep/target_pictures.hpp"
+#include "match/target_bank.hpp"
+#include "match/target_grid.hpp"
+#include "match/target_pictures.hpp"
+#include "sweep/sweep_options.hpp"
+#include "table/table.hpp"
 
 namespace remapc {
 
-// Samples of one source width, as indices into SweepOptions::samples: the unit of work and of the journal.
+// Samples of one source width, as indices into SweepOptions::samples: the unit of work.
 struct SampleBlock {
   double alpha;
   std::vector<std::size_t> samples;
@@ -20,12 +21,12 @@ struct SampleBlock {
 // Everything that the blocks of one sweep share.
 struct SweepSetup {
   const SweepOptions& options;
-  const Photographer& photographer;
-  Subject source;
-  Subject target;
+  const PictureTaker& picture_taker;
+  ProbedModel source;
+  ProbedModel target;
   double irradiance_scale = 1.0;             // what the source's pictures are multiplied by
   DiffuseMatch diffuse;                      // of the source's pictures, so multiplied
-  std::unique_ptr<TargetBank> bank;          // of a target that has a family (Subject::family)
+  std::unique_ptr<TargetBank> bank;          // of a target that has a family (ProbedModel::family)
   std::unique_ptr<TargetPictures> pictures;  // for non-linear matches
   std::unique_ptr<TargetGrid> grid;          // of a target that has none
   EffectiveWidths source_widths, target_widths;

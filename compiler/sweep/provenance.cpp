@@ -1,6 +1,6 @@
 #include "sweep/provenance.hpp"
 
-#include "number_text.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -29,23 +29,23 @@ std::string versions_text(const Renderer& renderer, const PairOptions& options) 
 
 }  // namespace
 
-void add_side(const std::string& role, const Subject& subject, Comments* comments) {
-  const remap::ModelSide side = model_side(subject.model);
-  const SpecularResponse& response = subject.response;
+void add_side(const std::string& role, const ProbedModel& probed_model, Comments* comments) {
+  const remap::ModelSide side = model_side(probed_model.model);
+  const SpecularResponse& response = probed_model.response;
   comments->emplace_back(role, side.model);
   comments->emplace_back(role + "_roughness", std::string(remap::convention_name(side.roughness)));
-  if (const std::string own = subject.model.parameter(ParameterRole::kRoughness).name;
+  if (const std::string own = probed_model.model.parameter(ParameterRole::kRoughness).name;
       own != remap::convention_name(side.roughness))
     comments->emplace_back(role + "_roughness_parameter", own);
   comments->emplace_back(role + "_specular", side.specular);
-  if (const std::string fixed = fixed_text(subject.model); !fixed.empty())
+  if (const std::string fixed = fixed_text(probed_model.model); !fixed.empty())
     comments->emplace_back(role + "_fixed", fixed);
   comments->emplace_back(role + "_specular_proportional", yes_no(response.proportional()));
   comments->emplace_back(role + "_specular_law", std::string(law_name(response.law)));
   if (response.law == SpecularLaw::kIor) comments->emplace_back(role + "_specular_column", "f0");
-  if (subject.curve)
+  if (probed_model.curve)
     comments->emplace_back(role + "_specular_interpolated",
-                           pictures_text(subject.curve->picture_count()) + " a width");
+                           pictures_text(probed_model.curve->picture_count()) + " a width");
   if (response.law == SpecularLaw::kClamped)
     comments->emplace_back(role + "_specular_knee", number_text(response.knee));
 }

@@ -5,16 +5,16 @@
 #include <utility>
 #include <vector>
 
-#include "sweep/photographer.hpp"
-#include "sweep/steady_renderer.hpp"
-#include "sweep/sweep.hpp"
+#include "probe/picture_taker.hpp"
+#include "renderer/steady_renderer.hpp"
+#include "sweep/sweep_options.hpp"
 
 namespace remapc {
 
 using Comments = std::vector<std::pair<std::string, std::string>>;
 
 // One side: the model, its parameters, the law that its specular follows.
-void add_side(const std::string& role, const Subject& subject, Comments* comments);
+void add_side(const std::string& role, const ProbedModel& probed_model, Comments* comments);
 
 // Widths of one side that change its pictures, where not all do.
 void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments);

@@ -5,8 +5,8 @@
 #include <map>
 #include <numbers>
 
-#include "number_text.hpp"
-#include "sweep/likeness.hpp"
+#include "renderer/image_similarity.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -43,10 +43,10 @@ double white_exposure(const SweepSetup& setup) {
   const double alpha = std::sqrt(setup.target.model.alpha.min * setup.target.model.alpha.max);
   const double black = setup.target.specular_range().min;
   const double white = setup.target.model.parameter(ParameterRole::kDiffuse).range.max;
-  const auto lit = setup.photographer.take(setup.target, {alpha, black, white});
-  const auto dark = setup.photographer.take(setup.target, {alpha, black, 0.0});
+  const auto lit = setup.picture_taker.take(setup.target, {alpha, black, white});
+  const auto dark = setup.picture_taker.take(setup.target, {alpha, black, 0.0});
   float brightest = 0.0f;
-  for (std::size_t i = 0; i < setup.photographer.pixel_count(); ++i)
+  for (std::size_t i = 0; i < setup.picture_taker.pixel_count(); ++i)
     brightest = std::max(brightest, lit[i] - dark[i]);
   return brightest > 0.0f ? 1.0 / static_cast<double>(brightest) : 1.0;
 }
@@ -57,9 +57,9 @@ std::vector<remap::SphereSimilarity> compare_spheres(const SweepSetup& setup,
                                                      const std::vector<TableRow>& rows) {
   const double exposure = white_exposure(setup);
   const int side = setup.options.resolution;
-  const auto displayed = [&](const Subject& subject, double alpha, double specular) {
+  const auto displayed = [&](const ProbedModel& probed_model, double alpha, double specular) {
     std::vector<float> square =
-        setup.photographer.square_picture(setup.photographer.take(subject, {alpha, specular, 0.0}));
+        setup.picture_taker.square_picture(setup.picture_taker.take(probed_model, {alpha, specular, 0.0}));
     for (float& value : square) value = display_value(exposure * static_cast<double>(value));
     return square;
   };

@@ -5,18 +5,18 @@
 #include <map>
 #include <mutex>
 
-#include "error.hpp"
-#include "number_text.hpp"
-#include "parallel.hpp"
+#include "match/joint_match.hpp"
+#include "match/target_bank.hpp"
+#include "probe/family_probe.hpp"
+#include "probe/picture_taker.hpp"
+#include "remap/error.hpp"
+#include "remap/version.hpp"
 #include "sweep/block_match.hpp"
-#include "sweep/family_probe.hpp"
-#include "sweep/joint_match.hpp"
-#include "sweep/photographer.hpp"
 #include "sweep/provenance.hpp"
 #include "sweep/spheres.hpp"
-#include "sweep/target_bank.hpp"
+#include "system/parallel.hpp"
 #include "table/domain.hpp"
-#include "version.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -54,7 +54,7 @@ void require_options(const SweepOptions& options, const ModelDescription& source
     throw Error(ErrorKind::kUsage, "stages: " + std::to_string(options.stages) + "; expected 1, 2 or 3");
   if (!has_diffuse(options)) return;
   target.parameter(ParameterRole::kDiffuse);  // throws where there is none to match
-  // The diffuse light of a source may have no parameter of its own: one base colour for all.
+  // The diffuse light of a source may have no parameter of its own: one base color for all.
   if (options.stages == 1 && options.diffuse == 0.0 && !source.has(ParameterRole::kDiffuse)) return;
   const Range diffuses = source.parameter(ParameterRole::kDiffuse).range;
   if (!diffuses.contains(options.diffuse))
@@ -69,7 +69,7 @@ void require_alphas(const SweepOptions& options, const ModelDescription& source)
                                          " is out of range; expected alpha " + range_text(source.alpha));
 }
 
-void require_speculars(const SweepOptions& options, const Subject& source) {
+void require_speculars(const SweepOptions& options, const ProbedModel& source) {
   const Range speculars = source.specular_range();
   for (const SamplePoint& sample : options.samples)
     if (!speculars.contains(sample.specular))
@@ -92,9 +92,9 @@ std::vector<TableRow> rounded(std::vector<TableRow> rows) {
 }
 
 // What the columns of a side hold.
-remap::ModelSide column_side(const Subject& subject) {
-  remap::ModelSide side = model_side(subject.model);
-  if (subject.response.law == SpecularLaw::kIor) side.specular = "f0";
+remap::ModelSide column_side(const ProbedModel& probed_model) {
+  remap::ModelSide side = model_side(probed_model.model);
+  if (probed_model.response.law == SpecularLaw::kIor) side.specular = "f0";
   return side;
 }
 
@@ -137,39 +137,39 @@ Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
 }
 
 // Probes both models, matches their light, and makes what the blocks need.
-SweepSetup make_setup(const SweepOptions& options, const Photographer& photographer,
+SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_taker,
                       const ModelDescription& source, const ModelDescription& target) {
-  const EffectiveWidths source_widths = probe_widths(photographer, source, sampled_alphas(options.samples));
+  const EffectiveWidths source_widths = probe_widths(picture_taker, source, sampled_alphas(options.samples));
   const Range alphas = source_widths.effective;
   const Range wanted = searched_widths(target, alphas.min);
-  const EffectiveWidths target_widths = probe_widths(photographer, target, wanted);
+  const EffectiveWidths target_widths = probe_widths(picture_taker, target, wanted);
   const Range searched = target_widths.effective;
   ModelDescription responsive = target;  // without widths that do nothing
   if (searched.min > wanted.min) responsive.alpha.min = searched.min;
   if (searched.max < wanted.max) responsive.alpha.max = searched.max;
   const Range probed{std::max(searched.min, alphas.min), searched.max};
   // Apart from the aggregate: gcc 12 destroys members twice where a later one throws.
-  const SpecularResponse source_law = probe_specular(photographer, source, alphas);
-  const SpecularResponse target_law = probe_specular(photographer, target, probed);
+  const SpecularResponse source_law = probe_specular(picture_taker, source, alphas);
+  const SpecularResponse target_law = probe_specular(picture_taker, target, probed);
   const DiffuseMatch diffuse =
-      light_matched(source, target) ? match_diffuse(photographer, source, target) : DiffuseMatch{};
+      light_matched(source, target) ? match_diffuse(picture_taker, source, target) : DiffuseMatch{};
   SweepSetup setup{
-      options, photographer,  {source, source_law}, {responsive, target_law}, 1.0, diffuse, nullptr, nullptr,
+      options, picture_taker, {source, source_law}, {responsive, target_law}, 1.0, diffuse, nullptr, nullptr,
       nullptr, source_widths, target_widths};
   if (options.match_irradiance) {
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;
   }
-  if (!setup.source.response.affine()) setup.source.curve = probe_family(photographer, source, alphas);
-  if (!setup.target.response.affine()) setup.target.curve = probe_family(photographer, target, probed);
+  if (!setup.source.response.affine()) setup.source.curve = probe_family(picture_taker, source, alphas);
+  if (!setup.target.response.affine()) setup.target.curve = probe_family(picture_taker, target, probed);
   if (setup.target.family())
-    setup.bank = std::make_unique<TargetBank>(photographer, setup.target, searched, kBankRatio);
+    setup.bank = std::make_unique<TargetBank>(picture_taker, setup.target, searched, kBankRatio);
   else
-    setup.grid = std::make_unique<TargetGrid>(photographer, setup.target, searched);
-  if (setup.bank && has_diffuse(options) && probe_diffuse(photographer, target, probed))
-    setup.pictures = std::make_unique<BankPictures>(photographer, setup.target, *setup.bank);
+    setup.grid = std::make_unique<TargetGrid>(picture_taker, setup.target, searched);
+  if (setup.bank && has_diffuse(options) && probe_diffuse(picture_taker, target, probed))
+    setup.pictures = std::make_unique<BankPictures>(picture_taker, setup.target, *setup.bank);
   else if (!setup.bank || has_diffuse(options))
-    setup.pictures = std::make_unique<RenderedPictures>(photographer, setup.target, searched);
+    setup.pictures = std::make_unique<RenderedPictures>(picture_taker, setup.target, searched);
   return setup;
 }
 
@@ -199,12 +199,12 @@ std::string grid_text(const Range& alphas, std::size_t alpha_count, const Range&
 }
 
 SpecularResponse specular_response(const Renderer& renderer, const ModelDescription& model) {
-  const Photographer photographer(renderer, objective_preset("natural"), kProbeResolution, 1);
-  return probe_specular(photographer, model, {0.1, model.alpha.max});
+  const PictureTaker picture_taker(renderer, objective_preset("natural"), kProbeResolution, 1);
+  return probe_specular(picture_taker, model, {0.1, model.alpha.max});
 }
 
 Range canonical_speculars(const Renderer& renderer, const ModelDescription& model) {
-  return Subject{model, specular_response(renderer, model)}.specular_range();
+  return ProbedModel{model, specular_response(renderer, model)}.specular_range();
 }
 
 double subpixel_alpha(int resolution, int samples_per_axis) {
@@ -213,36 +213,29 @@ double subpixel_alpha(int resolution, int samples_per_axis) {
   return 1.5 / (0.5 * resolution * samples_per_axis);
 }
 
-Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const SweepExecution& execution,
-                const std::filesystem::path& journal_path, bool resume) {
+Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const SweepExecution& execution) {
   const SteadyRenderer renderer(any_renderer, {options.source, options.target},
                                 options.objective.lights.front());
-  const ModelDescription source = recast(find_model(renderer, options.source), options.source_casting);
-  const ModelDescription target = recast(find_model(renderer, options.target), options.target_casting);
+  const ModelDescription source = recast(find_model(renderer, options.source), options.source_roles);
+  const ModelDescription target = recast(find_model(renderer, options.target), options.target_roles);
   require_options(options, source, target);
   require_alphas(options, source);
-  const Photographer photographer(renderer, options.objective, options.resolution, options.samples_per_axis);
-  const SweepSetup setup = make_setup(options, photographer, source, target);
+  const PictureTaker picture_taker(renderer, options.objective, options.resolution, options.samples_per_axis);
+  const SweepSetup setup = make_setup(options, picture_taker, source, target);
   require_speculars(options, setup.source);
 
   Table table = empty_table(renderer, setup);
-  SweepJournal journal(journal_path, table, options.samples.size(), resume);
   table.rows.resize(options.samples.size());
   const std::vector<SampleBlock> blocks = blocks_of(options.samples);
   std::mutex mutex;
   std::size_t done = 0;
   remap::run_parallel(blocks.size(), execution.jobs, [&](std::size_t b) {
     const SampleBlock& block = blocks[b];
-    const bool known = std::all_of(block.samples.begin(), block.samples.end(),
-                                   [&](std::size_t sample) { return journal.row(sample).has_value(); });
-    if (!known && execution.cancelled != nullptr && *execution.cancelled)
-      throw Error(ErrorKind::kInterrupted, "sweep: interrupted; continue it with --resume");
-    std::vector<TableRow> rows;
-    if (!known) rows = rounded(match_block(setup, block));
+    if (execution.cancelled != nullptr && *execution.cancelled)
+      throw Error(ErrorKind::kInterrupted, "sweep: interrupted");
+    const std::vector<TableRow> rows = rounded(match_block(setup, block));
     const std::lock_guard lock(mutex);
-    if (!known) journal.append(block.samples, rows);
-    for (std::size_t i = 0; i < block.samples.size(); ++i)
-      table.rows[block.samples[i]] = known ? *journal.row(block.samples[i]) : rows[i];
+    for (std::size_t i = 0; i < block.samples.size(); ++i) table.rows[block.samples[i]] = rows[i];
     done += block.samples.size();
     if (execution.progress) execution.progress(done, options.samples.size());
   });

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "error.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "error.hpp"
 #include "model/covered_box.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

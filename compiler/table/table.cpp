@@ -4,12 +4,11 @@
 #include <array>
 #include <limits>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "nearest_name.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
 #include "table/csv.hpp"
-#include "table/named_table.hpp"
+#include "text/nearest_name.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

@@ -52,6 +52,11 @@ struct Table {
   std::vector<TableRow> rows;
 };
 
+// The comments by which a table of named parameters (material_table.hpp) is known: the columns of each side,
+// parted by commas.
+inline constexpr const char* kSourceColumnsComment = "source_columns";
+inline constexpr const char* kTargetColumnsComment = "target_columns";
+
 // The comment that holds similarities of spheres: `alpha1 ssim, alpha1 ssim, ...`.
 inline constexpr const char* kSpheresComment = "sphere_ssim";
 

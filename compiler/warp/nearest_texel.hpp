@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "warp/coordinates.hpp"
+#include "warp/space/coordinates.hpp"
 
 namespace remapc {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "warp/points.hpp"
+#include "warp/space/points.hpp"
 #include "warp/warp_function.hpp"
 
 namespace remapc {

@@ -6,9 +6,9 @@
 
 #include <Eigen/Dense>
 
-#include "error.hpp"
-#include "named_values.hpp"
-#include "report_text.hpp"
+#include "remap/error.hpp"
+#include "text/named_values.hpp"
+#include "text/report_text.hpp"
 #include "warp/paper_warp.hpp"
 #include "warp/warp_table.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "warp/coordinates.hpp"
+#include "warp/space/coordinates.hpp"
 
 namespace remapc {
 

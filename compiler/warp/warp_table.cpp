@@ -6,8 +6,8 @@
 #include <map>
 #include <type_traits>
 
-#include "error.hpp"
-#include "warp/points.hpp"
+#include "remap/error.hpp"
+#include "warp/space/points.hpp"
 
 namespace remapc {
 namespace {

@@ -1,8 +1,8 @@
 // The warp compiled: a table of template parameters over the box of the source's coordinates.
 #pragma once
 
-#include "warp/material.hpp"
 #include "warp/nearest_texel.hpp"
+#include "warp/space/material.hpp"
 #include "warp/warp_function.hpp"
 
 namespace remapc {

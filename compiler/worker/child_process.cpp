@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 
 namespace remapc {
 namespace {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "error.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 #include "worker/picture_measures.hpp"
 
 namespace remapc {
@@ -52,7 +52,7 @@ class ModelCheck {
       check_values();
       check_repeats();
       check_samples();
-      check_colour();
+      check_color();
       check_width();
     } catch (const remap::Error& error) {
       if (error.kind() != remap::ErrorKind::kInput) throw;
@@ -270,20 +270,20 @@ class ModelCheck {
   }
 
   // Channels by themselves, in order.
-  void check_colour() {
-    Material coloured = highlight(wide_);
+  void check_color() {
+    Material colored = highlight(wide_);
     const ParameterDescription& specular = model_.parameter(ParameterRole::kSpecular);
     const auto at = [&](double share) {
       return specular.range.min + share * (specular.range.max - specular.range.min);
     };
     const std::array values = {at(1.0), at(0.5), at(0.25)};
-    coloured.parameters[specular.name] = {values[0], values[1], values[2]};
+    colored.parameters[specular.name] = {values[0], values[1], values[2]};
     Image picture;
     try {
-      picture = take(coloured, kHeadlight);
+      picture = take(colored, kHeadlight);
     } catch (const remap::Error& error) {
       if (!worker_.is_usable()) throw;
-      add("colour", Verdict::kRemark, "none in " + specular.name + ": " + error.what());
+      add("color", Verdict::kRemark, "none in " + specular.name + ": " + error.what());
       return;
     }
     std::string wrong;
@@ -295,7 +295,7 @@ class ModelCheck {
         wrong = "channel " + std::to_string(c) + " differs by " + percent(off) +
                 " from a grey picture of its value; expected red, green, blue, each by itself";
     }
-    add("colour", wrong.empty() ? Verdict::kGood : Verdict::kWrong,
+    add("color", wrong.empty() ? Verdict::kGood : Verdict::kWrong,
         wrong.empty() ? "red, green, blue" : wrong);
   }
 

@@ -1,4 +1,4 @@
-// Whether a worker does what the protocol asks (compiler/workers/PROTOCOL.md), found from its pictures and
+// Whether a worker does what the protocol asks (compiler/adapters/PROTOCOL.md), found from its pictures and
 // said in words.
 #pragma once
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <unistd.h>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 
 namespace remapc {
 namespace {

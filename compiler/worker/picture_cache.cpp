@@ -9,8 +9,8 @@
 #include <fstream>
 #include <thread>
 
-#include "error.hpp"
-#include "files.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
 
 namespace remapc {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "sweep/image.hpp"
+#include "renderer/image.hpp"
 #include "worker/protocol.hpp"
 
 namespace remapc {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sweep/image.hpp"
-#include "sweep/scene.hpp"
+#include "renderer/image.hpp"
+#include "renderer/scene.hpp"
 
 namespace remapc {
 

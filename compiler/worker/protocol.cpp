@@ -6,11 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "error.hpp"
-#include "json_field.hpp"
-#include "model/fit_fields.hpp"
-#include "number_text.hpp"
-#include "sweep/shape.hpp"
+#include "fit_file/fit_fields.hpp"
+#include "remap/error.hpp"
+#include "renderer/shape.hpp"
+#include "text/json_field.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {

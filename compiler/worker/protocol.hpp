@@ -1,4 +1,4 @@
-// What is said to a worker and what it answers (compiler/workers/PROTOCOL.md), as JSON. Nothing else of a
+// What is said to a worker and what it answers (compiler/adapters/PROTOCOL.md), as JSON. Nothing else of a
 // worker's conversation is JSON.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep/renderer.hpp"
+#include "renderer/renderer.hpp"
 
 namespace remapc {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "error.hpp"
-#include "nearest_name.hpp"
+#include "remap/error.hpp"
+#include "text/nearest_name.hpp"
 
 namespace remapc {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep/renderer.hpp"
+#include "renderer/renderer.hpp"
 #include "worker/worker_renderer.hpp"
 
 namespace remapc {

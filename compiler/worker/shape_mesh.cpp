@@ -7,9 +7,9 @@
 #include <numbers>
 #include <string>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "sweep/shape.hpp"
+#include "remap/error.hpp"
+#include "renderer/shape.hpp"
+#include "system/files.hpp"
 
 namespace remapc {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "sweep/scene.hpp"
+#include "renderer/scene.hpp"
 
 namespace remapc {
 

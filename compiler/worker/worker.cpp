@@ -3,8 +3,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "error.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 #include "worker/folders.hpp"
 #include "worker/shape_mesh.hpp"
 

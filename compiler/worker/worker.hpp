@@ -7,13 +7,13 @@
 #include <memory>
 #include <string>
 
-#include "sweep/image.hpp"
+#include "renderer/image.hpp"
 #include "worker/child_process.hpp"
 #include "worker/protocol.hpp"
 
 namespace remapc {
 
-// A worker as it is registered (compiler/workers/PROTOCOL.md).
+// A worker as it is registered (compiler/adapters/PROTOCOL.md).
 struct WorkerEntry {
   std::string name;     // prefix of its models; empty: any
   std::string command;  // for the shell

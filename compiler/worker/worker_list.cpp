@@ -2,9 +2,9 @@
 
 #include <map>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "json_field.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
+#include "text/json_field.hpp"
 #include "worker/folders.hpp"
 
 namespace remapc {

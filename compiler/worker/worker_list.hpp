@@ -9,7 +9,7 @@
 
 namespace remapc {
 
-// The workers of a JSON file (compiler/workers/PROTOCOL.md, last section). Throws kInput.
+// The workers of a JSON file (compiler/adapters/PROTOCOL.md, last section). Throws kInput.
 std::vector<WorkerEntry> read_worker_list(const std::filesystem::path& path);
 
 // `NAME=COMMAND`, as given on the command line. Throws kUsage.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <thread>
 
-#include "error.hpp"
-#include "sweep/shape.hpp"
+#include "remap/error.hpp"
+#include "renderer/shape.hpp"
 
 namespace remapc {
 namespace {

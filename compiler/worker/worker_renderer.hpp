@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep/renderer.hpp"
+#include "renderer/renderer.hpp"
 #include "worker/folders.hpp"
 #include "worker/picture_cache.hpp"
 #include "worker/worker.hpp"

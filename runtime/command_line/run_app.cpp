@@ -11,8 +11,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "error.hpp"
-#include "nearest_name.hpp"
+#include "remap/error.hpp"
+#include "text/nearest_name.hpp"
 
 namespace remap {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 namespace {

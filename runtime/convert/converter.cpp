@@ -3,9 +3,9 @@
 #include <array>
 #include <utility>
 
-#include "error.hpp"
 #include "model/interpreter.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 
 namespace remap {
 namespace {
@@ -49,8 +49,8 @@ class InterpretedConverter final : public Converter {
 }  // namespace
 
 ConverterInfo converter_info(const Fit& fit, InstructionSet instructions) {
-  const auto image_error =
-      fit.likeness ? std::optional<double>(fit.likeness->image_error.rms) : std::optional<double>();
+  const auto image_error = fit.image_similarity ? std::optional<double>(fit.image_similarity->image_error.rms)
+                                                : std::optional<double>();
   const auto known = [&](double error) {
     return fit.has_errors() ? std::optional<double>(error) : std::nullopt;
   };

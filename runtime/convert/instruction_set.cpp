@@ -4,8 +4,8 @@
 #include <array>
 
 #include "convert/instruction_target.hpp"
-#include "error.hpp"
-#include "nearest_name.hpp"
+#include "remap/error.hpp"
+#include "text/nearest_name.hpp"
 
 namespace remap {
 namespace {

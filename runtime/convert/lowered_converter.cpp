@@ -5,9 +5,9 @@
 
 #include "convert/converter.hpp"
 #include "convert/lowered_kernel.hpp"
-#include "error.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 namespace {

@@ -1,6 +1,7 @@
 // The domain rule is that of generated headers (compiler/emit/header.cpp), step by step over blocks of
 // texels: every loop runs over a whole block, so that compilers vectorise it for every instruction set and a
 // texel takes the same way wherever in its row it stands.
+#include "lower/lowered_value.hpp"
 #include "convert/lowered_kernel.hpp"
 
 #include <bit>

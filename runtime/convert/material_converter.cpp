@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "named_values.hpp"
+#include "text/named_values.hpp"
 
 namespace remap {
 namespace {

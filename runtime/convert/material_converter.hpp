@@ -10,7 +10,7 @@
 
 #include "convert/converter.hpp"
 #include "convert/material_rows.hpp"
-#include "model/warp_fit.hpp"
+#include "warp/warp_fit.hpp"
 #include "workflow/workflow_models.hpp"
 
 namespace remap {
@@ -33,7 +33,7 @@ class MaterialConverter {
   // Rows that it writes for a parameter where the source has `specular_channels` of specular.
   virtual std::size_t target_channels(Parameter parameter, std::size_t specular_channels) const = 0;
 
-  // Converts `count` texels. `in` has all of sources(), colours in one or three rows; of `out` those with
+  // Converts `count` texels. `in` has all of sources(), colors in one or three rows; of `out` those with
   // rows are written. An output row may be exactly the input row of the same parameter and channel. Widths
   // are the parameters that info() names. Safe to call from many threads. Returns the number of texels
   // outside the domain of the converter of width and specular.
@@ -74,7 +74,7 @@ std::unique_ptr<MaterialConverter> make_workflow_converter(const WorkflowStages&
                                                            InstructionSet set = best_instruction_set());
 
 // Diffuse, specular and width of the source of a warp to those of its template, all rows wanted. A metallic
-// source becomes a specular one first, by equation (2). Colours in one row stand for grey. Throws kInput as
+// source becomes a specular one first, by equation (2). Colors in one row stand for grey. Throws kInput as
 // require_valid() does.
 std::unique_ptr<MaterialConverter> make_warp_converter(const WarpMapFit& fit, const WorkflowEnd& source,
                                                        InstructionSet set = best_instruction_set());

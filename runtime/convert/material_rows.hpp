@@ -26,7 +26,7 @@ inline constexpr std::size_t kParameterCount = 10;
 
 // Why the metallic material of a texel may not be the one that was meant; powers of two.
 enum class Doubt {
-  kClamped = 1,     // a parameter beyond 0 to 1, or a base colour that would have to be
+  kClamped = 1,     // a parameter beyond 0 to 1, or a base color that would have to be
   kTwoAnswers = 2,  // metallic values apart from each other, none between them, look alike
   kDark = 4,        // metallic is a guess, and diffuse and specular are too dark to tell
   kGuess = 8,       // metallic is a guess: its width is above kGuessWidth

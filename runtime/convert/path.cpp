@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "error.hpp"
-#include "nearest_name.hpp"
+#include "remap/error.hpp"
+#include "text/nearest_name.hpp"
 
 namespace remap {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "convert/compiled_kernels.hpp"
 #include "convert/converter.hpp"
-#include "error.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 
 namespace remap {
 namespace {

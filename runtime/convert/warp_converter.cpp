@@ -7,7 +7,7 @@
 #include "convert/material_converter.hpp"
 #include "convert/warp_kernel.hpp"
 #include "convert/workflow_kernel.hpp"
-#include "model/warp_fit.hpp"
+#include "warp/warp_fit.hpp"
 
 namespace remap {
 namespace {

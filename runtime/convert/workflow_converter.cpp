@@ -8,7 +8,7 @@
 
 #include "convert/material_converter.hpp"
 #include "convert/workflow_kernel.hpp"
-#include "error.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 namespace {

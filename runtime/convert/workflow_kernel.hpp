@@ -10,7 +10,7 @@
 
 namespace remap {
 
-// Rows of the two workflows: diffuse, specular, width; base colour, metallic, width.
+// Rows of the two workflows: diffuse, specular, width; base color, metallic, width.
 template <typename Float>
 using SpecularRows = std::array<Float*, 7>;
 template <typename Float>
@@ -35,7 +35,7 @@ struct WorkflowKernels {
   void (*to_metallic)(const WorkflowConversion& conversion, std::size_t count,
                       const SpecularRows<const float>& in, const MetallicRows<float>& out) noexcept;
   // Of those metallic values whose pictures are within a step of 8 bits of the best, the nearest to
-  // `wanted`, with the base colour that is best for it: replaces base colour and metallic in `result`.
+  // `wanted`, with the base color that is best for it: replaces base color and metallic in `result`.
   // Texels whose `wanted` is NaN stay, and with kGuesses those whose metallic is none.
   void (*follow)(const WorkflowConversion& conversion, std::size_t count, const SpecularRows<const float>& in,
                  const float* wanted, FollowedTexels which, const MetallicRows<float>& result) noexcept;

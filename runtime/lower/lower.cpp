@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
-#include "error.hpp"
 #include "lower/approximate.hpp"
 #include "lower/prove.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 
 namespace remap {
 namespace {

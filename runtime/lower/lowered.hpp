@@ -55,16 +55,9 @@ struct Lowered {
 // even and odd powers of u apart from degree 4, both by Horner's rule.
 float value(const PiecewisePolynomial& polynomial, float alpha, float specular);
 
-// The value in real arithmetic, over any scalar of evaluate.hpp; for Taylor models the box lies in `cell`.
-template <typename Scalar>
-Scalar value_in_cell(const PiecewisePolynomial& polynomial, int cell, const Scalar& alpha,
-                     const Scalar& specular);
-
 // The cell of an alpha.
 int cell_of(const PiecewisePolynomial& polynomial, double alpha);
 // The alpha at which `cell` begins; at cell_count, where the last ends.
 double cell_begin(const PiecewisePolynomial& polynomial, int cell);
 
 }  // namespace remap
-
-#include "lower/lowered_value.hpp"

@@ -1,4 +1,4 @@
-// The template of lowered.hpp.
+// The order of operations of lowered polynomials, over any scalar.
 #pragma once
 
 #include "lower/lowered.hpp"
@@ -28,6 +28,7 @@ Number in_emitted_order(const float* c, int degree, const Number& u, const Numbe
   return degree % 2 == 0 ? times_plus(next, u, sum) : times_plus(sum, u, next);
 }
 
+// The value in real arithmetic, over any scalar of evaluate.hpp; for Taylor models the box lies in `cell`.
 template <typename Scalar>
 Scalar value_in_cell(const PiecewisePolynomial& polynomial, int cell, const Scalar& alpha,
                      const Scalar& specular) {

@@ -1,3 +1,4 @@
+#include "lower/lowered_value.hpp"
 #include "lower/prove.hpp"
 
 #include <algorithm>

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
-#include "error.hpp"
 #include "model/covered_box.hpp"
 #include "model/interpreter.hpp"
-#include "number_text.hpp"
-#include "version.hpp"
+#include "remap/error.hpp"
+#include "remap/version.hpp"
+#include "text/number_text.hpp"
 
 namespace remap {
 namespace {
@@ -159,13 +159,13 @@ void carry_errors(const std::vector<Fit>& steps, Fit* chain) {
   chain->specular_error.rms = std::sqrt(specular.square / points);
 }
 
-std::optional<Likeness> summed_likeness(const std::vector<Fit>& steps) {
-  Likeness sum;
+std::optional<ImageSimilarity> summed_similarity(const std::vector<Fit>& steps) {
+  ImageSimilarity sum;
   for (const Fit& step : steps) {
-    if (!step.likeness) return std::nullopt;
-    sum.image_error.rms += step.likeness->image_error.rms;
-    sum.image_error.p99 += step.likeness->image_error.p99;
-    sum.image_error.max += step.likeness->image_error.max;
+    if (!step.image_similarity) return std::nullopt;
+    sum.image_error.rms += step.image_similarity->image_error.rms;
+    sum.image_error.p99 += step.image_similarity->image_error.p99;
+    sum.image_error.max += step.image_similarity->image_error.max;
   }
   return sum;
 }
@@ -213,13 +213,13 @@ Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   chain.domain = chain_domain(steps);
   chain.mapping = Chain{taken_apart(steps)};
   carry_errors(steps, &chain);
-  chain.likeness = summed_likeness(steps);
+  chain.image_similarity = summed_similarity(steps);
   chain.tool_version = kVersion;
   const ChainDifference difference = difference_from_steps(chain, steps);
   const auto digits = [](double value) { return number_text(rounded_up(value, 2)); };
   chain.method["against its steps one after another"] =
       "alpha within " + digits(difference.alpha) + ", specular within " + digits(difference.grey_specular) +
-      " for grey texels, " + digits(difference.colour_specular) + " for coloured ones; sampled";
+      " for grey texels, " + digits(difference.color_specular) + " for colored ones; sampled";
   chain.method["errors"] = "those of the steps, carried on to the end to first order";
   std::string names;
   for (const Fit& step : steps) names += (names.empty() ? "" : ", then ") + step.id;
@@ -234,13 +234,13 @@ ChainDifference difference_from_steps(const Fit& chain, const std::vector<Fit>& 
       const double alpha = at(chain.domain.alpha, i, kCoarse);
       const double top = chain.domain.specular.max * j / kCoarse;
       for (int k = 0; k <= kCoarse; ++k) {
-        const std::array<double, 3> colour = {top, top * k / kCoarse, 0.0};
-        const SteppedTexel stepped = step_by_step(steps, alpha, colour),
-                           one = step_by_step({chain}, alpha, colour);
+        const std::array<double, 3> color = {top, top * k / kCoarse, 0.0};
+        const SteppedTexel stepped = step_by_step(steps, alpha, color),
+                           one = step_by_step({chain}, alpha, color);
         difference.alpha = std::max(difference.alpha, std::fabs(one.alpha - stepped.alpha));
-        for (std::size_t c = 0; c < colour.size(); ++c) {
+        for (std::size_t c = 0; c < color.size(); ++c) {
           const double off = std::fabs(one.specular[c] - stepped.specular[c]);
-          difference.colour_specular = std::max(difference.colour_specular, off);
+          difference.color_specular = std::max(difference.color_specular, off);
           if (c == 0) difference.grey_specular = std::max(difference.grey_specular, off);
         }
       }

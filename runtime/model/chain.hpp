@@ -10,13 +10,13 @@ namespace remap {
 
 // How far a chain is from its steps applied one after another, each with its own domain rule, over the
 // chain's domain: sampled, largest difference in the target's alpha and in its specular. Grey texels differ
-// where a step maps specular below 0, which it holds at 0 and the chain does not. Coloured ones differ
+// where a step maps specular below 0, which it holds at 0 and the chain does not. Colored ones differ
 // besides where the width depends on specular: a step follows the width of the largest channel, the chain
 // that of each.
 struct ChainDifference {
   double alpha = 0.0;
   double grey_specular = 0.0;
-  double colour_specular = 0.0;
+  double color_specular = 0.0;
 };
 
 // The fit of kind `chain` that applies `steps` in turn; steps that are chains themselves are taken apart.

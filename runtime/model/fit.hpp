@@ -88,10 +88,10 @@ struct SphereSimilarity {
 };
 
 // How alike the two models can be at all, whatever the fit: over the rows of the table in the domain.
-struct Likeness {
+struct ImageSimilarity {
   ErrorFigures image_error;  // difference of the pictures relative to the source's, as the match weighs them
   std::vector<SphereSimilarity> ssim;  // by rising alpha; empty where no spheres were compared
-  bool operator==(const Likeness&) const = default;
+  bool operator==(const ImageSimilarity&) const = default;
 };
 
 struct Fit {
@@ -104,7 +104,8 @@ struct Fit {
   std::vector<Candidate> candidates;          // what `auto` chose from; empty otherwise
   ErrorFigures roughness_error;               // of the target's alpha
   ErrorFigures specular_error;                // of the target's specular
-  std::optional<Likeness> likeness;           // none where no pictures were compared: published formulas
+  std::optional<ImageSimilarity>
+      image_similarity;              // none where no pictures were compared: published formulas
   std::vector<std::string> remarks;  // for the card, a line each: sources, errata, limits of the pair
   Split split;
   TableRecord table;

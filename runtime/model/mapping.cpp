@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "named_values.hpp"
+#include "text/named_values.hpp"
 
 namespace remap {
 namespace {

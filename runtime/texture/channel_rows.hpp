@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "texture/convert_maps.hpp"
+#include "texture/channel_view.hpp"
 
 namespace remap {
 

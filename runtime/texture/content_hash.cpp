@@ -7,7 +7,7 @@
 #include <vector>
 #include <xxhash.h>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 

@@ -8,8 +8,8 @@
 #include <memory>
 #include <span>
 
-#include "error.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 #include "texture/channel_rows.hpp"
 #include "texture/map_statistics.hpp"
 

@@ -13,7 +13,7 @@
 
 namespace remap {
 
-// An attribute that keeps OpenImageIO from multiplying or dividing colours by alpha: maps hold data.
+// An attribute that keeps OpenImageIO from multiplying or dividing colors by alpha: maps hold data.
 inline constexpr const char* kUnassociatedAlpha = "oiio:UnassociatedAlpha";
 
 // The first line of a message of OpenImageIO, or `otherwise` where it said nothing.
@@ -33,9 +33,9 @@ struct ImageReader::State {
   int part = 0;
   int part_count = 0;
   int level = 0;
-  std::vector<OIIO::ImageSpec> levels;    // specs of the part's levels, at the size that they are read in
-  bool has_assumed_colour_space = false;  // OpenImageIO says sRGB, and the file does not
-  ImageLayout layout;                     // of `level`
+  std::vector<OIIO::ImageSpec> levels;   // specs of the part's levels, at the size that they are read in
+  bool has_assumed_color_space = false;  // OpenImageIO says sRGB, and the file does not
+  ImageLayout layout;                    // of `level`
   std::unique_ptr<ResampledRows> resampled;
 
   const OIIO::ImageSpec& spec() const { return levels[static_cast<std::size_t>(level)]; }

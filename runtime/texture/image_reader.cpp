@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
@@ -24,7 +24,7 @@ std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& fo
 }
 
 // Whether a chunk of a PNG before its pixels says how they are coded.
-bool png_tells_colour_space(std::FILE* file) {
+bool png_tells_color_space(std::FILE* file) {
   std::array<unsigned char, 8> head{};
   for (long place = 8; std::fseek(file, place, SEEK_SET) == 0;) {
     if (std::fread(head.data(), 1, head.size(), file) != head.size()) return false;
@@ -39,8 +39,8 @@ bool png_tells_colour_space(std::FILE* file) {
 }
 
 // OpenImageIO takes files of these formats for sRGB where they say nothing.
-bool tells_colour_space(const OIIO::ImageSpec& spec, const std::string& format, std::FILE* file) {
-  if (format == "png") return png_tells_colour_space(file);
+bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format, std::FILE* file) {
+  if (format == "png") return png_tells_color_space(file);
   if (format == "jpeg" || format == "tiff") return spec.get_int_attribute("Exif:ColorSpace") == 1;
   return true;
 }
@@ -73,8 +73,8 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
   layout.tile_height = spec.tile_width > 0 ? spec.tile_height : 0;
   layout.format = format;
   layout.lossy_compression = lossy_compression(spec, format);
-  const std::string colour_space = spec.get_string_attribute("oiio:ColorSpace", "Linear");
-  layout.is_tagged_nonlinear = colour_space == "sRGB" || colour_space.starts_with("Gamma");
+  const std::string color_space = spec.get_string_attribute("oiio:ColorSpace", "Linear");
+  layout.is_tagged_nonlinear = color_space == "sRGB" || color_space.starts_with("Gamma");
   for (int c = 0; c < spec.nchannels; ++c) {
     const std::string name = spec.channel_name(c);
     const auto type = pixel_type(spec.channelformat(c));
@@ -110,7 +110,7 @@ void ImageReader::State::open() {
   if (!input) fail("cannot be read as an image: " + first_line(OIIO::geterror(), "unknown format"));
   (void)input->geterror();  // remarks on odd headers
   find_planes();
-  has_assumed_colour_space = !tells_colour_space(spec(), input->format_name(), file.get());
+  has_assumed_color_space = !tells_color_space(spec(), input->format_name(), file.get());
   layout = layout_of(spec(), input->format_name(), path);
 }
 

@@ -6,8 +6,8 @@
 
 #include <OpenImageIO/filesystem.h>
 
-#include "error.hpp"
-#include "files.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
@@ -190,7 +190,7 @@ ImageWriter::ImageWriter(const fs::path& path, const std::vector<ImagePart>& par
     models.push_back(part.model->state_->levels);
     // What a file does not say, the new one does not either: sRGB would be wrong for data.
     for (OIIO::ImageSpec& model : models.back())
-      if (part.model->state_->has_assumed_colour_space) model.erase_attribute("oiio:ColorSpace");
+      if (part.model->state_->has_assumed_color_space) model.erase_attribute("oiio:ColorSpace");
   }
   state_->plan(models, parts.front().model->layout().format, parts);
 }

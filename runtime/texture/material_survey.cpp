@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 
 namespace remap {
 namespace {
@@ -124,7 +124,7 @@ void look_at_flat_maps(const MaterialSample& sample, const TextureSet& set,
     if (all(0.0f) && parameter != Parameter::kDiffuse)
       messages.push_back(
           place + "black in every texel that was looked at; expected " +
-          (parameter == Parameter::kSpecular ? "0.04 for what is no metal, linear" : "a colour"));
+          (parameter == Parameter::kSpecular ? "0.04 for what is no metal, linear" : "a color"));
     else if (all(1.0f) && is_white_everywhere())
       messages.push_back(place + "white in every texel that was looked at; expected " +
                          (parameter == Parameter::kSpecular ? "F0: a map of its strength is none"

@@ -23,7 +23,7 @@ struct MaterialSample {
 // Some 4000 texels of 16 bands of rows. Each map is read once, up to the last band.
 MaterialSample sample_materials(TextureSet& set);
 
-// What a person should know, one message each: colour that looks as if it were read in the wrong colour
+// What a person should know, one message each: color that looks as if it were read in the wrong color
 // space, and maps that are black or white everywhere and cannot be meant so.
 std::vector<std::string> doubts_about(const MaterialSample& sample, const TextureSet& set);
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
@@ -52,8 +52,8 @@ void choose_channels(OIIO::ImageSpec& spec, const std::vector<std::string>& name
 std::string channels_refused(const OIIO::ImageOutput& output, const OIIO::ImageSpec& spec) {
   if (output.supports("nchannels")) return "";
   const bool has_alpha = spec.alpha_channel >= 0;
-  const int colours = spec.nchannels - (has_alpha ? 1 : 0);
-  if ((colours == 1 || colours == 3) && (!has_alpha || output.supports("alpha"))) return "";
+  const int colors = spec.nchannels - (has_alpha ? 1 : 0);
+  if ((colors == 1 || colors == 3) && (!has_alpha || output.supports("alpha"))) return "";
   return "cannot hold the " + std::to_string(spec.nchannels) + " channels of the source; expected exr or tif";
 }
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "named_values.hpp"
+#include "text/named_values.hpp"
 
 namespace remap {
 namespace {

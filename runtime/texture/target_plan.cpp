@@ -5,10 +5,10 @@
 #include <optional>
 #include <system_error>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "named_values.hpp"
-#include "nearest_name.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
+#include "text/named_values.hpp"
+#include "text/nearest_name.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -94,8 +94,7 @@ ImageChanges changes_of(const TargetChoice& choice) {
   return changes;
 }
 
-const std::vector<std::string> kGrey = {"Y"}, kColour = {"R", "G", "B"},
-                               kColourAndAlpha = {"R", "G", "B", "A"};
+const std::vector<std::string> kGrey = {"Y"}, kColor = {"R", "G", "B"}, kColorAndAlpha = {"R", "G", "B", "A"};
 
 std::string own_name(const std::string& name, bool is_grey, const TextureSet& set,
                      const TargetChoice& choice) {
@@ -119,7 +118,7 @@ const SetParameter* model_of(const TextureSet& set, Parameter parameter) {
   return nullptr;
 }
 
-// How the values of a colour are stored: as in the map that it follows; in sRGB where it follows none and is
+// How the values of a color are stored: as in the map that it follows; in sRGB where it follows none and is
 // made of other parameters.
 Transfer color_transfer(const TextureSet& set, Parameter parameter) {
   if (const SetParameter* model = model_of(set, parameter)) return model->transfer;
@@ -160,7 +159,7 @@ std::vector<TargetChannel> color_channels(const TextureSet& set, Parameter param
 
 PlannedMap color_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   std::vector<TargetChannel> channels = color_channels(set, parameter, choice);
-  std::vector<std::string> names = channels.size() == 1 ? kGrey : kColour;
+  std::vector<std::string> names = channels.size() == 1 ? kGrey : kColor;
   const bool has_coverage = parameter == Parameter::kDiffuse || parameter == Parameter::kBaseColor;
   if (set.coverage && has_coverage) {
     channels.push_back(TargetChannel::copy(*set.coverage));
@@ -239,7 +238,7 @@ PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoic
   return new_map(file_name(parameter, choice), kGrey, {TargetChannel::of(parameter)}, set, choice);
 }
 
-// The colour of a file that holds nothing else, in one channel, where the result has three.
+// The color of a file that holds nothing else, in one channel, where the result has three.
 std::optional<Parameter> grey_alone(const PlannedMap& planned, const TargetChoice& choice) {
   if (choice.colors_stay_grey || planned.parts.size() != 1) return std::nullopt;
   const std::vector<TargetChannel>& channels = planned.parts.front().channels;
@@ -306,10 +305,10 @@ std::vector<PlannedMap> separate_maps(const TextureSet& set, const TargetChoice&
 
 std::vector<PlannedMap> specgloss_maps(const TextureSet& set, const TargetChoice& choice) {
   std::vector<TargetChannel> channels = color_channels(set, Parameter::kSpecular, choice);
-  channels.resize(3, channels.front());  // grey in every colour
+  channels.resize(3, channels.front());  // grey in every color
   channels.push_back(TargetChannel::of(Parameter::kWidth));
   std::vector<PlannedMap> all = {
-      new_map(file_name(Parameter::kSpecular, choice), kColourAndAlpha, channels, set, choice)};
+      new_map(file_name(Parameter::kSpecular, choice), kColorAndAlpha, channels, set, choice)};
   if (is_wanted(choice, Parameter::kDiffuse)) all.push_back(color_map(set, Parameter::kDiffuse, choice));
   for (const CarriedParameter& carried : set.carried) all.push_back(carried_map(set, carried, choice));
   return all;
@@ -328,7 +327,7 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
                 "--only: leaves a channel of --layout " + layout + " empty; expected both");
   if (is_specgloss) return specgloss_maps(set, choice);
   std::vector<PlannedMap> all = {
-      new_map(file_name(Parameter::kWidth, choice), kColour,
+      new_map(file_name(Parameter::kWidth, choice), kColor,
               {packed_channel(set, "occlusion", 1.0f, choice), TargetChannel::of(Parameter::kWidth),
                packed_channel(set, "metallic", 0.0f, choice)},
               set, choice)};

@@ -40,8 +40,8 @@ struct TargetPlan {
 // Which files the results are.
 enum class Layout {
   kAsInputs,   // every map that holds something converted, under its name
-  kSeparate,   // a file each: roughness, the colours, and what is carried
-  kOrm,        // orm: occlusion, roughness, metallic; and the colours
+  kSeparate,   // a file each: roughness, the colors, and what is carried
+  kOrm,        // orm: occlusion, roughness, metallic; and the colors
   kArm,        // the same as arm
   kSpecGloss,  // specular_glossiness: specular, and glossiness in alpha; and diffuse
 };
@@ -85,10 +85,10 @@ struct TargetChoice {
 std::string file_name(Parameter parameter, const TargetChoice& choice);
 
 // As inputs: every map of the set that holds something converted gives a file of its name, in which only that
-// is changed (a colour that is grey there and none in the result becomes three channels); a constant gives a
+// is changed (a color that is grey there and none in the result becomes three channels); a constant gives a
 // map of its own (`roughness`, `specular`), and files of what is carried are copied. The other layouts name
 // their files themselves; what is carried and has no channel there has a file, and coverage is the alpha of
-// diffuse or base colour. Parameters that the set does not have, since the converter makes them, have no
+// diffuse or base color. Parameters that the set does not have, since the converter makes them, have no
 // place in as inputs: kUsage. Throws kUsage where two results would have one name, where one is an input,
 // where one channel is two things, where a layout would lose a channel of an input or has no place for a
 // constant, and for an unknown extension; kInput where a file to copy is not there; kOutput where a result

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "texture/channel_rows.hpp"
 #include "texture/metallic_field.hpp"
 
@@ -302,7 +302,7 @@ SourceParameter Pass::source_of(Parameter name, const SetParameter& parameter, c
     source.channels.push_back(view_of(band.maps[place.map].data(), reader.layout(), place.channel));
     source.channel_names.push_back(reader.layout().channels[place.channel].name);
     source.name = reader.path().string();
-    // Colour transforms of lossy files round grey to colours that are a step or two apart.
+    // Color transforms of lossy files round grey to colors that are a step or two apart.
     if (!reader.layout().lossy_compression.empty()) source.grey_tolerance = kLossyGrey;
   }
   return source;
@@ -313,7 +313,7 @@ void Pass::add_target(const Target& target, const TargetChannel& channel, const 
   if (channel.content == Content::kMask) maps.mask = view;
   if (channel.content != Content::kParameter) return;
   TargetParameter& parameter = maps.targets[channel.parameter];
-  // Copies of one value follow one another; channels of a colour have their places.
+  // Copies of one value follow one another; channels of a color have their places.
   const auto source = set_.parameters.find(channel.parameter);
   const bool is_copy = !is_color(channel.parameter) ||
                        (source != set_.parameters.end() && source->second.channel_count() == 1 &&

@@ -54,7 +54,7 @@ bool is_converted(const TargetChannel& channel) noexcept;
 // One part of a file that a pass makes.
 struct TargetPart {
   std::vector<TargetChannel> channels;          // as many as the part has
-  Transfer color_transfer = Transfer::kLinear;  // of the colours that the converter makes
+  Transfer color_transfer = Transfer::kLinear;  // of the colors that the converter makes
 };
 
 // One file that a pass makes.

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <span>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "nearest_name.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
+#include "text/nearest_name.hpp"
+#include "text/number_text.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
@@ -82,7 +82,7 @@ std::optional<std::size_t> find_channel(const ImageReader& reader, std::string_v
 }
 
 // R, G and B, or Y, or the only channel that is not alpha; empty where the file has none of them.
-std::vector<std::size_t> colour_channels(const ImageLayout& layout) {
+std::vector<std::size_t> color_channels(const ImageLayout& layout) {
   const auto red = find_channel(layout, "R"), green = find_channel(layout, "G"),
              blue = find_channel(layout, "B");
   if (red && green && blue) return {*red, *green, *blue};
@@ -133,7 +133,7 @@ ImageReader& map_of(TextureSet& set, const SetParameter& parameter) {
   return set.maps[parameter.channels.front().map];
 }
 
-// Colour that follows a curve is interpolated as light.
+// Color that follows a curve is interpolated as light.
 std::vector<Transfer> transfers_of(const TextureSet& set, std::size_t map) {
   std::vector<Transfer> transfers(set.maps[map].layout().channels.size(), Transfer::kLinear);
   for (const auto& [parameter, values] : set.parameters)
@@ -181,7 +181,7 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
                                      expected + ", or FILE:CHANNEL");
 }
 
-// Those that are asked for by name, or that hold colour, in the one part of the file that has them.
+// Those that are asked for by name, or that hold color, in the one part of the file that has them.
 std::vector<ChannelPlace> find_channels(const MapName& name, const std::string& expected, TextureSet& set) {
   const std::vector<std::size_t> parts = open_file(name.file, set);
   std::vector<std::vector<ChannelPlace>> candidates;
@@ -189,7 +189,7 @@ std::vector<ChannelPlace> find_channels(const MapName& name, const std::string& 
   for (const std::size_t map : parts) {
     const ImageReader& reader = set.maps[map];
     const std::vector<std::size_t> channels =
-        name.channels.empty() ? colour_channels(reader.layout()) : named_channels(reader, name.channels);
+        name.channels.empty() ? color_channels(reader.layout()) : named_channels(reader, name.channels);
     if (!channels.empty()) candidates.emplace_back();
     for (const std::size_t channel : channels) candidates.back().push_back({map, channel});
     part_names.push_back(reader.part_name().empty() ? std::to_string(reader.part()) : reader.part_name());
@@ -201,8 +201,8 @@ std::vector<ChannelPlace> find_channels(const MapName& name, const std::string& 
                                      "FILE:PART.R,PART.G,PART.B");
 }
 
-// Colour in whole numbers follows the curve that its file names; a single channel is data, where it is not
-// the grey of a diffuse or base colour, which is never anything else.
+// Color in whole numbers follows the curve that its file names; a single channel is data, where it is not
+// the grey of a diffuse or base color, which is never anything else.
 Transfer guessed_transfer(const TextureSet& set, const SetParameter& parameter, bool grey_is_color) {
   const ChannelPlace first = parameter.channels.front();
   const ImageLayout& layout = set.maps[first.map].layout();
@@ -340,7 +340,7 @@ std::vector<std::string> remarks(const TextureSet& set) {
     if (values.transfer == Transfer::kSrgb && values.transfer_is_guessed)
       messages.push_back(set.maps[values.channels.front().map].path().string() + ": " +
                          std::string(parameter_name(parameter)) +
-                         " is read as colour in sRGB; --color-space linear reads it as data");
+                         " is read as color in sRGB; --color-space linear reads it as data");
   return messages;
 }
 

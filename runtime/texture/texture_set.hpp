@@ -20,7 +20,7 @@ namespace remap {
 // Linear values without a map: one, or one each for red, green and blue.
 using ConstantValues = std::vector<float>;
 
-// A file, and the channels of it by name; none: those that hold colour, or the only one.
+// A file, and the channels of it by name; none: those that hold color, or the only one.
 struct MapName {
   std::filesystem::path file;
   std::vector<std::string> channels;
@@ -64,7 +64,7 @@ struct ChannelPlace {
 // One parameter of an open set.
 struct SetParameter {
   std::vector<ChannelPlace>
-      channels;  // empty: constant. Of what is no colour: copies of one value where several
+      channels;  // empty: constant. Of what is no color: copies of one value where several
   ConstantValues constants;
   std::vector<float> factors;
   Transfer transfer = Transfer::kLinear;
@@ -79,14 +79,14 @@ struct CarriedParameter {
   SetParameter parameter;  // one channel or one constant
 };
 
-// An open set: every texel has one value of each parameter, colours one or three. A map is one part of a
+// An open set: every texel has one value of each parameter, colors one or three. A map is one part of a
 // file; all parts of a file are there, and those that hold no parameter may be of any size. A file that is
 // named twice is opened once. At least one of the parameters is a map.
 struct TextureSet {
   std::vector<ImageReader> maps;
   std::map<Parameter, SetParameter> parameters;
   std::vector<CarriedParameter> carried;
-  // The alpha of diffuse or base colour, where the file has one that is no parameter: how much of a texel is
+  // The alpha of diffuse or base color, where the file has one that is no parameter: how much of a texel is
   // surface.
   std::optional<ChannelPlace> coverage;
   std::optional<RoughnessConvention> convention;

@@ -1,4 +1,4 @@
-// What the numbers in a map mean before a converter takes them: the curve of a colour space, the encoding of
+// What the numbers in a map mean before a converter takes them: the curve of a color space, the encoding of
 // a width.
 #pragma once
 

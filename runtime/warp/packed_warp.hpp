@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "model/warp.hpp"
+#include "warp/compiled_warp.hpp"
 
 namespace remap {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "error.hpp"
 #include "model/evaluate.hpp"
+#include "remap/error.hpp"
 #include "workflow/conversion_constants.hpp"
 
 namespace remap {

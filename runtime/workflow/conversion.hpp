@@ -11,7 +11,7 @@
 
 namespace remap {
 
-// One texel; colours linear, all values 0 to 1. `width` is the workflow's own parameter.
+// One texel; colors linear, all values 0 to 1. `width` is the workflow's own parameter.
 struct SpecularMaterial {
   std::array<float, 3> diffuse{}, specular{};
   float width = 0.0f;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "workflow/conversion_constants.hpp"
 
 namespace remap {

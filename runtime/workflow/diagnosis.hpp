@@ -13,10 +13,10 @@ struct MetallicDiagnosis {
   // under natural light is about 0.42 of it, as root mean square of display values. 0: an exact match.
   float residual = 0.0f;
   // Share of [0, 1] in which metallic could lie with a squared error within (1/255)^2 of the least,
-  // each metallic with the base colour that is best for it. Above 0.2 metallic is a guess on which the
+  // each metallic with the base color that is best for it. Above 0.2 metallic is a guess on which the
   // picture does not depend.
   float metallic_width = 0.0f;
-  // Whether a parameter was beyond 0 to 1, or a channel asks for a base colour beyond it by more than half a
+  // Whether a parameter was beyond 0 to 1, or a channel asks for a base color beyond it by more than half a
   // step of 8 bits.
   bool is_clamped = false;
 };

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "error.hpp"
-#include "named_values.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/named_values.hpp"
+#include "text/number_text.hpp"
 
 namespace remap {
 namespace {
@@ -28,7 +28,7 @@ struct Text {
     return "equation (2) of Sztrajman et al. 2019, exact: every metallic material is a specular one";
   }
   std::string operator()(const Projection& projection) const {
-    return "least difference of the pictures over base colour and metallic, prior " +
+    return "least difference of the pictures over base color and metallic, prior " +
            number_text(projection.prior);
   }
   std::string operator()(const Equation3& equation) const {
@@ -53,7 +53,7 @@ void require_network(const LearnedNetwork& learned, const std::string& place) {
   if (inputs == kNetworkInputs && outputs == kNetworkOutputs && !learned.network.layers.empty()) return;
   throw Error(ErrorKind::kInput,
               place + ": a network of " + std::to_string(inputs) + " inputs and " + std::to_string(outputs) +
-                  " outputs; expected diffuse and specular (6) to base colour and metallic (4)");
+                  " outputs; expected diffuse and specular (6) to base color and metallic (4)");
 }
 
 void require_width(RoughnessConvention width, const std::string& place) {

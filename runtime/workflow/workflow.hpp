@@ -1,5 +1,5 @@
 // Two ways to say what a material is made of, and what their parameters mean. The specular workflow has a
-// diffuse and a specular colour; the metallic one a base colour and how metallic it is (Sztrajman et al.
+// diffuse and a specular color; the metallic one a base color and how metallic it is (Sztrajman et al.
 // 2019, section 8). Both are layers over the same BRDF.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace remap {
 
-// What a diffuse colour means.
+// What a diffuse color means.
 enum class DiffuseConvention {
   kPlain,   // reflectance of the diffuse lobe
   kScaled,  // of the light that the specular lobe leaves: the lobe has it times 1 - max(specular) (glTF 2.0)
@@ -35,8 +35,8 @@ struct SpecularWorkflow {
   bool operator==(const SpecularWorkflow&) const = default;
 };
 
-// Base colour RGB (linear, 0 to 1), metallic (0 to 1) and a width. With n = 1 - metallic, diffuse reflectance
-// is base colour n, times 1 - dielectric_f0 where diffuse is scaled; F0 is dielectric_f0 n + base colour
+// Base color RGB (linear, 0 to 1), metallic (0 to 1) and a width. With n = 1 - metallic, diffuse reflectance
+// is base color n, times 1 - dielectric_f0 where diffuse is scaled; F0 is dielectric_f0 n + base color
 // metallic.
 struct MetallicWorkflow {
   std::string model = "metallic";
@@ -53,7 +53,7 @@ struct Equation2 {
 
 // From specular to metallic, which cannot say all that specular can.
 //
-// The projection: the base colour and metallic whose picture differs least, in closed form. `prior` times the
+// The projection: the base color and metallic whose picture differs least, in closed form. `prior` times the
 // mean weight times metallic (1 - metallic) is added to the error, so that of two answers that look alike the
 // purer one is taken.
 struct Projection {
@@ -83,7 +83,7 @@ struct KhronosSolver {
 };
 
 // A network that has learned the way back (section 8 of the paper): of diffuse RGB and specular RGB, as the
-// parameters of the specular workflow are given, to base colour RGB and metallic. Roughness takes no part.
+// parameters of the specular workflow are given, to base color RGB and metallic. Roughness takes no part.
 struct LearnedNetwork {
   Network network;  // 6 inputs, 4 outputs
   bool operator==(const LearnedNetwork&) const = default;

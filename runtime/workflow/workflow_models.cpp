@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "named_values.hpp"
+#include "text/named_values.hpp"
 
 namespace remap {
 namespace {
@@ -27,7 +27,7 @@ std::vector<WorkflowModel> make_models() {
        "layer"},
       {MetallicWorkflow{"threejs/standard", kCommonDielectricF0, kPlain, kRoughness},
        "threejs-r187/standard-metal", true,
-       "lights_standard_fragment of three.js: base colour (1 - metalness), F0 mixed from 0.04"},
+       "lights_standard_fragment of three.js: base color (1 - metalness), F0 mixed from 0.04"},
       {MetallicWorkflow{"usd-preview-surface", kCommonDielectricF0, kPlain, kRoughness}, "mitsuba/ggx", false,
        "UsdPreviewSurface with metallic at its default index 1.5; what renderers make of its diffuse "
        "differs"},

@@ -1,4 +1,4 @@
-// The benchmarks by subject: each registers its runs, and after them makes its tables of their medians.
+// The benchmarks by probed_model: each registers its runs, and after them makes its tables of their medians.
 #pragma once
 
 #include <array>

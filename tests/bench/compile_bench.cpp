@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "bench/bench.hpp"
-#include "files.hpp"
+#include "system/files.hpp"
 
 namespace remap_bench {
 namespace {

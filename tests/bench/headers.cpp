@@ -10,11 +10,11 @@
 #include "bench/sweep_table.hpp"
 #include "emit/emit.hpp"
 #include "emit/mapping_code.hpp"
-#include "files.hpp"
 #include "fit/fit_table.hpp"
+#include "fit_file/fit_json.hpp"
 #include "model/chain.hpp"
-#include "model/fit_json.hpp"
 #include "support/shared_data.hpp"
+#include "system/files.hpp"
 
 namespace {
 

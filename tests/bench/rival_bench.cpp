@@ -6,7 +6,7 @@
 
 #include "bench/bench.hpp"
 #include "bench/builds.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
 #include "model/interpreter.hpp"
 
 #ifdef REMAP_BENCH_OPENCOLORIO
@@ -84,8 +84,8 @@ namespace ocio = OCIO_NAMESPACE;
 
 // An RGB image of as many texels as the large maps, and a table that is no identity. Three floats a texel and
 // four are both measured, as the optimized processor of one thread takes them.
-struct Colours {
-  explicit Colours(long channel_count) : channels(channel_count) {
+struct Colors {
+  explicit Colors(long channel_count) : channels(channel_count) {
     const Maps& maps = large_maps();
     in.resize(maps.texels * static_cast<std::size_t>(channels));
     for (std::size_t i = 0; i < in.size(); ++i) in[i] = maps.in[0][i % maps.texels];
@@ -115,7 +115,7 @@ ocio::ConstCPUProcessorRcPtr table_processor(unsigned long size, ocio::Interpola
                                                                ocio::OPTIMIZATION_DEFAULT);
 }
 
-void add_colour_tables() {
+void add_color_tables() {
   struct Table {
     const char* name;
     unsigned long size;
@@ -126,12 +126,12 @@ void add_colour_tables() {
                              Table{"ocio tetrahedral 64", 64, ocio::INTERP_TETRAHEDRAL}}) {
     const auto processor = table_processor(table.size, table.interpolation);
     for (const long channels : {3, 4}) {
-      const auto colours = [channels]() -> Colours& {
-        static Colours three(3), four(4);
+      const auto colors = [channels]() -> Colors& {
+        static Colors three(3), four(4);
         return channels == 3 ? three : four;
       };
       add_benchmark(std::string(table.name) + "/" + std::to_string(channels), large_maps().texels, 3,
-                    [processor, colours] { colours().convert(*processor); });
+                    [processor, colors] { colors().convert(*processor); });
     }
   }
 }
@@ -162,7 +162,7 @@ void add_rivals() {
              specular = std::make_shared<Predictor>(svr.specular);
   add_benchmark("libsvm", kPredictedTexels, 5, [alpha, specular] { predict(*alpha, *specular); });
 #ifdef REMAP_BENCH_OPENCOLORIO
-  add_colour_tables();
+  add_color_tables();
 #endif
 }
 

@@ -233,7 +233,7 @@ TEST_CASE("remapc chain: one fit, and what cannot be one") {
   check_failure(chain({"a_b_to_mitsuba_wart", "mitsuba_ward_to_mitsuba_ward_duer"}), 2,
                 "a_b_to_mitsuba_ward?");
   check_failure(chain({"a_b_to_mitsuba_ward"}), 2, "at least 2");
-  CHECK(made.output.find("coloured") != std::string::npos);
+  CHECK(made.output.find("colored") != std::string::npos);
 }
 
 TEST_CASE("remapc build: pairs of real renderers, whose tables stay where the renderer is gone") {

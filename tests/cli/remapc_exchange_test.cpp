@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/remapc_session.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
 #include "model/interpreter.hpp"
 
 using namespace remap;
@@ -145,7 +145,7 @@ TEST_CASE("remapc export: what is unknown, too small or cannot be written is nam
                 "did you mean mitsuba_ward_to_mitsuba_as?");
   check_failure(export_to("x.csv", {"--size", "1"}), 2, "--size: Value 1 not in range 2 to 1048576");
   check_failure(export_to("x.csv", {"--size-specular", "-3"}), 2, "--size-specular: Value -3 not in range");
-  check_failure(export_to("x.csv", {"--only", "colour"}), 2, "--only");
+  check_failure(export_to("x.csv", {"--only", "color"}), 2, "--only");
   check_failure(export_to("t.csv/x.csv"), 1, "t.csv: cannot be made a folder");
   check_failure(export_to("fits"), 1, "fits: cannot be written");
   CHECK_FALSE(fs::exists(session.path("x.csv")));

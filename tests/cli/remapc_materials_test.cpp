@@ -65,7 +65,7 @@ TEST_CASE("remapc sweep: wrong stages, diffuse and conductors are exit code 2") 
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("remapc study conductors: writes tables and says what was found") {
+TEST_CASE("remap-study conductors: writes tables and says what was found") {
   const Session session;
   const ProcessResult result = session.remapc(study(session, "conductors", {"--alphas", "0.2,0.4"}));
   INFO(result.errors);
@@ -82,7 +82,7 @@ TEST_CASE("remapc study conductors: writes tables and says what was found") {
   CHECK(json.output.find("null") == std::string::npos);
 }
 
-TEST_CASE("remapc study dielectrics: compares one, two and three stages") {
+TEST_CASE("remap-study dielectrics: compares one, two and three stages") {
   const Session session;
   const ProcessResult result = session.remapc(study(session, "dielectrics", {"--alphas", "0.3", "--json"}));
   INFO(result.errors);
@@ -106,7 +106,7 @@ TEST_CASE("remapc study: wrong usage is exit code 2, help has an example") {
                 "--diffuse: expected 0 to 1");
   CHECK(session.file_count() == 0);
   for (const std::string name : {"conductors", "dielectrics"})
-    CHECK(session.remapc({"study", name, "--help"}).output.find("Example:\n  remapc study " + name) !=
+    CHECK(session.remapc({"study", name, "--help"}).output.find("Example:\n  remap-study " + name) !=
           std::string::npos);
 }
 

@@ -65,7 +65,7 @@ TEST_CASE("remapc warp: materials of one appearance are refused") {
     write_set(session, "wood", 0.1, black_texel);
     check_refused(session, mask_words(session), "wood: all texels look alike");
   }
-  SECTION("a template of one colour") {
+  SECTION("a template of one color") {
     write_set(session, "stone", 0.37, one_color_texel);
     check_refused(session, mask_words(session), "stone: all texels look alike");
   }
@@ -135,7 +135,7 @@ TEST_CASE("remapc warp: texels that are not finite are counted, and the others a
   CHECK(error_of(read_warp(session), source_texel) < 0.25);
 }
 
-TEST_CASE("remapc warp: a diffuse map alone is a source, told apart by its colour") {
+TEST_CASE("remapc warp: a diffuse map alone is a source, told apart by its color") {
   const Session session;
   write_materials(session);
   write_set(session, "wood", 0.1, albedo_texel);

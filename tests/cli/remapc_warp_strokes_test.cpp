@@ -1,4 +1,4 @@
-// remapc warp with strokes in one image, a colour for each pair.
+// remapc warp with strokes in one image, a color for each pair.
 #include <array>
 
 #include <nlohmann/json.hpp>
@@ -53,7 +53,7 @@ ProcessResult run_painted(const Session& session, const Paint& from, const Paint
 
 }  // namespace
 
-TEST_CASE("remapc warp: two paintings with a colour for each region do as eight masks do") {
+TEST_CASE("remapc warp: two paintings with a color for each region do as eight masks do") {
   const Session session;
   write_materials(session);
   const auto [background, smooth, extension] =
@@ -80,7 +80,7 @@ TEST_CASE("remapc warp: two paintings with a colour for each region do as eight 
   CHECK(error_of(read_warp(session), source_texel) < 0.25);
 }
 
-TEST_CASE("remapc warp: backgrounds of two paintings may differ, and their colours a little") {
+TEST_CASE("remapc warp: backgrounds of two paintings may differ, and their colors a little") {
   const Session session;
   write_materials(session);
   Paint from, to;
@@ -95,7 +95,7 @@ TEST_CASE("remapc warp: backgrounds of two paintings may differ, and their colou
 }
 
 TEST_CASE(
-    "remapc warp: paintings that do not go together are refused with the colour, and no file is written") {
+    "remapc warp: paintings that do not go together are refused with the color, and no file is written") {
   const Session session;
   write_materials(session);
   const auto refused = [&](const Paint& from, const Paint& to, const std::string& message) {
@@ -110,7 +110,7 @@ TEST_CASE(
   paint.corners[3] = {1, 0, 1, 1};
   refused(paint, good,
           "to.png: has no stroke of #ff00ff, which " + session.path("from.png") +
-              " has; the nearest is #ff0000; expected every colour in both images");
+              " has; the nearest is #ff0000; expected every color in both images");
   refused(good, paint, "to.png: has no stroke of #ffff00");
   paint.corners[3] = kRed;
   refused(paint, good, "from.png: has no stroke of #ffff00, which " + session.path("to.png") + " has");
@@ -126,11 +126,11 @@ TEST_CASE(
   CHECK(photo.exit_code == 1);
   CAPTURE(photo.errors);
   CHECK(photo.errors.find("photo.png: ") != std::string::npos);
-  CHECK(photo.errors.find("expected strokes of a few flat colours") != std::string::npos);
+  CHECK(photo.errors.find("expected strokes of a few flat colors") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(session.path("stony.json")));
 }
 
-TEST_CASE("remapc warp: messages name painted strokes by their colour") {
+TEST_CASE("remapc warp: messages name painted strokes by their color") {
   const Session session;
   write_materials(session);
   Paint to;

@@ -28,7 +28,7 @@ const std::vector<Exception> kExceptions = {
     {"tif", "Software", "TIFF has no place for that but the tag of the writing program"},
     {"jpg", "Software", "nor has JPEG"},
     {"jpg", "IPTC:OriginatingProgram", "OpenImageIO writes Software here, too"},
-    {"jpg", "jpeg:subsampling", "colours are written for every texel: converted maps are data"},
+    {"jpg", "jpeg:subsampling", "colors are written for every texel: converted maps are data"},
     {"tx", "Software", "a TIFF by another name"}};
 
 // Of textures with mip levels.
@@ -239,7 +239,7 @@ TEST_CASE("texremap attributes: the comparison sees what is lost, added, and of 
                                           "channels", "roles of channels"});
 }
 
-TEST_CASE("texremap attributes: a PNG without a colour space is given none") {
+TEST_CASE("texremap attributes: a PNG without a color space is given none") {
   const Session session;
   const bool is_said = GENERATE(true, false);
   OIIO::ImageSpec spec = test_spec(16, 16, {"R", "G", "B"}, OIIO::TypeUInt8);

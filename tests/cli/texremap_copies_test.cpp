@@ -39,7 +39,7 @@ bool same_bytes(const Session& session, const std::string& a, const std::string&
 
 }  // namespace
 
-TEST_CASE("texremap copies: base colour of any size goes along under its own name") {
+TEST_CASE("texremap copies: base color of any size goes along under its own name") {
   const Session session;
   write_set(session, "in");
   const ProcessResult result =

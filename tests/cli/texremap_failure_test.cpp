@@ -42,7 +42,7 @@ class SmallDisk {
 void write_sets(const Tree& tree, const std::string& extension, int large) {
   for (const char* set : {"a", "b", "c"})
     for (const char* map : {"_rough.", "_spec."})
-      tree.map(std::string("in/") + set + map + extension, map[1] == 'r' ? kGrey : kColour, OIIO::TypeUInt8,
+      tree.map(std::string("in/") + set + map + extension, map[1] == 'r' ? kGrey : kColor, OIIO::TypeUInt8,
                set[0] == 'b' ? large : kTreeMapSize);
 }
 

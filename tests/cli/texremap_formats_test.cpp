@@ -23,17 +23,17 @@ struct Case {
   std::vector<std::string> channels;
 };
 
-const std::vector<std::string> kColour = {"R", "G", "B"};
+const std::vector<std::string> kColor = {"R", "G", "B"};
 const std::vector<std::string> kWithAlpha = {"R", "G", "B", "A"};
 const std::vector<std::string> kWithMask = {"R", "G", "B", "A", "mask"};
 
 std::vector<Case> cases() {
   return {{"exr", OIIO::TypeHalf, 0, "zip", kWithMask},     {"exr", OIIO::TypeHalf, 32, "piz", kWithMask},
           {"exr", OIIO::TypeFloat, 0, "piz", kWithMask},    {"exr", OIIO::TypeFloat, 16, "zips", kWithAlpha},
-          {"exr", OIIO::TypeHalf, 0, "none", kColour},      {"tif", OIIO::TypeUInt8, 0, "lzw", kWithMask},
+          {"exr", OIIO::TypeHalf, 0, "none", kColor},       {"tif", OIIO::TypeUInt8, 0, "lzw", kWithMask},
           {"tif", OIIO::TypeUInt16, 32, "zip", kWithAlpha}, {"tif", OIIO::TypeFloat, 0, "zip", kWithMask},
           {"png", OIIO::TypeUInt8, 0, "", kWithAlpha},      {"png", OIIO::TypeUInt16, 0, "", kWithAlpha},
-          {"tga", OIIO::TypeUInt8, 0, "", kWithAlpha},      {"bmp", OIIO::TypeUInt8, 0, "", kColour}};
+          {"tga", OIIO::TypeUInt8, 0, "", kWithAlpha},      {"bmp", OIIO::TypeUInt8, 0, "", kColor}};
 }
 
 OIIO::ImageSpec spec_of(const Case& format, const std::vector<std::string>& channels) {
@@ -61,9 +61,9 @@ void check_converted(const TestImage& roughness, const TestImage& specular, cons
 // Channels from the fourth on, bit for bit.
 void check_passed_through(const TestImage& in, const TestImage& out) {
   REQUIRE(in.bytes.size() == out.bytes.size());
-  const std::size_t texel = in.spec.pixel_bytes(true), colours = in.spec.pixel_bytes(0, 3, true);
+  const std::size_t texel = in.spec.pixel_bytes(true), colors = in.spec.pixel_bytes(0, 3, true);
   for (std::size_t i = 0; i < in.bytes.size(); i += texel)
-    REQUIRE(std::memcmp(&in.bytes[i + colours], &out.bytes[i + colours], texel - colours) == 0);
+    REQUIRE(std::memcmp(&in.bytes[i + colors], &out.bytes[i + colors], texel - colors) == 0);
 }
 
 void check_same_kind(const OIIO::ImageSpec& in, const OIIO::ImageSpec& out) {
@@ -131,7 +131,7 @@ TEST_CASE("texremap: where a format has no metadata of one's own, the tag Softwa
 
 TEST_CASE("texremap: Exif in a TIFF survives") {
   const Session session;
-  Case format{"tif", OIIO::TypeUInt8, 0, "zip", kColour};
+  Case format{"tif", OIIO::TypeUInt8, 0, "zip", kColor};
   OIIO::ImageSpec spec = spec_of(format, {"Y"});
   spec.attribute("Exif:LensModel", "a lens");
   write_image(session.path("r.tif"), spec, noise);
@@ -146,7 +146,7 @@ TEST_CASE("texremap: the windows of an EXR are kept") {
   const Session session;
   for (const char* name : {"r.exr", "s.exr"}) {
     OIIO::ImageSpec spec =
-        test_spec(kWidth, kHeight, name[0] == 'r' ? std::vector<std::string>{"Y"} : kColour, OIIO::TypeHalf);
+        test_spec(kWidth, kHeight, name[0] == 'r' ? std::vector<std::string>{"Y"} : kColor, OIIO::TypeHalf);
     spec.x = 10;
     spec.y = -7;
     spec.full_width = 200;
@@ -202,7 +202,7 @@ TEST_CASE("texremap: another format takes the least lossy type that it has") {
 TEST_CASE("texremap: --type chooses the pixel type, and clipped values are counted") {
   const Session session;
   write_image(session.path("r.exr"), test_spec(64, 64, {"Y"}, OIIO::TypeFloat), noise);
-  write_image(session.path("s.exr"), test_spec(64, 64, kColour, OIIO::TypeFloat),
+  write_image(session.path("s.exr"), test_spec(64, 64, kColor, OIIO::TypeFloat),
               [](int x, int y, int c) { return x == 5 && y == 6 ? 9.0f : 0.3f * noise(x, y, c); });
   const ProcessResult result = session.convert("r.exr", "s.exr", {"--format", "tif", "--type", "uint8"});
   REQUIRE(result.exit_code == 0);
@@ -230,7 +230,7 @@ TEST_CASE("texremap: a constant specular becomes a map of the same size") {
   REQUIRE(session.texremap(words).exit_code == 0);
   const TestImage in = read_image(session.path("r.exr")), out = read_image(session.path("out/specular.exr"));
   CHECK(out.spec.width == 64);
-  CHECK(out.spec.channelnames == (words[8] == "0.5" ? std::vector<std::string>{"Y"} : kColour));
+  CHECK(out.spec.channelnames == (words[8] == "0.5" ? std::vector<std::string>{"Y"} : kColor));
   const std::array<float, 3> specular =
       words[8] == "0.5" ? std::array{0.5f, 0.5f, 0.5f} : std::array{0.9f, 0.6f, 0.2f};
   for (int x = 0; x < 64; ++x) {
@@ -245,15 +245,14 @@ TEST_CASE("texremap: a JPEG stays one, with a warning") {
   session.write_pair("jpg", 64, OIIO::TypeUInt8);
   const ProcessResult result = session.convert("r.jpg", "s.jpg");
   REQUIRE(result.exit_code == 0);
-  CHECK_THAT(result.errors,
-             Contains("jpeg compression changes values") && Contains("read as colour in sRGB"));
+  CHECK_THAT(result.errors, Contains("jpeg compression changes values") && Contains("read as color in sRGB"));
   const TestImage in = read_image(session.path("r.jpg")), out = read_image(session.path("out/r.jpg"));
   // Quality 100 rounds the coefficients of 8 x 8 cosines to whole numbers: a few steps of 1/255 at most.
   for (int x = 0; x < 64; ++x)
     CHECK(out.at(x, 3, 0) == Approx(converted_texel(in.at(x, 3, 0), {})[0]).margin(4.0 / 255.0));
 }
 
-TEST_CASE("texremap: a photographed roughness map with a constant specular") {
+TEST_CASE("texremap: a taken roughness map with a constant specular") {
   const fs::path brass = shared_data("textures/brass_roughness.jpg");
   if (brass.empty()) return;
   const Session session;

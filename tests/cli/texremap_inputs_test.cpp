@@ -1,4 +1,4 @@
-// Inputs of texremap as people have them: packed channels, glossiness, numbers, factors, colour in sRGB,
+// Inputs of texremap as people have them: packed channels, glossiness, numbers, factors, color in sRGB,
 // values that no material has.
 #include <cmath>
 #include <cstring>
@@ -84,7 +84,7 @@ TEST_CASE("texremap inputs: the ORM map of BoomBox keeps occlusion and metallic"
 TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data throughout") {
   const Session session;
   const std::string name = "sg." + std::string(GENERATE("png", "tga", "tif", "exr"));
-  // Alpha far below the colours, and 0: multiplication by it would be seen, and division by it even more.
+  // Alpha far below the colors, and 0: multiplication by it would be seen, and division by it even more.
   write_image(session.path(name), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
               [](int x, int y, int c) {
                 return c < 3 ? noise(x, y, c) : x < 5 ? 0.0f : 0.3f * noise(x, y, c);
@@ -155,7 +155,7 @@ TEST_CASE("texremap inputs: factors are baked in once") {
   }
 }
 
-TEST_CASE("texremap inputs: colour in sRGB is converted as light and written in sRGB again") {
+TEST_CASE("texremap inputs: color in sRGB is converted as light and written in sRGB again") {
   const Session session;
   OIIO::ImageSpec spec = test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8);
   spec.attribute("oiio:ColorSpace", "sRGB");
@@ -167,7 +167,7 @@ TEST_CASE("texremap inputs: colour in sRGB is converted as light and written in 
   const ProcessResult result = convert(session, words);
   require_success(result);
   CHECK(nlohmann::json::parse(result.output)["specular_color_space"] == "srgb");
-  CHECK_THAT(result.errors, Contains("s.png: specular is read as colour in sRGB"));
+  CHECK_THAT(result.errors, Contains("s.png: specular is read as color in sRGB"));
   const TestImage r = read_image(session.path("r.png")), s = read_image(session.path("s.png")),
                   out = read_image(session.path("out/s." + format));
   CHECK(out.spec.get_string_attribute("oiio:ColorSpace", "Linear") == (format == "png" ? "sRGB" : "Linear"));

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
 #include "support/random_warp.hpp"
 
 using namespace remap;

@@ -66,7 +66,7 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again") {
   CHECK(channel(session, named("packed/" + layout), 1) == channel(session, named("plain/roughness"), 0));
 }
 
-TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every colour") {
+TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every color") {
   const Session session;
   const std::string extension = GENERATE("png", "tif", "exr", "tga");
   const auto named = [&](const std::string& name) { return name + "." + extension; };

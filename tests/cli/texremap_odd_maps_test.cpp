@@ -21,7 +21,7 @@ std::string head_of(const std::string& extension, int width, int height) {
     return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
            std::to_string(width) + "\n";
   std::string targa(12, '\0');
-  targa[2] = 2;  // colours, not packed
+  targa[2] = 2;  // colors, not packed
   return targa + little_endian(width) + little_endian(height) + std::string{24, 0};
 }
 
@@ -101,9 +101,9 @@ TEST_CASE("texremap odd maps: one to five channels where three are expected") {
     REQUIRE(out.spec.nchannels == count);
     for (int c = 0; c < count; ++c) {
       const float value = in.at(5, 7, c);
-      const bool is_colour = c < 3 && (count != 2 || c == 0);
+      const bool is_color = c < 3 && (count != 2 || c == 0);
       const float expected = converted_texel(0.3f, {value, value, value})[1];
-      CHECK(out.at(5, 7, c) == (is_colour ? as_stored(expected, out.spec.format) : value));
+      CHECK(out.at(5, 7, c) == (is_color ? as_stored(expected, out.spec.format) : value));
     }
     fs::remove_all(session.path("out"));
   }

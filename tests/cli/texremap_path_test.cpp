@@ -6,7 +6,7 @@
 
 #include "cli/texremap_session.hpp"
 #include "convert/path.hpp"
-#include "number_text.hpp"
+#include "text/number_text.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;

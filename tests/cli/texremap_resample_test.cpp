@@ -82,7 +82,7 @@ TEST_CASE("texremap --resample: bands of tall maps meet without a seam") {
   }
 }
 
-TEST_CASE("texremap --resample: colour in sRGB is interpolated as light") {
+TEST_CASE("texremap --resample: color in sRGB is interpolated as light") {
   const Session session;
   write_image(session.path("s.png"), test_spec(2, 1, {"R", "G", "B"}, OIIO::TypeUInt8),
               [](int x, int, int) { return x == 0 ? 0.0f : 1.0f; });

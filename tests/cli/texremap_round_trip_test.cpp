@@ -46,7 +46,7 @@ double in_srgb(double value) {
   return 255.0 * (value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055);
 }
 
-// Rounding of base colour and of metallic may add up.
+// Rounding of base color and of metallic may add up.
 constexpr double kMostSteps = 1.5;
 
 bool is_seen(double a, double b) {
@@ -69,7 +69,7 @@ std::array<double, 6> specular_bytes(const std::array<int, 3>& base, int metalli
   return result;
 }
 
-using Answer = std::array<int, 4>;  // base colour and metallic, 8 bits
+using Answer = std::array<int, 4>;  // base color and metallic, 8 bits
 
 bool is_same(const Answer& a, const Answer& b) {
   return std::equal(a.begin(), a.end(), b.begin(), [](int x, int y) { return std::abs(x - y) <= 1; });

@@ -11,10 +11,10 @@
 #include <catch2/catch.hpp>
 
 #include "convert/converter.hpp"
-#include "files.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
+#include "system/files.hpp"
 
 namespace remap {
 

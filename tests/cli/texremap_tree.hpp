@@ -38,7 +38,7 @@ class Tree : public Session {
   }
 };
 
-inline const std::vector<std::string> kGrey = {"Y"}, kColour = {"R", "G", "B"},
+inline const std::vector<std::string> kGrey = {"Y"}, kColor = {"R", "G", "B"},
                                       kWithAlpha = {"R", "G", "B", "A"};
 
 }  // namespace remap

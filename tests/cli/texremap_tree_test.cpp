@@ -23,14 +23,14 @@ using Names = std::vector<std::string>;
 TEST_CASE("texremap tree: sets of every habit are converted, each by the meaning of its names") {
   const Tree tree;
   tree.map("in/hero_Roughness.png", kGrey);
-  tree.map("in/hero_Specular.png", kColour);
-  tree.map("in/hero_Normal.png", kColour);
+  tree.map("in/hero_Specular.png", kColor);
+  tree.map("in/hero_Normal.png", kColor);
   tree.map("in/wood/planks_rough_4k.png", kGrey);
   tree.map("in/wood/planks_spec_4k.png", kGrey);
   tree.map("in/stone/Stone 012_2K-PNG_Roughness.png", kGrey);
   tree.map("in/quixel/abc_4K_Gloss.tga", kGrey);
-  tree.map("in/quixel/abc_4K_Specular.tga", kColour);
-  tree.map("in/gltf/lamp_occlusionRoughnessMetallic.png", kColour);
+  tree.map("in/quixel/abc_4K_Specular.tga", kColor);
+  tree.map("in/gltf/lamp_occlusionRoughnessMetallic.png", kColor);
   tree.map("in/gltf/chair_specularGlossiness.png", kWithAlpha);
   std::ofstream(tree.path("in/notes.txt")) << "not an image";
 
@@ -81,7 +81,7 @@ TEST_CASE("texremap tree: one that fails does not stop the others, and the exit 
   tree.map("in/e_rough.png", kGrey);
   tree.map("in/e_spec.png", kGrey);
   fs::resize_file(tree.path("in/e_rough.png"), fs::file_size(tree.path("in/e_rough.png")) / 2);
-  tree.map("in/f_normal.png", kColour);
+  tree.map("in/f_normal.png", kColor);
   const ProcessResult result = tree.convert_tree({"--json"});
   CHECK(result.exit_code == 1);
   CHECK(tree.results() == Names{"a_rough.png", "a_spec.png"});
@@ -131,7 +131,7 @@ TEST_CASE("texremap tree: the tiles of a set are one set") {
   for (const char* tile : {"1001", "1002", "1011"}) {
     tree.map(std::string("in/hero_Roughness.") + tile + ".exr", kGrey, OIIO::TypeHalf);
     if (std::string(tile) != "1011")
-      tree.map(std::string("in/hero_Specular.") + tile + ".exr", kColour, OIIO::TypeHalf);
+      tree.map(std::string("in/hero_Specular.") + tile + ".exr", kColor, OIIO::TypeHalf);
   }
   const ProcessResult found = tree.convert_tree({"--json"});
   CHECK(found.exit_code == 1);
@@ -180,7 +180,7 @@ TEST_CASE("texremap tree: the number of threads changes no bit") {
   for (int i = 0; i < 7; ++i) {
     const std::string name = "in/m" + std::to_string(i);
     tree.map(name + "_rough.exr", kGrey, OIIO::TypeHalf);
-    tree.map(name + "_spec.exr", kColour, OIIO::TypeHalf);
+    tree.map(name + "_spec.exr", kColor, OIIO::TypeHalf);
   }
   std::vector<std::string> contents;
   for (const char* threads : {"1", "3", "16"}) {
@@ -216,7 +216,7 @@ TEST_CASE("texremap tree: --resume makes what is missing, what changed, and noth
   const auto named = [&](const std::string& name) { return name + "." + extension; };
   for (const char* set : {"a", "b", "c", "d"}) {
     tree.map(named(std::string("in/") + set + "_rough"), kGrey);
-    tree.map(named(std::string("in/") + set + "_spec"), kColour);
+    tree.map(named(std::string("in/") + set + "_spec"), kColor);
   }
   const auto states = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"--resume", "--json"};
@@ -232,7 +232,7 @@ TEST_CASE("texremap tree: --resume makes what is missing, what changed, and noth
   fs::remove(tree.path(named("out/b_spec")));
   CHECK(states({}) == "dcdd");
   // Another input, another option, a file that is not ours.
-  tree.map(named("in/c_rough"), kColour);
+  tree.map(named("in/c_rough"), kColor);
   CHECK(states({}) == "ddfd");
   write_image(tree.path(named("in/c_rough")), test_spec(kSize, kSize, kGrey, OIIO::TypeUInt8),
               [](int, int, int) { return 0.5f; });
@@ -250,7 +250,7 @@ TEST_CASE(
   for (int i = 0; i < 12; ++i) {
     const std::string name = "in/" + std::to_string(i);
     tree.map(name + "_rough.exr", kGrey, OIIO::TypeHalf, 256);
-    tree.map(name + "_spec.exr", kColour, OIIO::TypeHalf, 256);
+    tree.map(name + "_spec.exr", kColor, OIIO::TypeHalf, 256);
   }
   REQUIRE(tree.convert_tree().exit_code == 0);
   fs::rename(tree.path("out"), tree.path("unbroken"));
@@ -279,7 +279,7 @@ TEST_CASE("texremap tree: names with spaces, Unicode and line breaks; links that
   const Tree tree;
   const std::string odd = "in/sp ace/\xc3\xbc \n\xe6\x9c\xa8";
   tree.map(odd + "_rough.png", kGrey);
-  tree.map(odd + "_spec.png", kColour);
+  tree.map(odd + "_spec.png", kColor);
   fs::create_directory_symlink(tree.path("in"), tree.path("in/sp ace/round"));
   const ProcessResult result = tree.convert_tree({"--recursive", "--json"});
   INFO(result.errors);

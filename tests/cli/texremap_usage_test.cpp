@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
 #include "support/example_fit.hpp"
 
 using namespace remap;
@@ -120,12 +120,11 @@ TEST_CASE("texremap: a roughness map that is not grey needs a channel") {
   session.write_pair("exr");
   const ProcessResult result = session.convert("s.exr", "s.exr");
   check_failure(result, 2, "channel R is both roughness and specular; expected FILE:CHANNEL");
-  fs::copy_file(session.path("s.exr"), session.path("colour.exr"));
-  check_failure(session.convert("colour.exr", "s.exr"), 1, "is not grey");
+  fs::copy_file(session.path("s.exr"), session.path("color.exr"));
+  check_failure(session.convert("color.exr", "s.exr"), 1, "is not grey");
   CHECK(session.file_count() == 0);
-  CHECK(session.convert("colour.exr:G", "s.exr").exit_code == 0);
-  const TestImage in = read_image(session.path("colour.exr")),
-                  out = read_image(session.path("out/colour.exr"));
+  CHECK(session.convert("color.exr:G", "s.exr").exit_code == 0);
+  const TestImage in = read_image(session.path("color.exr")), out = read_image(session.path("out/color.exr"));
   CHECK(out.at(3, 4, 0) == in.at(3, 4, 0));
   CHECK(out.at(3, 4, 2) == in.at(3, 4, 2));
   CHECK(out.at(3, 4, 1) ==

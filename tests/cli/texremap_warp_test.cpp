@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "files.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
 #include "support/random_warp.hpp"
+#include "system/files.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -68,7 +68,7 @@ TEST_CASE("texremap warps: a folder becomes what the warp says of each texel") {
     }
 }
 
-TEST_CASE("texremap warps: grey maps become colours under their names") {
+TEST_CASE("texremap warps: grey maps become colors under their names") {
   const WarpSession session;
   write_image(session.path("wood/oak_specular.exr"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeFloat),
               [](int x, int y, int) { return 0.5f * noise(x, y, 3); });
@@ -237,7 +237,7 @@ TEST_CASE("texremap warps: texels that are not finite harm no other") {
   }
 }
 
-TEST_CASE("texremap warps: a grey diffuse map alone gets colours") {
+TEST_CASE("texremap warps: a grey diffuse map alone gets colors") {
   const AlbedoSession session;
   write_image(session.path("wood/oak_diffuse.exr"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeFloat), noise);
   require_success(session.texremap(

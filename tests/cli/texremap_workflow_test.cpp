@@ -181,7 +181,7 @@ TEST_CASE("texremap workflows: metallic to metallic of another BRDF, files as th
   CHECK(sum / static_cast<double>(before.values.size()) < 0.05);
 }
 
-TEST_CASE("texremap workflows: glossiness in alpha leaves the colours of a PNG alone") {
+TEST_CASE("texremap workflows: glossiness in alpha leaves the colors of a PNG alone") {
   const Session session;
   write_colors(
       session, "d.png", [](int, int, int c) { return 0.2f + 0.1f * static_cast<float>(c); }, OIIO::TypeUInt8);
@@ -194,7 +194,7 @@ TEST_CASE("texremap workflows: glossiness in alpha leaves the colours of a PNG a
                   orm = read_image(session.path("out/orm.png"));
   for (int x = 1; x < kSize; ++x) {
     REQUIRE(orm.at(x, 0, 1) == Approx(1.0f - static_cast<float>(x) / 255.0f).margin(1e-6));
-    // The colour of the texel does not know its glossiness: a metal of 0.8 in sRGB.
+    // The color of the texel does not know its glossiness: a metal of 0.8 in sRGB.
     REQUIRE(orm.at(x, 0, 2) > 0.9f);
     REQUIRE(base.at(x, 0, 0) == Approx(0.8f).margin(0.03));
   }
@@ -219,7 +219,7 @@ TEST_CASE("texremap workflows: alpha of diffuse goes along, and what it masks do
 
 TEST_CASE("texremap workflows: a mask of metal chooses between answers that look alike") {
   const Session session;
-  // A dark blend: metallic 0.69 with a base colour of 0.04, or none with 0.0125; the same picture.
+  // A dark blend: metallic 0.69 with a base color of 0.04, or none with 0.0125; the same picture.
   write_colors(session, "d.exr", [](int, int, int) { return 0.0125f; });
   write_colors(session, "s.exr", [](int, int, int) { return 0.04f; });
   write_grey(session, "r.exr", [](int, int, int) { return 0.5f; });
@@ -424,7 +424,7 @@ TEST_CASE("texremap workflows: list and path know them") {
   const ProcessResult path = session.texremap({"path", "--from", "mitsuba/ward", "--to", "gltf"});
   require_success(path);
   CHECK_THAT(path.output, Contains("width and specular from mitsuba/ward to mitsuba/ggx") &&
-                              Contains("to base colour and metallic by projection") &&
+                              Contains("to base color and metallic by projection") &&
                               Contains("mitsuba_ward_to_mitsuba_ggx"));
   require_success(session.texremap({"path", "--from", "gltf-specgloss", "--to", "gltf", "--json"}));
 }

@@ -90,7 +90,7 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions") {
     CHECK(found["fold_share"] < way.folds);
     CHECK(found["stroke_distance"] < 0.5);
     CHECK(found["template_used"] > way.used);
-    // Gold of the king varies in a way that BoomBox, of few flat colours, has no place for: that is said.
+    // Gold of the king varies in a way that BoomBox, of few flat colors, has no place for: that is said.
     const bool warned = report["warnings"].dump().find("is turned inside out") != std::string::npos;
     CHECK(warned == (found["fold_share"] > 0.005));
     const ProcessResult maps =

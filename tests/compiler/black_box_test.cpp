@@ -6,9 +6,9 @@
 
 #include "compiler/disguised_renderer.hpp"
 #include "compiler/sweep_session.hpp"
-#include "error.hpp"
-#include "sweep/fresnel.hpp"
-#include "sweep/photographer.hpp"
+#include "probe/picture_taker.hpp"
+#include "remap/error.hpp"
+#include "renderer/fresnel.hpp"
 
 using namespace remapc;
 
@@ -16,8 +16,8 @@ namespace {
 
 SpecularResponse probe(const Renderer& renderer, const std::string& model,
                        const remap::Range& alphas = {0.05, 1.0}) {
-  const Photographer photographer(renderer, objective_preset("natural"), 64, 1);
-  return probe_specular(photographer, find_model(renderer, model), alphas);
+  const PictureTaker picture_taker(renderer, objective_preset("natural"), 64, 1);
+  return probe_specular(picture_taker, find_model(renderer, model), alphas);
 }
 
 double squared(double level) { return level * level; }
@@ -90,8 +90,8 @@ TEST_CASE("sweep: one and three stages match unknown light, width, specular and 
 
 TEST_CASE("sweep: diffuse is matched apart from specular") {
   const BothRenderers renderers(0.5);
-  const Photographer photographer(renderers, objective_preset("natural"), 64, 1);
-  const DiffuseMatch match = match_diffuse(photographer, find_model(renderers, "mitsuba/ggx"),
+  const PictureTaker picture_taker(renderers, objective_preset("natural"), 64, 1);
+  const DiffuseMatch match = match_diffuse(picture_taker, find_model(renderers, "mitsuba/ggx"),
                                            find_model(renderers, "disguised/metal"));
   CHECK(match.scale == Approx(2.0).epsilon(1e-6));
   CHECK(match.error < 1e-5);

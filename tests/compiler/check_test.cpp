@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "support/shared_data.hpp"
 
 using namespace remapc;

@@ -5,12 +5,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
 #include "fit/baselines.hpp"
 #include "fit/edge.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/folds.hpp"
-#include "model/fit_json.hpp"
+#include "fit/rows/folds.hpp"
+#include "fit_file/fit_json.hpp"
+#include "remap/error.hpp"
 
 using namespace remapc;
 using remap::Candidate;

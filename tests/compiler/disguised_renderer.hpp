@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep/renderer.hpp"
+#include "renderer/renderer.hpp"
 
 namespace remapc {
 

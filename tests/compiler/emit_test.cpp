@@ -6,11 +6,11 @@
 #include <catch2/catch.hpp>
 
 #include "emit/text_template.hpp"
-#include "error.hpp"
-#include "files.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
 #include "model/interpreter.hpp"
+#include "remap/error.hpp"
 #include "support/random_warp.hpp"
+#include "system/files.hpp"
 
 using namespace remapc;
 

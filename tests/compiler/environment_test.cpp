@@ -1,5 +1,5 @@
 // Spheres under environments: the maps, the light that they give, and the study that compares by them.
-#include "study/environment.hpp"
+#include "report/environment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,14 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
+#include "remap/error.hpp"
+#include "renderer/image_file.hpp"
+#include "renderer/scene.hpp"
+#include "report/lit_sphere.hpp"
 #include "study/environments_report.hpp"
-#include "study/lit_sphere.hpp"
 #include "support/temporary_folder.hpp"
-#include "sweep/image_file.hpp"
-#include "sweep/scene.hpp"
+#include "system/files.hpp"
 
 using namespace remapc;
 using std::numbers::pi;
@@ -288,12 +288,12 @@ TEST_CASE("study environments: a model copied to itself gives equal pictures") {
   const EnvironmentsResult result = study_environments(options);
   // 2 alphas, 3 environments; copy, paper, natural.
   REQUIRE(result.comparisons.size() == 18);
-  const PictureLikeness copy = mean_likeness(comparisons_of(result, Method::kCopy));
+  const PictureSimilarity copy = mean_similarity(comparisons_of(result, Method::kCopy));
   CHECK(copy.rmse == 0.0);
   CHECK(copy.ssim == Approx(1.0).epsilon(1e-6));
   CHECK(copy.energy == 0.0);
   // A match finds alpha again to 2e-7.
-  CHECK(mean_likeness(comparisons_of(result, Method::kNatural)).rmse < 1e-3);
+  CHECK(mean_similarity(comparisons_of(result, Method::kNatural)).rmse < 1e-3);
   CHECK(result.noise > 0.0);
   CHECK(result.remarks == std::vector<std::string>{
                               "mitsuba/ggx -> mitsuba/ggx has no fit, so nothing is said of it as shipped"});
@@ -303,8 +303,8 @@ TEST_CASE(
     "study environments: the objective natural looks more alike than copying, and no thread changes it") {
   EnvironmentsOptions options = small_study();
   const EnvironmentsResult result = study_environments(options);
-  const PictureLikeness copy = mean_likeness(comparisons_of(result, Method::kCopy));
-  const PictureLikeness natural = mean_likeness(comparisons_of(result, Method::kNatural));
+  const PictureSimilarity copy = mean_similarity(comparisons_of(result, Method::kCopy));
+  const PictureSimilarity natural = mean_similarity(comparisons_of(result, Method::kNatural));
   CHECK(natural.rmse < 0.8 * copy.rmse);
   CHECK(natural.ssim > copy.ssim);
   CHECK(natural.energy < copy.energy);
@@ -320,9 +320,9 @@ TEST_CASE("study environments: nothing beats the floor, and copies of a model re
   options.samples = 256;
   options.floor = true;
   const EnvironmentsResult result = study_environments(options);
-  const PictureLikeness best = mean_likeness(comparisons_of(result, Method::kBest));
+  const PictureSimilarity best = mean_similarity(comparisons_of(result, Method::kBest));
   for (const Method method : {Method::kCopy, Method::kPaper, Method::kNatural})
-    CHECK(best.rmse < mean_likeness(comparisons_of(result, method)).rmse);
+    CHECK(best.rmse < mean_similarity(comparisons_of(result, method)).rmse);
 
   options.pairs = {{"mitsuba/as", "mitsuba/as"}};
   const EnvironmentsResult same = study_environments(options);
@@ -343,7 +343,7 @@ TEST_CASE("study environments: a fit converts as it is shipped") {
   // The fit follows a sweep by the same objective at 512 pixels; here 64.
   for (std::size_t i = 0; i < shipped.size(); ++i) {
     CHECK(shipped[i]->conversion.target_alpha == Approx(natural[i]->conversion.target_alpha).margin(2e-3));
-    CHECK(shipped[i]->likeness.rmse == Approx(natural[i]->likeness.rmse).margin(0.1));
+    CHECK(shipped[i]->image_similarity.rmse == Approx(natural[i]->image_similarity.rmse).margin(0.1));
   }
 }
 

@@ -6,10 +6,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "export/lookup_table.hpp"
+#include "emit/lookup_table.hpp"
 #include "model/interpreter.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
 
 using namespace remapc;
 using remap::Fit;

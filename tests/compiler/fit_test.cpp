@@ -5,16 +5,16 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/folds.hpp"
-#include "fit/parametric.hpp"
-#include "fit/split.hpp"
+#include "fit/parametric/parametric.hpp"
+#include "fit/rows/folds.hpp"
+#include "fit/rows/split.hpp"
+#include "fit_file/fit_json.hpp"
 #include "model/evaluate.hpp"
-#include "model/fit_json.hpp"
 #include "model/interpreter.hpp"
+#include "remap/error.hpp"
 #include "support/shared_data.hpp"
+#include "system/files.hpp"
 #include "table/domain.hpp"
 
 using namespace remapc;

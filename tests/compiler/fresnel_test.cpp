@@ -1,5 +1,5 @@
 // Fresnel's formulas against closed forms, and equation (1) of the paper.
-#include "sweep/fresnel.hpp"
+#include "renderer/fresnel.hpp"
 
 #include <cmath>
 #include <complex>

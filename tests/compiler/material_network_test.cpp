@@ -1,13 +1,13 @@
 // Networks from the specular to the metallic workflow: rows that prove themselves, the fit, and what is
 // refused.
-#include "fit/material_network.hpp"
+#include "fit/network/material_network.hpp"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
+#include "remap/error.hpp"
 #include "workflow/materials.hpp"
 
 using namespace remapc;
@@ -16,8 +16,8 @@ using Catch::Matchers::Contains;
 namespace {
 
 // Rows of equation (2), as remapc sample finds them.
-NamedTable family_table(std::size_t count, double f0) {
-  NamedTable table;
+MaterialTable family_table(std::size_t count, double f0) {
+  MaterialTable table;
   table.name = "family.csv";
   table.comments = {{"source", "mitsuba/ggx-metallic"},
                     {"source_roughness", "roughness"},
@@ -63,7 +63,7 @@ TEST_CASE(
 }
 
 TEST_CASE("material network: learns the way back, says how well, and returns from its file") {
-  const remap::AnalyticFit fit = fit_material_network(family_table(1000, 0.03), "bytes", quick_options());
+  const remap::WorkflowFit fit = fit_material_network(family_table(1000, 0.03), "bytes", quick_options());
   CHECK(fit.id == "back");
   CHECK(fit.conversion.source_model() == "mitsuba/ggx");
   CHECK(fit.conversion.target_model() == "mitsuba/ggx-metallic");
@@ -80,14 +80,14 @@ TEST_CASE("material network: learns the way back, says how well, and returns fro
   CHECK(dielectric.base_color[0] == Approx(0.6).margin(0.1));
   CHECK(dielectric.width == Approx(0.5));
   const remap::AnyFit read = remap::any_fit_from_json(fit_to_json(fit), "x");
-  REQUIRE(std::holds_alternative<remap::AnalyticFit>(read));
-  CHECK(std::get<remap::AnalyticFit>(read) == fit);
+  REQUIRE(std::holds_alternative<remap::WorkflowFit>(read));
+  CHECK(std::get<remap::WorkflowFit>(read) == fit);
   CHECK_THROWS_WITH(remap::fit_from_json(fit_to_json(fit), "x"), Contains("converts whole materials"));
   CHECK(fit_material_network(family_table(1000, 0.03), "bytes", quick_options()) == fit);
 }
 
 TEST_CASE("material network: tables that are none of materials, or none of equation (2), are refused") {
-  NamedTable table = family_table(200, 0.04);
+  MaterialTable table = family_table(200, 0.04);
   table.target_columns[1] = "specular_r2";
   CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("has no column f0_r2"));
   table = family_table(200, 0.04);

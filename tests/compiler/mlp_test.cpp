@@ -1,6 +1,6 @@
 // The kind `mlp`: errors on unseen rows of the published table, what its method records, determinism,
 // progress, and rows it must refuse or survive.
-#include "fit/mlp.hpp"
+#include "fit/network/mlp.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "fit/split.hpp"
+#include "fit/rows/split.hpp"
 #include "model/evaluate.hpp"
+#include "remap/error.hpp"
 #include "support/build_speed.hpp"
 #include "support/shared_data.hpp"
 #include "table/domain.hpp"

@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
-#include "fit/network_batch.hpp"
-#include "fit/network_training.hpp"
+#include "fit/network/network_batch.hpp"
+#include "fit/network/network_training.hpp"
 #include "model/evaluate.hpp"
 #include "support/build_speed.hpp"
 
@@ -44,8 +44,8 @@ MatrixXd uniform_matrix(Uniform& uniform, Index rows, Index columns, double reac
   return matrix;
 }
 
-// Diffuse and specular colour (6) of base colour and metallic (4) by equation (2) of Sztrajman et al. (2019),
-// and the way back as what is to be learned. Base colours stay 0.2 away from the reflectance of dielectrics,
+// Diffuse and specular color (6) of base color and metallic (4) by equation (2) of Sztrajman et al. (2019),
+// and the way back as what is to be learned. Base colors stay 0.2 away from the reflectance of dielectrics,
 // where the way back is not unique.
 Samples metallic_samples(std::size_t count, std::uint64_t seed) {
   Uniform uniform(seed);

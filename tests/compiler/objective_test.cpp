@@ -1,9 +1,9 @@
 // Lights and weights of an objective.
-#include "sweep/objective.hpp"
+#include "probe/objective.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 
 using namespace remapc;
 

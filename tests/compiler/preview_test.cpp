@@ -1,11 +1,11 @@
 // Previews: an identity looks the same, another conversion does not, and figures are those of the pictures.
-#include "study/preview.hpp"
+#include "report/preview.hpp"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;

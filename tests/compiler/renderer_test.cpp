@@ -1,14 +1,14 @@
 // The built-in renderer against closed forms at single pixels, and the properties that its models promise.
-#include "sweep/renderer.hpp"
+#include "renderer/renderer.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "sweep/brdf.hpp"
-#include "sweep/fresnel.hpp"
+#include "remap/error.hpp"
+#include "renderer/brdf.hpp"
+#include "renderer/fresnel.hpp"
 
 using namespace remapc;
 using std::numbers::pi;
@@ -235,7 +235,7 @@ TEST_CASE("renderer: a diffuse sphere is Lambert's, scaled by the distance of th
   CHECK(side.values[16 * 33 + 16] == Approx(0.8 / pi * dz / std::sqrt(distance_2) / distance_2));
 }
 
-TEST_CASE("renderer: colour makes three channels, each as the grey picture of its value") {
+TEST_CASE("renderer: color makes three channels, each as the grey picture of its value") {
   const auto renderer = make_builtin_renderer();
   const Scene scene{24, 1, {30.0, 3.0}};
   const Image rgb = renderer->render(

@@ -1,5 +1,5 @@
 // The sweep scene against plain geometry.
-#include "sweep/scene.hpp"
+#include "renderer/scene.hpp"
 
 #include <cmath>
 

@@ -1,13 +1,13 @@
 // The torus of the preview, against what a torus is.
-#include "sweep/shape.hpp"
+#include "renderer/shape.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "sweep/renderer.hpp"
+#include "remap/error.hpp"
+#include "renderer/renderer.hpp"
 
 using namespace remapc;
 using std::numbers::pi;

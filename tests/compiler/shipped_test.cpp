@@ -6,13 +6,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "build/build.hpp"
-#include "build/fit_folder.hpp"
-#include "build/report.hpp"
-#include "files.hpp"
 #include "fit/fit_table.hpp"
+#include "manifest/build.hpp"
+#include "manifest/fit_folder.hpp"
+#include "manifest/report.hpp"
 #include "model/chain.hpp"
 #include "model/interpreter.hpp"
+#include "system/files.hpp"
 #include "table/domain.hpp"
 
 using namespace remapc;
@@ -136,7 +136,7 @@ TEST_CASE("shipped: chains are what their steps are") {
     const remap::ChainDifference difference = difference_from_steps(fit, steps);
     CHECK(difference.alpha < 2e-5);
     CHECK(difference.grey_specular < 2e-5);
-    CHECK(difference.colour_specular < 2e-3);
+    CHECK(difference.color_specular < 2e-3);
   }
 }
 

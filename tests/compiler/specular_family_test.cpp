@@ -9,12 +9,12 @@
 
 #include "compiler/disguised_renderer.hpp"
 #include "compiler/sweep_session.hpp"
-#include "sweep/family_probe.hpp"
-#include "sweep/joint_match.hpp"
-#include "sweep/photographer.hpp"
-#include "sweep/polynomial.hpp"
-#include "sweep/random_sweep.hpp"
-#include "sweep/target_pictures.hpp"
+#include "match/joint_match.hpp"
+#include "match/target_pictures.hpp"
+#include "probe/family_probe.hpp"
+#include "probe/picture_taker.hpp"
+#include "probe/polynomial.hpp"
+#include "sweep/material_sample.hpp"
 
 using namespace remapc;
 
@@ -39,23 +39,23 @@ LawRenderer fresnel_level() {
 }
 
 std::optional<SpecularFamily> family_of(const Renderer& renderer, const std::string& model) {
-  const Photographer photographer(renderer, objective_preset("natural"), 48, 1);
-  return probe_family(photographer, find_model(renderer, model), kAlphas);
+  const PictureTaker picture_taker(renderer, objective_preset("natural"), 48, 1);
+  return probe_family(picture_taker, find_model(renderer, model), kAlphas);
 }
 
 // Largest deviation of the family's pictures from rendered ones at speculars and widths that no probe has
 // seen, relative to the brightest pixel at full specular.
 double family_deviation(const Renderer& renderer, const std::string& model, const SpecularFamily& family) {
-  const Photographer photographer(renderer, objective_preset("natural"), 48, 1);
-  const Subject subject{find_model(renderer, model), {}, 1.0, family};
+  const PictureTaker picture_taker(renderer, objective_preset("natural"), 48, 1);
+  const ProbedModel probed_model{find_model(renderer, model), {}, 1.0, family};
   double worst = 0.0;
   for (const double alpha : {0.071, 0.33, 0.79}) {
-    const auto pictures = take_family(photographer, subject, alpha);
-    const auto full = photographer.take(subject, {alpha, family.range.max, 0.0});
+    const auto pictures = take_family(picture_taker, probed_model, alpha);
+    const auto full = picture_taker.take(probed_model, {alpha, family.range.max, 0.0});
     for (double share = 0.003; share < 1.0; share += 0.037) {
       const double specular = family.range.min + share * (family.range.max - family.range.min);
       const auto expected = combined(pictures, family.weights_at(specular));
-      const auto found = photographer.take(subject, {alpha, specular, 0.0});
+      const auto found = picture_taker.take(probed_model, {alpha, specular, 0.0});
       for (std::size_t i = 0; i < found.size(); ++i)
         worst = std::max(worst, std::fabs(static_cast<double>(expected[i]) - found[i]) /
                                     static_cast<double>(*std::max_element(full.begin(), full.end())));
@@ -67,14 +67,14 @@ double family_deviation(const Renderer& renderer, const std::string& model, cons
 // Weighted squared difference of a target's picture from a source's, by direct renders.
 class RenderedLoss {
  public:
-  RenderedLoss(const Renderer& renderer, const SweepOptions& options, const Sitting& source)
-      : photographer_(renderer, options.objective, options.resolution, 1),
+  RenderedLoss(const Renderer& renderer, const SweepOptions& options, const RoleValues& source)
+      : picture_taker_(renderer, options.objective, options.resolution, 1),
         target_(find_model(renderer, options.target)),
-        source_(photographer_.take(find_model(renderer, options.source), source)),
-        weights_(squared_weights(options.objective, source_, photographer_.view_cosines())) {}
+        source_(picture_taker_.take(find_model(renderer, options.source), source)),
+        weights_(squared_weights(options.objective, source_, picture_taker_.view_cosines())) {}
 
   double operator()(double alpha, double specular) const {
-    const auto picture = photographer_.take(target_, {alpha, specular, 0.0});
+    const auto picture = picture_taker_.take(target_, {alpha, specular, 0.0});
     double sum = 0.0;
     for (std::size_t i = 0; i < picture.size(); ++i)
       sum += weights_[i] * std::pow(static_cast<double>(picture[i]) - source_[i], 2);
@@ -82,12 +82,12 @@ class RenderedLoss {
   }
 
   // The best point of a grid over the whole of both ranges, then of ever smaller grids around the best.
-  Sitting brute_force(const remap::Range& alphas, const remap::Range& speculars) const {
-    Sitting best{std::sqrt(alphas.min * alphas.max), 0.5 * (speculars.min + speculars.max), 0.0};
+  RoleValues brute_force(const remap::Range& alphas, const remap::Range& speculars) const {
+    RoleValues best{std::sqrt(alphas.min * alphas.max), 0.5 * (speculars.min + speculars.max), 0.0};
     double width = 0.5 * std::log(alphas.max / alphas.min), height = 0.5 * (speculars.max - speculars.min);
     double least = (*this)(best.alpha, best.specular);
     for (int count = 24; width > 1e-4; count = 8, width *= 0.3, height *= 0.3) {
-      const Sitting middle = best;
+      const RoleValues middle = best;
       for (int i = -count; i <= count; ++i)
         for (int j = -count; j <= count; ++j) {
           const double alpha = std::clamp(middle.alpha * std::exp(width * i / count), alphas.min, alphas.max);
@@ -103,7 +103,7 @@ class RenderedLoss {
   }
 
  private:
-  Photographer photographer_;
+  PictureTaker picture_taker_;
   ModelDescription target_;
   std::vector<float> source_, weights_;
 };
@@ -182,7 +182,7 @@ TEST_CASE("sweep: a target that is quadratic in specular is matched as direct re
     for (const TableRow& row : table.rows) {
       INFO(objective << ": alpha " << row.alpha1 << " specular " << row.specular1);
       const RenderedLoss loss(renderer, options, {row.alpha1, row.specular1, 0.0});
-      const Sitting best = loss.brute_force(kAlphas, {0.0, 1.0});
+      const RoleValues best = loss.brute_force(kAlphas, {0.0, 1.0});
       // The grid ends at steps of some 1e-5; float pictures leave 1e-7 of the loss, whose root that is.
       CHECK(row.alpha2 == Approx(best.alpha).epsilon(1e-3));
       CHECK(row.specular2 == Approx(best.specular).epsilon(1e-3));
@@ -200,12 +200,12 @@ TEST_CASE("sweep: the family finds what the search by renders finds, with a frac
   // compared.
   CHECK(renderer.pictures() <= 10 + 27 + 2 * 67 + 3);
   const std::size_t before = renderer.pictures();
-  const Photographer photographer(renderer, options.objective, options.resolution, 1);
+  const PictureTaker picture_taker(renderer, options.objective, options.resolution, 1);
   const ModelDescription target = find_model(renderer, "disguised/blend");
-  const RenderedPictures pictures(photographer, {target, {}}, kAlphas);
+  const RenderedPictures pictures(picture_taker, {target, {}}, kAlphas);
   for (const TableRow& row : table.rows) {
-    auto source = photographer.take(find_model(renderer, "mitsuba/ward"), {row.alpha1, row.specular1, 0.0});
-    auto weights = squared_weights(options.objective, source, photographer.view_cosines());
+    auto source = picture_taker.take(find_model(renderer, "mitsuba/ward"), {row.alpha1, row.specular1, 0.0});
+    auto weights = squared_weights(options.objective, source, picture_taker.view_cosines());
     const JointMatcher matcher(pictures, std::move(source), std::move(weights), {false, false});
     const JointMatch match = matcher.best_match({{row.alpha1, 0.5, 0.0}});
     // Central differences of float pictures, and the tolerances of Ceres.
@@ -252,16 +252,16 @@ TEST_CASE("sweep: a source without a law is flat where it is black, whatever its
 
 TEST_CASE("pictures: those of a family and their derivatives are those of renders") {
   const LawRenderer renderer = fresnel_level();
-  const Photographer photographer(renderer, objective_preset("natural"), 32, 1);
+  const PictureTaker picture_taker(renderer, objective_preset("natural"), 32, 1);
   const ModelDescription model = find_model(renderer, "disguised/law");
-  const Subject target{model, probe_specular(photographer, model, kAlphas), 1.0,
-                       probe_family(photographer, model, kAlphas)};
+  const ProbedModel target{model, probe_specular(picture_taker, model, kAlphas), 1.0,
+                           probe_family(picture_taker, model, kAlphas)};
   REQUIRE(target.family());
-  const TargetBank bank(photographer, target, kAlphas, kBankRatio);
-  const BankPictures interpolated(photographer, target, bank);
-  const RenderedPictures rendered(photographer, target, kAlphas);
+  const TargetBank bank(picture_taker, target, kAlphas, kBankRatio);
+  const BankPictures interpolated(picture_taker, target, bank);
+  const RenderedPictures rendered(picture_taker, target, kAlphas);
   const std::vector<bool> wanted(3, true);
-  for (const Sitting& point : {Sitting{0.2, 0.3, 0.1}, {0.7, 0.9, 0.0}, {0.11, 0.02, 0.5}}) {
+  for (const RoleValues& point : {RoleValues{0.2, 0.3, 0.1}, {0.7, 0.9, 0.0}, {0.11, 0.02, 0.5}}) {
     const PictureTangents a = interpolated.at(point, wanted), b = rendered.at(point, wanted);
     const auto close = [](const std::vector<float>& found, const std::vector<float>& expected) {
       double worst = 0.0, largest = 0.0;
@@ -279,14 +279,14 @@ TEST_CASE("pictures: those of a family and their derivatives are those of render
 
 TEST_CASE("random sweep: a target without a law is matched by the bank's pictures") {
   const BlendRenderer renderer = quadratic_blend();
-  RandomSweepOptions options;
+  MaterialSampleOptions options;
   options.source = options.target = "disguised/blend";
   options.objective = objective_preset("natural");
   options.resolution = 32;
   options.count = 12;
   options.seed = 3;
   options.ranges = {{"alpha", {0.2, 0.7}}, {"level", {0.1, 0.9}}};
-  const NamedTable table = run_random_sweep(renderer, options, {});
+  const MaterialTable table = run_material_sample(renderer, options, {});
   for (const NamedRow& row : table.rows) {
     CHECK(row.status == RowStatus::kOk);
     for (std::size_t i = 0; i < row.source.size(); ++i)

@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/sweep_session.hpp"
-#include "error.hpp"
-#include "sweep/joint_match.hpp"
+#include "match/joint_match.hpp"
+#include "remap/error.hpp"
 
 using namespace remapc;
 
@@ -72,11 +72,11 @@ TEST_CASE("stages: the joint match is a minimum of the whole picture as direct r
   const auto renderer = make_builtin_renderer();
   const SweepOptions options = staged(3, {{0.3, 0.3}});
   const TableRow row = sweep(*renderer, options).rows.front();
-  const Photographer photographer(*renderer, options.objective, options.resolution, 1);
-  const auto source = photographer.take(find_model(*renderer, "mitsuba/as"), Sitting{0.3, 0.3, 0.3});
+  const PictureTaker picture_taker(*renderer, options.objective, options.resolution, 1);
+  const auto source = picture_taker.take(find_model(*renderer, "mitsuba/as"), RoleValues{0.3, 0.3, 0.3});
   const auto loss = [&](double alpha, double specular, double diffuse) {
     const auto target =
-        photographer.take(find_model(*renderer, "mitsuba/ward"), Sitting{alpha, specular, diffuse});
+        picture_taker.take(find_model(*renderer, "mitsuba/ward"), RoleValues{alpha, specular, diffuse});
     double sum = 0.0;
     for (std::size_t i = 0; i < source.size(); ++i)
       sum += std::pow(static_cast<double>(source[i]) - target[i], 2);
@@ -119,30 +119,13 @@ TEST_CASE("stages: a diffuse target that does not add is found out and matched b
   const Layered renderer;
   SweepOptions options = staged(1, {{0.25, 0.5}}, 0.4);
   options.source = options.target = "mitsuba/ward";
-  const Photographer photographer(renderer, options.objective, 64, 1);
-  CHECK_FALSE(probe_diffuse(photographer, find_model(renderer, "mitsuba/ward"), {0.1, 1.0}));
-  CHECK(probe_diffuse(photographer, find_model(renderer, "mitsuba/ggx"), {0.1, 1.0}));
+  const PictureTaker picture_taker(renderer, options.objective, 64, 1);
+  CHECK_FALSE(probe_diffuse(picture_taker, find_model(renderer, "mitsuba/ward"), {0.1, 1.0}));
+  CHECK(probe_diffuse(picture_taker, find_model(renderer, "mitsuba/ggx"), {0.1, 1.0}));
   const TableRow row = sweep(renderer, options).rows.front();
   CHECK(row.alpha2 == Approx(0.25).epsilon(1e-3));
   CHECK(row.specular2 == Approx(0.5).epsilon(1e-3));
   CHECK(row.diffuse2 == Approx(0.4).epsilon(1e-3));
-}
-
-TEST_CASE("stages: a sweep with diffuse resumes to the same bytes") {
-  const remap::TemporaryFolder folder;
-  const auto journal = folder.path() / "t.csv.partial";
-  const auto renderer = make_builtin_renderer();
-  const SweepOptions options = staged(3, grid_samples({0.2, 0.5}, 3, {0.0, 0.4}, 2));
-  const std::string whole = table_text(sweep(*renderer, options, 1));
-  std::atomic<bool> cancelled{false};
-  SweepExecution execution;
-  execution.jobs = 1;
-  execution.cancelled = &cancelled;
-  execution.progress = [&](std::size_t done, std::size_t) { cancelled = done >= 2; };
-  CHECK_THROWS_WITH(run_sweep(*renderer, options, execution, journal, false), Catch::Contains("--resume"));
-  cancelled = false;
-  execution.progress = nullptr;
-  CHECK(table_text(run_sweep(*renderer, options, execution, journal, true)) == whole);
 }
 
 TEST_CASE("stages: where the source is black there is nothing to match") {

@@ -6,13 +6,13 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "files.hpp"
+#include "renderer/fresnel.hpp"
 #include "study/conductors_study.hpp"
 #include "study/dielectrics_study.hpp"
 #include "study/materials.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
-#include "sweep/fresnel.hpp"
+#include "system/files.hpp"
 
 using namespace remapc;
 

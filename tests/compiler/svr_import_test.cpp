@@ -1,5 +1,5 @@
 // Model files of libsvm: read as libsvm reads them, and refused with the line that is wrong.
-#include "fit/svr_import.hpp"
+#include "fit/svr/svr_import.hpp"
 
 #include <cmath>
 #include <memory>
@@ -8,13 +8,13 @@
 #include <libsvm/svm.h>
 #include <nlohmann/json.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "fit/svm_model_file.hpp"
+#include "fit/svr/svm_model_file.hpp"
+#include "fit_file/fit_json.hpp"
 #include "model/evaluate.hpp"
-#include "model/fit_json.hpp"
 #include "model/interpreter.hpp"
+#include "remap/error.hpp"
 #include "support/temporary_folder.hpp"
+#include "system/files.hpp"
 
 using namespace remapc;
 using remap::KernelExpansion;

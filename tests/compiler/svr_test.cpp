@@ -1,5 +1,5 @@
 // Support vector regression on the published table, on tables that are odd, and against libsvm itself.
-#include "fit/svr.hpp"
+#include "fit/svr/svr.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -11,16 +11,16 @@
 #include <catch2/catch.hpp>
 #include <libsvm/svm.h>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "fit/split.hpp"
-#include "fit/svr_search.hpp"
+#include "fit/rows/split.hpp"
+#include "fit/svr/svr_search.hpp"
 #include "model/evaluate.hpp"
 #include "model/interpreter.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
+#include "system/files.hpp"
 #include "table/domain.hpp"
+#include "text/number_text.hpp"
 
 using namespace remapc;
 using remap::KernelExpansion;

@@ -1,10 +1,9 @@
-// What the tests of sweeps share: options with defaults, and a sweep whose journal goes away.
+// What the tests of sweeps share: options with defaults, and a sweep.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "support/temporary_folder.hpp"
 #include "sweep/sweep.hpp"
 
 namespace remapc {
@@ -24,10 +23,9 @@ inline SweepOptions sweep_options(const std::string& source, const std::string& 
 }
 
 inline Table sweep(const Renderer& renderer, const SweepOptions& options, unsigned jobs = 0) {
-  const remap::TemporaryFolder folder;
   SweepExecution execution;
   execution.jobs = jobs;
-  return run_sweep(renderer, options, execution, folder.path() / "journal", false);
+  return run_sweep(renderer, options, execution);
 }
 
 // The value of a comment of a table, empty where there is none.

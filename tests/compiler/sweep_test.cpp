@@ -10,13 +10,13 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/sweep_session.hpp"
-#include "error.hpp"
-#include "files.hpp"
+#include "match/interpolation.hpp"
+#include "match/target_bank.hpp"
+#include "probe/picture_taker.hpp"
+#include "remap/error.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
-#include "sweep/interpolation.hpp"
-#include "sweep/photographer.hpp"
-#include "sweep/target_bank.hpp"
+#include "system/files.hpp"
 
 using namespace remapc;
 
@@ -87,11 +87,11 @@ TEST_CASE("sweep: the answer is the minimum of the loss as direct renders show i
       sweep_options("mitsuba/ggx", "mitsuba/beckmann", "natural", {{0.31, 0.37}}, 128);
   const TableRow row = sweep(*renderer, options).rows.front();
 
-  const Photographer photographer(*renderer, options.objective, options.resolution, 1);
-  const auto source = photographer.take(find_model(*renderer, "mitsuba/ggx"), {0.31, 0.37, 0.0});
-  const auto weights = squared_weights(options.objective, source, photographer.view_cosines());
+  const PictureTaker picture_taker(*renderer, options.objective, options.resolution, 1);
+  const auto source = picture_taker.take(find_model(*renderer, "mitsuba/ggx"), {0.31, 0.37, 0.0});
+  const auto weights = squared_weights(options.objective, source, picture_taker.view_cosines());
   const auto loss = [&](double alpha, double specular) {
-    const auto target = photographer.take(find_model(*renderer, "mitsuba/beckmann"), {alpha, specular, 0.0});
+    const auto target = picture_taker.take(find_model(*renderer, "mitsuba/beckmann"), {alpha, specular, 0.0});
     double sum = 0.0;
     for (std::size_t i = 0; i < source.size(); ++i)
       sum += weights[i] * std::pow(static_cast<double>(source[i]) - target[i], 2);
@@ -118,42 +118,21 @@ TEST_CASE("sweep: the table has the same bytes for any number of threads") {
   CHECK(table_text(sweep(*renderer, options, 5)) == one);
 }
 
-TEST_CASE("sweep: resumed after an interruption it gives the same bytes") {
-  const remap::TemporaryFolder folder;
-  const auto journal = folder.path() / "t.csv.partial";
+TEST_CASE("sweep: ends soon after it is cancelled") {
   const auto renderer = make_builtin_renderer();
   const SweepOptions options =
       sweep_options("mitsuba/ward", "mitsuba/as", "natural", grid_samples({0.05, 1.0}, 6, {0.0, 1.0}, 3), 64);
-  const std::string whole = table_text(sweep(*renderer, options, 1));
-
   std::atomic<bool> cancelled{false};
   SweepExecution execution;
   execution.jobs = 1;
   execution.cancelled = &cancelled;
-  execution.progress = [&](std::size_t done, std::size_t) { cancelled = done >= 9; };
-  CHECK_THROWS_WITH(run_sweep(*renderer, options, execution, journal, false), Catch::Contains("--resume"));
-  // A kill in the middle of a write leaves half a block.
-  const std::string kept = remap::read_file(journal);
-  remap::write_file(journal, kept + "12,0.6,0.3,0.4");
-
-  cancelled = false;
-  std::size_t first_report = 0;
+  std::size_t rows = 0;
   execution.progress = [&](std::size_t done, std::size_t) {
-    first_report = first_report == 0 ? done : first_report;
+    rows = done;
+    cancelled = done >= 9;
   };
-  CHECK(table_text(run_sweep(*renderer, options, execution, journal, true)) == whole);
-  CHECK(remap::read_file(journal).starts_with(kept));
-}
-
-TEST_CASE("sweep: a journal of other options is refused") {
-  const remap::TemporaryFolder folder;
-  const auto renderer = make_builtin_renderer();
-  const auto samples = grid_samples({0.1, 1.0}, 2, {0.0, 1.0}, 2);
-  run_sweep(*renderer, sweep_options("mitsuba/ward", "mitsuba/as", "natural", samples, 32), {},
-            folder.path() / "j", false);
-  CHECK_THROWS_WITH(run_sweep(*renderer, sweep_options("mitsuba/ward", "mitsuba/as", "paper", samples, 32),
-                              {}, folder.path() / "j", true),
-                    Catch::Contains("other options"));
+  CHECK_THROWS_WITH(run_sweep(*renderer, options, execution), "sweep: interrupted");
+  CHECK(rows == 9);
 }
 
 TEST_CASE("sweep: a sample without specular is flat, one beyond the target's bound is clamped") {
@@ -181,16 +160,16 @@ TEST_CASE("sweep: several lights are matched together") {
 
 TEST_CASE("bank: widths cover the range, no less than the model takes, no further apart than asked") {
   const auto renderer = make_builtin_renderer();
-  const Photographer photographer(*renderer, objective_preset("paper"), 8, 1);
+  const PictureTaker picture_taker(*renderer, objective_preset("paper"), 8, 1);
   const ModelDescription model = find_model(*renderer, "mitsuba/ggx");
-  const SpecularResponse response = probe_specular(photographer, model, {0.1, 1.0});
+  const SpecularResponse response = probe_specular(picture_taker, model, {0.1, 1.0});
   // The last: less than a window of the usual steps.
   for (const remap::Range alphas :
        {remap::Range{0.00275625, 1.0}, {0.01, 0.99}, {0.2, 0.2 * 1.6}, {0.25, 1.0}, {0.95, 1.0}})
     for (const bool takes_less : {false, true}) {
-      Subject target{model, response};
+      ProbedModel target{model, response};
       target.model.alpha.min = takes_less ? 1e-4 : alphas.min;
-      const TargetBank bank(photographer, target, alphas, kBankRatio);
+      const TargetBank bank(picture_taker, target, alphas, kBankRatio);
       REQUIRE(bank.size() >= kInterpolationNodes);
       CHECK(bank.alpha(0) <= alphas.min);
       CHECK(bank.alpha(0) >= target.model.alpha.min);

@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
+#include "remap/error.hpp"
 #include "support/shared_data.hpp"
+#include "system/files.hpp"
 
 using namespace remapc;
 

@@ -6,9 +6,9 @@
 
 #include "compiler/disguised_renderer.hpp"
 #include "compiler/sweep_session.hpp"
-#include "error.hpp"
-#include "sweep/photographer.hpp"
-#include "sweep/steady_renderer.hpp"
+#include "probe/picture_taker.hpp"
+#include "remap/error.hpp"
+#include "renderer/steady_renderer.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;

@@ -5,13 +5,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
+#include "remap/error.hpp"
+#include "renderer/image_file.hpp"
 #include "report/shaded_map.hpp"
 #include "study/warp_sheets.hpp"
 #include "study/warps_report.hpp"
 #include "support/temporary_folder.hpp"
-#include "sweep/image_file.hpp"
+#include "system/files.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;

@@ -5,11 +5,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
+#include "remap/error.hpp"
 #include "study/workflows_report.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
+#include "system/files.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;
@@ -47,7 +47,7 @@ TEST_CASE("study workflows: floor, projection, equation (3), in this order, in b
   REQUIRE(result.comparisons.size() == 2);
   for (const WorkflowComparison& comparison : result.comparisons) {
     INFO(comparison.convention);
-    const WorkflowFigures floor = figures(options, comparison, kFloorMethod);
+    const WorkflowFigures floor = figures(options, comparison, kLeastErrorMethod);
     const WorkflowFigures projection = figures(options, comparison, "projection");
     for (std::size_t m = 0; m + 1 < comparison.methods.size(); ++m) {
       INFO(comparison.methods[m]);
@@ -72,7 +72,7 @@ TEST_CASE("study workflows: metallic materials come back, and their pictures are
   const WorkflowsResult result = study_workflows(options);
   const WorkflowComparison& plain = result.comparisons.front();
   const auto& projected = plain.pictures[place_of(plain, "projection")];
-  const auto& best = plain.pictures[place_of(plain, kFloorMethod)];
+  const auto& best = plain.pictures[place_of(plain, kLeastErrorMethod)];
   CHECK(projected[0].surface.metallic == Approx(0.0).margin(1e-3));
   CHECK(projected[1].surface.metallic == Approx(0.4).margin(1e-3));
   CHECK(projected[2].surface.metallic == Approx(1.0).margin(1e-3));
@@ -137,7 +137,7 @@ TEST_CASE("study workflows: tables, sheets and the same figures for any number o
                            (result.comparisons[0].methods.size() + result.comparisons[1].methods.size());
   CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == rows + 6);
   const std::string text = workflows_text(options, result, study_family({}, 100, 1, 1));
-  CHECK_THAT(text, Contains("above what any base colour and metallic can do") && !Contains("nan"));
+  CHECK_THAT(text, Contains("above what any base color and metallic can do") && !Contains("nan"));
   CHECK_THAT(workflow_summary_csv(options, result), Contains("plain,projection,paint,"));
   CHECK_THAT(workflows_plot_script(options, result), Contains("1 - SSIM"));
   options.jobs = 1;

@@ -5,12 +5,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "fit_file/fit_json.hpp"
 #include "lower/lower.hpp"
-#include "model/fit_json.hpp"
 #include "model/interpreter.hpp"
 #include "model/inverse.hpp"
 #include "model/round_trip.hpp"
+#include "remap/error.hpp"
 
 using namespace remap;
 
@@ -26,7 +26,7 @@ Fit fit_of(const std::string& source, const std::string& target, Parametric form
   fit.mapping = std::move(form);
   fit.roughness_error = {1e-3, 2e-3, 3e-3};
   fit.specular_error = {2e-3, 4e-3, 6e-3};
-  fit.likeness = Likeness{{0.1, 0.2, 0.3}, {}};
+  fit.image_similarity = ImageSimilarity{{0.1, 0.2, 0.3}, {}};
   return fit;
 }
 
@@ -107,10 +107,10 @@ TEST_CASE("chain: errors of the steps are carried on, image errors add up") {
   CHECK(chain.roughness_error.rms == Approx(1e-3 * std::hypot(0.5, 1.0)).epsilon(1e-5));
   CHECK(chain.roughness_error.max == Approx(3e-3 * 1.5).epsilon(1e-5));
   CHECK(chain.specular_error.rms == Approx(2e-3 * std::hypot(2.0, 1.0)).epsilon(1e-5));
-  CHECK(chain.likeness->image_error.rms == Approx(0.2));
+  CHECK(chain.image_similarity->image_error.rms == Approx(0.2));
   Fit unknown = b;
-  unknown.likeness.reset();
-  CHECK_FALSE(compose({a, unknown}).likeness.has_value());
+  unknown.image_similarity.reset();
+  CHECK_FALSE(compose({a, unknown}).image_similarity.has_value());
 }
 
 TEST_CASE("chain: against its steps, with the rules of their domains") {
@@ -122,8 +122,8 @@ TEST_CASE("chain: against its steps, with the rules of their domains") {
   CHECK(difference.alpha < 1e-7);  // floats at the edges of domains
   CHECK(difference.grey_specular < 1e-7);
   // The width of a dark channel lags behind that of the largest: 0.05 of specular at a slope of 0.2 or so.
-  CHECK(difference.colour_specular > 1e-4);
-  CHECK(difference.colour_specular < 0.05);
+  CHECK(difference.color_specular > 1e-4);
+  CHECK(difference.color_specular < 0.05);
 }
 
 TEST_CASE("chain: one pass of polynomials within a proven bound of the composed fits") {

@@ -1,11 +1,11 @@
 // Fit files: exact round trip, and every complaint with its place.
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "support/replaced.hpp"
 
 using namespace remap;
@@ -33,7 +33,7 @@ Fit sample_fit() {
   fit.specular_error = {4e-4, 5e-4, 6e-4};
   fit.split = {42, 0.2, 80, 20, {{"clamped", 3}}};
   fit.table = {"t.csv", "00ff", {{"objective", "natural"}}};
-  fit.likeness = remap::Likeness{{0.05, 0.1, 0.2}, {{0.1, 0.99}, {0.5, 0.97}}};
+  fit.image_similarity = remap::ImageSimilarity{{0.05, 0.1, 0.2}, {{0.1, 0.99}, {0.5, 0.97}}};
   fit.remarks = {"one", "two"};
   fit.tool_version = "0.1.0";
   return fit;

@@ -7,11 +7,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
-#include "nearest_name.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
 #include "support/temporary_folder.hpp"
+#include "system/files.hpp"
+#include "text/nearest_name.hpp"
+#include "text/number_text.hpp"
 
 using namespace remap;
 

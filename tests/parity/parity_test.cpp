@@ -13,10 +13,10 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
-#include "files.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
 #include "model/interpreter.hpp"
 #include "support/temporary_folder.hpp"
+#include "system/files.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;
@@ -60,18 +60,18 @@ Fit committed_fit() {
 }
 
 // A header under test: the fit, how it is emitted, and what the header promises.
-struct Subject {
+struct MadeModel {
   Fit fit;
   remapc::EmitOptions options;
   double alpha_within = 2e-6, specular_within = 2e-6;
 };
 
-Subject lowered(const Fit& fit) {
+MadeModel lowered(const Fit& fit) {
   const Lowered result = lower(fit.mapping, fit.domain);
   return {fit, {}, result.alpha.bound, result.specular.bound};
 }
 
-Subject exact(Fit fit) {
+MadeModel exact(Fit fit) {
   fit.id += "_exact";
   return {fit, {true, {}}};
 }
@@ -109,9 +109,9 @@ Network smooth_network(Activation activation, std::size_t input_count) {
 }
 
 // The kinds, forms and conventions that no committed fit has.
-std::vector<Subject> subjects() {
+std::vector<MadeModel> subjects() {
   const Fit base = committed_fit();
-  std::vector<Subject> all = {lowered(base), exact(base)};
+  std::vector<MadeModel> all = {lowered(base), exact(base)};
   const auto add = [&](const std::string& id, RoughnessConvention source, RoughnessConvention target,
                        const MappingKind& mapping, bool both = false) {
     Fit fit = base;
@@ -226,7 +226,7 @@ bool close(float value, double expected, double within) {
 
 // Judged as the alpha it stands for: an exponent is 2 / alpha^2 - 2 and doubles its relative error, a root
 // doubles nothing but is steep at 0. A float of the parameter itself is as close as can be.
-bool close_width(const Subject& subject, float value, double expected) {
+bool close_width(const MadeModel& subject, float value, double expected) {
   const RoughnessConvention convention = subject.fit.target.roughness;
   if (convention == RoughnessConvention::kAlpha || !std::isfinite(expected))
     return close(value, expected, subject.alpha_within);
@@ -234,7 +234,7 @@ bool close_width(const Subject& subject, float value, double expected) {
                subject.alpha_within + 1e-6);
 }
 
-void check_against_interpreter(const Subject& subject, const std::vector<float>& in,
+void check_against_interpreter(const MadeModel& subject, const std::vector<float>& in,
                                const std::vector<float>& out) {
   const std::size_t count = in.size() / 4;
   REQUIRE(out.size() == in.size() + 1);
@@ -272,7 +272,7 @@ std::string compile_command(const Build& build, const fs::path& folder, const st
 
 TEST_CASE("generated header: agrees with the interpreter for every compiler and instruction set", "[slow]") {
   const TemporaryFolder folder;
-  for (const Subject& subject : subjects()) {
+  for (const MadeModel& subject : subjects()) {
     const Fit& fit = subject.fit;
     write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit, subject.options));
     const std::vector<float> in = texels(fit);
@@ -332,7 +332,7 @@ TEST_CASE("generated header: compiles alone, twice, beside another and in two fi
   const TemporaryFolder folder;
   std::vector<Fit> all;
   std::string includes;
-  for (const Subject& subject : subjects()) {
+  for (const MadeModel& subject : subjects()) {
     const Fit& fit = all.emplace_back(subject.fit);
     write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit, subject.options));
     includes += "#include \"" + fit.id + ".hpp\"\n#include \"" + fit.id + ".hpp\"\n";
@@ -359,7 +359,7 @@ TEST_CASE("generated header: compiles alone, twice, beside another and in two fi
 
 TEST_CASE("generated header: stays right under fast-math flags of its user", "[slow]") {
   const TemporaryFolder folder;
-  const Subject subject = lowered(committed_fit());
+  const MadeModel subject = lowered(committed_fit());
   const Fit& fit = subject.fit;
   write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit));
   // NaN, infinity, denormals and the sign of 0 are what those flags give up; the rest has to hold.

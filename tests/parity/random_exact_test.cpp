@@ -12,13 +12,13 @@
 
 #include "emit/emit.hpp"
 #include "emit/mapping_code.hpp"
-#include "error.hpp"
-#include "files.hpp"
 #include "model/interpreter.hpp"
+#include "remap/error.hpp"
 #include "support/build_speed.hpp"
 #include "support/example_fit.hpp"
 #include "support/random_models.hpp"
 #include "support/temporary_folder.hpp"
+#include "system/files.hpp"
 
 using namespace remap;
 

@@ -11,10 +11,10 @@
 
 #include "convert/warp_kernel.hpp"
 #include "emit/emit.hpp"
-#include "files.hpp"
 #include "support/random_warp.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/warp_rows.hpp"
+#include "system/files.hpp"
 
 using namespace remap;
 
@@ -55,7 +55,7 @@ struct Entry {
    remap::ID::kCopyRmsError},
 )";
 
-std::vector<WarpMapFit> subjects() {
+std::vector<WarpMapFit> probed_models() {
   std::vector<WarpMapFit> fits;
   for (const bool quadratic : {false, true})
     for (const bool copied : {false, true})
@@ -148,7 +148,7 @@ void check_single_texels(const Entry& entry, const WarpRows& in, const WarpRows&
 // `fuses`: products and sums, so that the last bits are not the library's.
 void check_headers(const std::string& compiler, const std::string& flags, bool fuses) {
   const TemporaryFolder folder;
-  const std::vector<WarpMapFit> fits = subjects();
+  const std::vector<WarpMapFit> fits = probed_models();
   const Entry* entries = build(folder, fits, compiler, flags);
   if (entries == nullptr) return;
   const WarpRows in = texels();

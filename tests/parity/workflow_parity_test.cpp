@@ -9,9 +9,9 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
-#include "files.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
 #include "support/temporary_folder.hpp"
+#include "system/files.hpp"
 #include "workflow/materials.hpp"
 
 using namespace remap;
@@ -43,20 +43,20 @@ std::vector<Build> builds() {
 }
 
 // What ships, and conventions that nothing shipped has.
-std::vector<AnalyticFit> subjects() {
-  std::vector<AnalyticFit> all;
+std::vector<WorkflowFit> probed_models() {
+  std::vector<WorkflowFit> all;
   for (const auto& entry : fs::directory_iterator(fs::path(REMAP_SOURCE_DIR) / "fits"))
     if (entry.path().extension() == ".json" && entry.path().filename() != "manifest.json")
-      if (const AnyFit fit = load_any_fit(entry.path()); std::holds_alternative<AnalyticFit>(fit))
-        all.push_back(std::get<AnalyticFit>(fit));
+      if (const AnyFit fit = load_any_fit(entry.path()); std::holds_alternative<WorkflowFit>(fit))
+        all.push_back(std::get<WorkflowFit>(fit));
   REQUIRE(all.size() >= 8);
   // The network that ships has one hidden layer.
   all.push_back({"random_network", workflow_test::gltf(workflow_test::random_network()), {}, {}, "0"});
-  AnalyticFit mixed{"mixed_conventions", workflow_test::gltf(Projection{kNoisyPrior}), {}, {}, "0"};
+  WorkflowFit mixed{"mixed_conventions", workflow_test::gltf(Projection{kNoisyPrior}), {}, {}, "0"};
   mixed.conversion.specular.diffuse = DiffuseConvention::kPlain;
   mixed.conversion.specular.width = RoughnessConvention::kAlpha;
   mixed.conversion.metallic.width = RoughnessConvention::kGlossiness;
-  AnalyticFit black{"black_dielectric", workflow_test::plain(Projection{0.0}, 0.0), {}, {}, "0"};
+  WorkflowFit black{"black_dielectric", workflow_test::plain(Projection{0.0}, 0.0), {}, {}, "0"};
   black.conversion.metallic.width = RoughnessConvention::kAlpha;
   all.push_back(mixed);
   all.push_back(black);
@@ -132,7 +132,7 @@ TEST_CASE(
     "workflow headers: the bits of the library from gcc and clang, rows as single texels, in place too") {
   const TemporaryFolder folder;
   const std::string warnings = " -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Werror ";
-  for (const AnalyticFit& fit : subjects()) {
+  for (const WorkflowFit& fit : probed_models()) {
     const fs::path header = folder.path() / (fit.id + ".hpp"), in = folder.path() / "in",
                    out = folder.path() / "out", program = folder.path() / "program";
     write_file(header, remapc::emit_header(fit));
@@ -161,7 +161,7 @@ TEST_CASE(
 
 TEST_CASE("workflow headers: what ships is what its fits give") {
   const fs::path root = REMAP_SOURCE_DIR;
-  for (const AnalyticFit& fit : subjects())
+  for (const WorkflowFit& fit : probed_models())
     if (const fs::path header = root / "generated" / (fit.id + ".hpp"); fs::exists(header)) {
       INFO(fit.id);
       CHECK((read_file(header) == remapc::emit_header(fit)));

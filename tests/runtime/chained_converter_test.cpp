@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
+#include "remap/error.hpp"
 #include "runtime/texel_rows.hpp"
 #include "support/example_fit.hpp"
 
@@ -183,7 +183,7 @@ TEST_CASE("chained converter: says what it is made of") {
   for (Fit& fit : fits) {
     fit.roughness_error.rms = 0.001;
     fit.specular_error.rms = 0.002;
-    fit.likeness = Likeness{{0.05, 0.06, 0.07}, {}};
+    fit.image_similarity = ImageSimilarity{{0.05, 0.06, 0.07}, {}};
   }
   const ConverterInfo info = make_chained_converter(SteppedFits(fits).steps)->info();
   CHECK(info.id == "example_a_to_example_d");
@@ -193,7 +193,7 @@ TEST_CASE("chained converter: says what it is made of") {
   CHECK(info.roughness_rms_error.value() == Approx(0.003));
   CHECK(info.specular_rms_error.value() == Approx(0.006));
   CHECK(*info.image_rms_error == Approx(0.15));
-  fits[1].likeness.reset();
+  fits[1].image_similarity.reset();
   CHECK_FALSE(make_chained_converter(SteppedFits(fits).steps)->info().image_rms_error.has_value());
 }
 

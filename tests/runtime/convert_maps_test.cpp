@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "support/example_fit.hpp"
 #include "support/test_image.hpp"
 

@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
 #include "model/interpreter.hpp"
+#include "remap/error.hpp"
 #include "runtime/texel_rows.hpp"
 #include "support/example_fit.hpp"
 

@@ -2,7 +2,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "support/example_fit.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
@@ -153,7 +153,7 @@ TEST_CASE("image planes: parts hold parameters, and the others stay") {
   if (is_exr) {
     convert(path + ":rough.width", path + ":base.R,base.G,base.B", folder.path() / "out", *converter);
   } else {
-    // TIFF names no channels and no parts: its colours are found, one grey part among two is not.
+    // TIFF names no channels and no parts: its colors are found, one grey part among two is not.
     CHECK_THROWS_WITH(convert(path, path, folder.path() / "out", *converter),
                       Contains("several have such channels"));
     convert("0.5", path + ":R,G,B", folder.path() / "out", *converter);

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 
 using namespace remap;
 

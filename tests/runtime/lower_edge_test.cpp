@@ -7,10 +7,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
 #include "lower/lower.hpp"
 #include "lower/prove.hpp"
 #include "model/evaluate.hpp"
+#include "remap/error.hpp"
 #include "support/exact_scalar.hpp"
 #include "support/random_models.hpp"
 

@@ -1,4 +1,5 @@
 // Lowering random models: what a Lowered says of itself holds, or the refusal says what would.
+#include "lower/lowered_value.hpp"
 #include "lower/lower.hpp"
 
 #include <algorithm>
@@ -11,13 +12,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
 #include "lower/prove.hpp"
 #include "model/evaluate.hpp"
 #include "model/interpreter.hpp"
-#include "number_text.hpp"
+#include "remap/error.hpp"
 #include "support/build_speed.hpp"
 #include "support/random_models.hpp"
+#include "text/number_text.hpp"
 
 using namespace remap;
 

@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include "convert/converter.hpp"
-#include "error.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
+#include "remap/error.hpp"
 #include "runtime/texel_rows.hpp"
 #include "support/example_fit.hpp"
 

@@ -6,12 +6,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
+#include "remap/error.hpp"
 #include "support/build_speed.hpp"
 #include "support/example_fit.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
+#include "system/files.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_pass.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 
 using namespace remap;
 using Names = std::vector<std::string>;

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 
 using namespace remap;
 

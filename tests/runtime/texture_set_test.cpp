@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
 
@@ -87,7 +87,7 @@ TEST_CASE("texture set: factors are one or three numbers from 0") {
   CHECK_THROWS_WITH(open_texture_set(request), Contains("--specular-factor: has 3 values; expected one"));
 }
 
-TEST_CASE("texture set: the roughness is the only channel, Y, or equal colours") {
+TEST_CASE("texture set: the roughness is the only channel, Y, or equal colors") {
   const Files files;
   CHECK(roughness_channels(files.image("1.exr", {"width"})) == std::vector<std::size_t>{0});
   CHECK(roughness_channels(files.image("2.exr", {"Y", "A"})) == std::vector<std::size_t>{0});
@@ -125,7 +125,7 @@ TEST_CASE("texture set: maps of different size are refused with both sizes") {
                     Contains("8 x 6") && Contains("4 x 3"));
 }
 
-TEST_CASE("texture set: colour in whole numbers tagged sRGB is read as such, and said") {
+TEST_CASE("texture set: color in whole numbers tagged sRGB is read as such, and said") {
   const Files files;
   auto spec = test_spec(4, 3, {"R", "G", "B"}, OIIO::TypeUInt8);
   const auto png = files.folder.path() / "s.png";
@@ -135,7 +135,7 @@ TEST_CASE("texture set: colour in whole numbers tagged sRGB is read as such, and
   const TextureSet tagged = opened(MapName{roughness, {}}, MapName{png, {}});
   CHECK(tagged.parameters.at(Parameter::kSpecular).transfer == Transfer::kSrgb);
   REQUIRE(remarks(tagged).size() == 1);
-  CHECK_THAT(remarks(tagged).front(), Contains("is read as colour in sRGB"));
+  CHECK_THAT(remarks(tagged).front(), Contains("is read as color in sRGB"));
   // One channel of it is data, and so are floats and every roughness.
   CHECK(opened(MapName{roughness, {}}, MapName{png, {"G"}}).parameters.at(Parameter::kSpecular).transfer ==
         Transfer::kLinear);

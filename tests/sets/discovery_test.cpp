@@ -6,11 +6,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
+#include "discovery/shown_path.hpp"
+#include "remap/error.hpp"
 #include "sets/set_session.hpp"
-#include "sets/shown_path.hpp"
 #include "support/shared_data.hpp"
+#include "system/files.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "sets/name_pieces.hpp"
+#include "discovery/name_pieces.hpp"
 #include "sets/set_session.hpp"
 
 using namespace remap;

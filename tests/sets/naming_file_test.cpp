@@ -1,9 +1,9 @@
 // Files that extend the habits, and the complaints about those that are not of the form.
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
+#include "remap/error.hpp"
 #include "sets/set_session.hpp"
+#include "system/files.hpp"
 
 using namespace remap;
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sets/discovery.hpp"
+#include "discovery/discovery.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace remap {

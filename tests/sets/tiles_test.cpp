@@ -1,5 +1,5 @@
 // Patterns of tiles and frames, and tiles that are recognised without one.
-#include "sets/tiles.hpp"
+#include "discovery/tiles.hpp"
 
 #include <fstream>
 #include <random>
@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 

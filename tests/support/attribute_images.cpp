@@ -11,7 +11,7 @@ namespace remap {
 namespace {
 
 constexpr int kWidth = 48, kHeight = 32;
-const std::vector<std::string> kGrey = {"Y"}, kColour = {"R", "G", "B"}, kWithAlpha = {"R", "G", "B", "A"};
+const std::vector<std::string> kGrey = {"Y"}, kColor = {"R", "G", "B"}, kWithAlpha = {"R", "G", "B", "A"};
 
 void require(bool done, const std::string& message) {
   if (!done) throw std::runtime_error("attribute image: " + message);
@@ -107,7 +107,7 @@ void add_typed(OIIO::ImageSpec& spec) {
   set("test:matrix33", TypeDesc(TypeDesc::FLOAT, TypeDesc::MATRIX33), floats);
   set("test:matrix44", OIIO::TypeMatrix44, floats);
   set("test:matrix44d", TypeDesc(TypeDesc::DOUBLE, TypeDesc::MATRIX44), doubles);
-  set("test:colour", OIIO::TypeColor, floats);
+  set("test:color", OIIO::TypeColor, floats);
   set("test:box2i", OIIO::TypeBox2i, ints);
   set("test:box2f", OIIO::TypeBox2, floats);
   set("test:box3f", OIIO::TypeBox3, floats);
@@ -253,23 +253,23 @@ std::vector<AttributeImage> tiff_images() {
       {"five channels", "tif", {rich_spec({"R", "G", "B", "A", "mask"}, OIIO::TypeUInt16, "zip")}});
   images.push_back({"associated alpha", "tif", {rich_spec(kWithAlpha, OIIO::TypeUInt16, "zip")}});
   images.back().parts.front().erase_attribute("oiio:UnassociatedAlpha");
-  images.push_back({"planes apart", "tif", {rich_spec(kColour, OIIO::TypeUInt8, "zip")}});
+  images.push_back({"planes apart", "tif", {rich_spec(kColor, OIIO::TypeUInt8, "zip")}});
   images.back().parts.front().attribute("planarconfig", "separate");
-  images.push_back({"rows of a strip, predictor", "tif", {rich_spec(kColour, OIIO::TypeUInt16, "zip")}});
+  images.push_back({"rows of a strip, predictor", "tif", {rich_spec(kColor, OIIO::TypeUInt16, "zip")}});
   images.back().parts.front().attribute("tiff:RowsPerStrip", 5);
   images.back().parts.front().attribute("tiff:Predictor", 2);
-  images.push_back({"IPTC", "tif", {rich_spec(kColour, OIIO::TypeUInt8, "zip")}});
+  images.push_back({"IPTC", "tif", {rich_spec(kColor, OIIO::TypeUInt8, "zip")}});
   images.back().parts.front().attribute("tiff:write_iptc", 1);
-  images.push_back({"half", "tif", {rich_spec(kColour, OIIO::TypeHalf, "zip")}});
+  images.push_back({"half", "tif", {rich_spec(kColor, OIIO::TypeHalf, "zip")}});
   images.back().parts.front().attribute("tiff:half", 1);
-  images.push_back({"said to be sRGB", "tif", {rich_spec(kColour, OIIO::TypeUInt8, "zip")}});
+  images.push_back({"said to be sRGB", "tif", {rich_spec(kColor, OIIO::TypeUInt8, "zip")}});
   images.back().parts.front().attribute("oiio:ColorSpace", "sRGB");
-  images.push_back({"windows", "tif", {rich_spec(kColour, OIIO::TypeUInt8, "zip")}});
+  images.push_back({"windows", "tif", {rich_spec(kColor, OIIO::TypeUInt8, "zip")}});
   set_window(images.back().parts.front(), OIIO::ROI(4, 52, 6, 38, 0, 1), OIIO::ROI(0, 100, 0, 80, 0, 1));
   AttributeImage parts{
       "two parts",
       "tif",
-      {rich_spec(kColour, OIIO::TypeUInt8, "zip"), rich_spec(kGrey, OIIO::TypeUInt16, "lzw")}};
+      {rich_spec(kColor, OIIO::TypeUInt8, "zip"), rich_spec(kGrey, OIIO::TypeUInt16, "lzw")}};
   images.push_back(parts);
   return images;
 }
@@ -277,14 +277,14 @@ std::vector<AttributeImage> tiff_images() {
 std::vector<AttributeImage> png_images() {
   std::vector<AttributeImage> images;
   for (const OIIO::TypeDesc& type : {OIIO::TypeUInt8, OIIO::TypeUInt16}) {
-    for (const auto& channels : {kGrey, {"Y", "A"}, kColour, kWithAlpha}) {
+    for (const auto& channels : {kGrey, {"Y", "A"}, kColor, kWithAlpha}) {
       images.push_back({std::string(type.c_str()) + " x " + std::to_string(channels.size()),
                         "png",
                         {rich_spec(channels, type)}});
       images.back().parts.front().attribute("test:string", "a string");
     }
     const auto add = [&](const std::string& title) -> OIIO::ImageSpec& {
-      images.push_back({std::string(type.c_str()) + ", " + title, "png", {rich_spec(kColour, type)}});
+      images.push_back({std::string(type.c_str()) + ", " + title, "png", {rich_spec(kColor, type)}});
       return images.back().parts.front();
     };
     add("sRGB").attribute("oiio:ColorSpace", "sRGB");
@@ -311,7 +311,7 @@ std::vector<AttributeImage> png_images() {
 
 std::vector<AttributeImage> small_format_images() {
   std::vector<AttributeImage> images;
-  for (const auto& channels : {kGrey, kColour, kWithAlpha}) {
+  for (const auto& channels : {kGrey, kColor, kWithAlpha}) {
     images.push_back(
         {"rle x " + std::to_string(channels.size()), "tga", {rich_spec(channels, OIIO::TypeUInt8, "rle")}});
     images.push_back({"plain x " + std::to_string(channels.size()),
@@ -321,10 +321,10 @@ std::vector<AttributeImage> small_format_images() {
     images.back().parts.front().attribute("targa:JobTime", "1:02:03");
     images.back().parts.front().attribute("targa:ImageID", "an identity");
   }
-  images.push_back({"colour", "bmp", {rich_spec(kColour, OIIO::TypeUInt8)}});
+  images.push_back({"color", "bmp", {rich_spec(kColor, OIIO::TypeUInt8)}});
   images.push_back({"with alpha", "bmp", {rich_spec(kWithAlpha, OIIO::TypeUInt8)}});
   images.push_back({"grey", "bmp", {rich_spec(kGrey, OIIO::TypeUInt8)}});
-  for (const auto& channels : {kGrey, kColour}) {
+  for (const auto& channels : {kGrey, kColor}) {
     images.push_back({"x " + std::to_string(channels.size()),
                       "jpg",
                       {rich_spec(channels, OIIO::TypeUInt8, "jpeg:90")},
@@ -339,7 +339,7 @@ std::vector<AttributeImage> small_format_images() {
     images.back().parts.front().attribute("jpeg:subsampling", "4:2:0");
     images.back().parts.front().attribute("Exif:ColorSpace", 65535);
   }
-  images.push_back({"radiance", "hdr", {rich_spec(kColour, OIIO::TypeFloat)}, false, false});
+  images.push_back({"radiance", "hdr", {rich_spec(kColor, OIIO::TypeFloat)}, false, false});
   return images;
 }
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "model/warp.hpp"
+#include "warp/compiled_warp.hpp"
 
 namespace remap {
 

@@ -1,5 +1,5 @@
 // Measured BRDFs: a model written in the format of the MERL database comes back as what it is.
-#include "warp/tabulated_set.hpp"
+#include "warp/input/tabulated_set.hpp"
 
 #include <array>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "support/temporary_folder.hpp"
-#include "warp/quadrature.hpp"
+#include "warp/space/quadrature.hpp"
 
 using namespace remapc;
 

@@ -6,10 +6,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "study/warp_sets.hpp"
-#include "warp/quadrature.hpp"
-#include "warp/sampled_features.hpp"
+#include "warp/space/quadrature.hpp"
+#include "warp/space/sampled_features.hpp"
 #include "warp/warp.hpp"
 
 namespace {

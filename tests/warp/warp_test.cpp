@@ -8,14 +8,14 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "model/fit_json.hpp"
+#include "fit_file/fit_json.hpp"
+#include "remap/error.hpp"
 #include "study/warp_sets.hpp"
 #include "support/random_warp.hpp"
 #include "warp/copy_error.hpp"
 #include "warp/paper_warp.hpp"
-#include "warp/quadrature.hpp"
 #include "warp/simplex_search.hpp"
+#include "warp/space/quadrature.hpp"
 
 namespace {
 

@@ -51,7 +51,7 @@ TEST_CASE("worker check: each fault is named in words") {
       {"jitter", "pixel centres: pixels differ by"},
       {"unrepeatable", "repeatability: the same request gives pictures that differ"},
       {"noise", "noise: another seed gives a picture that differs"},
-      {"channels", "colour: channel 0 differs"},
+      {"channels", "color: channel 0 differs"},
       {"inverted", "width: highlights do not widen"},
   };
   for (const auto& [fault, words] : faults) {

@@ -13,9 +13,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
-#include "files.hpp"
+#include "remap/error.hpp"
 #include "support/temporary_folder.hpp"
+#include "system/files.hpp"
 #include "worker/worker_renderer.hpp"
 
 namespace remapc {

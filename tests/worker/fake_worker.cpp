@@ -17,7 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sweep/renderer.hpp"
+#include "renderer/renderer.hpp"
 
 namespace {
 

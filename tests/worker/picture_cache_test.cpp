@@ -1,7 +1,7 @@
 // Pictures are rendered once: by version, by request, through damage and by several threads.
 #include <catch2/catch.hpp>
 
-#include "parallel.hpp"
+#include "system/parallel.hpp"
 #include "worker/fake_session.hpp"
 #include "worker/renderer_set.hpp"
 #include "worker/worker_list.hpp"

@@ -9,7 +9,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "sweep/sweep.hpp"
 #include "worker/renderer_set.hpp"
 #include "worker/worker_list.hpp"

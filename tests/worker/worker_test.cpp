@@ -1,7 +1,7 @@
 // Workers that fail, and what is said then; nothing of them may stay behind.
 #include <catch2/catch.hpp>
 
-#include "parallel.hpp"
+#include "system/parallel.hpp"
 #include "worker/fake_session.hpp"
 
 using namespace remapc;
@@ -33,9 +33,9 @@ TEST_CASE("worker: a picture is that of the renderer, in one channel and in thre
       {"mitsuba/ggx-plain", {{"alpha", {0.2}}, {"specular", {0.5}}, {"diffuse", {0.0}}}}, scene);
   CHECK(renderer.render(material, scene).values == expected.values);
   material.parameters["specular"] = {0.5, 0.25, 0.125};
-  const Image coloured = renderer.render(material, scene);
-  REQUIRE(coloured.channels == 3);
-  CHECK(coloured.values[3 * (32 * 16 + 20)] == expected.values[32 * 16 + 20]);
+  const Image colored = renderer.render(material, scene);
+  REQUIRE(colored.channels == 3);
+  CHECK(colored.values[3 * (32 * 16 + 20)] == expected.values[32 * 16 + 20]);
 }
 
 TEST_CASE("worker: one that dies is named, with its request and the end of its log") {

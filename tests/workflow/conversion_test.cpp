@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "error.hpp"
+#include "remap/error.hpp"
 #include "workflow/materials.hpp"
 
 using namespace remap;
@@ -17,7 +17,7 @@ const WorkflowFormula kClean = Projection{kCleanPrior};
 double squared(double value) { return value * value; }
 
 struct FamilyError {
-  double metallic, base_color;  // root mean squares; base colour in sRGB
+  double metallic, base_color;  // root mean squares; base color in sRGB
 };
 
 // Random metallic materials to specular and back; between both through `stored`.

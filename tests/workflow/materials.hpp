@@ -76,7 +76,7 @@ inline remap::SpecularMaterial random_reflecting(std::mt19937& random, bool is_p
   return material;
 }
 
-// The weighted squared error of metallic and base colour for a specular material: sums of squares of both
+// The weighted squared error of metallic and base color for a specular material: sums of squares of both
 // differences and their product, in double precision, as the method is stated.
 struct Oracle {
   Rgb diffuse, f0, weight;
@@ -105,7 +105,7 @@ struct Oracle {
     return sum;
   }
 
-  // The best base colour of one metallic, each channel by golden sections over [0, 1]: the error is convex in
+  // The best base color of one metallic, each channel by golden sections over [0, 1]: the error is convex in
   // it.
   double best_error(double metallic) const {
     Rgb color{};

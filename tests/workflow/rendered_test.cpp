@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "sweep/renderer.hpp"
+#include "renderer/renderer.hpp"
 #include "workflow/conversion.hpp"
 
 using namespace remapc;

@@ -1,0 +1,190 @@
+#include "fit/network/material_network.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fit/network/network_training.hpp"
+#include "fit/rows/split.hpp"
+#include "model/evaluate.hpp"
+#include "remap/error.hpp"
+#include "remap/version.hpp"
+#include "table/table_record.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+constexpr double kLargestDeviation = 1e-3;
+
+// A row as the network takes and gives it.
+struct MaterialRow {
+  std::array<double, 6> specular{};  // diffuse, F0
+  std::array<double, 4> metallic{};  // base color, metallic
+};
+
+std::size_t place_of(const MaterialTable& table, const std::vector<std::string>& columns,
+                     const std::string& name) {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found == columns.end())
+    throw Error(ErrorKind::kInput,
+                table.name + ": has no column " + name +
+                    "; expected a table of remapc sample from a metallic model to a specular one");
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::vector<MaterialRow> material_rows(const MaterialTable& table) {
+  std::array<std::size_t, 6> specular{};
+  std::array<std::size_t, 4> metallic{};
+  const std::array<std::string, 3> channels = {"_r", "_g", "_b"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    specular[c] = place_of(table, table.target_columns, "diffuse" + channels[c] + "2");
+    specular[3 + c] = place_of(table, table.target_columns, "f0" + channels[c] + "2");
+    metallic[c] = place_of(table, table.source_columns, "base_color" + channels[c] + "1");
+  }
+  metallic[3] = place_of(table, table.source_columns, "metallic1");
+  std::vector<MaterialRow> rows;
+  for (const NamedRow& row : table.rows) {
+    if (row.status != RowStatus::kOk) continue;
+    MaterialRow material;
+    for (std::size_t i = 0; i < specular.size(); ++i) material.specular[i] = row.target[specular[i]];
+    for (std::size_t i = 0; i < metallic.size(); ++i) material.metallic[i] = row.source[metallic[i]];
+    rows.push_back(material);
+  }
+  if (rows.empty())
+    throw Error(ErrorKind::kInput, table.name + ": has no row of status ok; expected some thousand");
+  return rows;
+}
+
+FamilyDeviation deviation_of(const std::vector<MaterialRow>& rows) {
+  double products = 0.0, squares = 0.0;
+  for (const MaterialRow& row : rows)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double metal = row.metallic[3];
+      products += (1.0 - metal) * (row.specular[3 + c] - row.metallic[c] * metal);
+      squares += (1.0 - metal) * (1.0 - metal);
+    }
+  FamilyDeviation deviation;
+  deviation.dielectric_f0 = squares > 0.0 ? remap::rounded(products / squares, 6) : 0.0;
+  for (const MaterialRow& row : rows)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double metal = row.metallic[3], base = row.metallic[c];
+      const double f0 = deviation.dielectric_f0 * (1.0 - metal) + base * metal,
+                   diffuse = base * (1.0 - metal);
+      deviation.f0 += std::pow(row.specular[3 + c] - f0, 2);
+      deviation.diffuse += std::pow(row.specular[c] - diffuse, 2);
+    }
+  const double count = 3.0 * static_cast<double>(rows.size());
+  deviation.f0 = std::sqrt(deviation.f0 / count);
+  deviation.diffuse = std::sqrt(deviation.diffuse / count);
+  return deviation;
+}
+
+std::string comment_of(const MaterialTable& table, const std::string& key) {
+  for (const auto& [name, value] : table.comments)
+    if (name == key) return value;
+  throw Error(ErrorKind::kInput,
+              table.name + ": has no comment " + key + "; expected one, as remapc sample writes it");
+}
+
+remap::RoughnessConvention width_of(const MaterialTable& table, const std::string& key) {
+  const std::string name = comment_of(table, key);
+  const auto convention = remap::convention_from_name(name);
+  if (!convention)
+    throw Error(ErrorKind::kInput, table.name + ": " + key + " is " + name + "; expected a convention");
+  return *convention;
+}
+
+remap::WorkflowConversion conversion_of(const MaterialTable& table, double dielectric_f0) {
+  remap::WorkflowConversion conversion;
+  conversion.specular.model = comment_of(table, "target");
+  conversion.specular.width = width_of(table, "target_roughness");
+  conversion.metallic.model = comment_of(table, "source");
+  conversion.metallic.width = width_of(table, "source_roughness");
+  conversion.metallic.dielectric_f0 = dielectric_f0;
+  return conversion;
+}
+
+struct MaterialSplit {
+  Samples training;
+  std::vector<MaterialRow> held_out;
+  remap::Split record;
+};
+
+MaterialSplit split_materials(const MaterialTable& table, const std::vector<MaterialRow>& rows,
+                              const MaterialNetworkOptions& options) {
+  require_held_out_share(options.held_out_fraction);
+  MaterialSplit split;
+  split.training.input_count = 6;
+  split.training.output_count = 4;
+  const std::size_t judges = held_out_count(options.held_out_fraction, rows.size());
+  const std::vector<std::size_t> order = seeded_order(rows.size(), options.seed);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const MaterialRow& row = rows[order[i]];
+    if (i < judges) {
+      split.held_out.push_back(row);
+      continue;
+    }
+    split.training.inputs.insert(split.training.inputs.end(), row.specular.begin(), row.specular.end());
+    split.training.outputs.insert(split.training.outputs.end(), row.metallic.begin(), row.metallic.end());
+  }
+  split.record.seed = options.seed;
+  split.record.held_out_fraction = options.held_out_fraction;
+  split.record.held_out_rows = static_cast<std::int64_t>(judges);
+  split.record.trained_rows = static_cast<std::int64_t>(rows.size() - judges);
+  for (const NamedRow& row : table.rows)
+    if (row.status != RowStatus::kOk) ++split.record.left_out[std::string(status_name(row.status))];
+  return split;
+}
+
+// Errors of what the converter gives: outputs held in 0 to 1.
+void judge(const remap::Network& network, const std::vector<MaterialRow>& rows,
+           remap::NetworkTraining* training) {
+  std::vector<double> colors, metals;
+  for (const MaterialRow& row : rows) {
+    const std::vector<double> outputs =
+        remap::network_outputs(network, std::vector<double>(row.specular.begin(), row.specular.end()));
+    for (std::size_t i = 0; i < 4; ++i)
+      (i < 3 ? colors : metals).push_back(std::clamp(outputs[i], 0.0, 1.0) - row.metallic[i]);
+  }
+  training->base_color = error_figures(std::move(colors));
+  training->metallic = error_figures(std::move(metals));
+}
+
+}  // namespace
+
+FamilyDeviation family_deviation(const MaterialTable& table) { return deviation_of(material_rows(table)); }
+
+remap::WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
+                                        const MaterialNetworkOptions& options, const FitProgress& progress) {
+  const std::vector<MaterialRow> rows = material_rows(table);
+  const FamilyDeviation deviation = deviation_of(rows);
+  if (deviation.f0 > kLargestDeviation || deviation.diffuse > kLargestDeviation)
+    throw Error(ErrorKind::kInput, table.name + ": rows differ from equation (2) by " +
+                                       remap::number_text(std::max(deviation.f0, deviation.diffuse)) +
+                                       " rms; expected no more than " +
+                                       remap::number_text(kLargestDeviation) +
+                                       ", models of one BRDF and plain diffuse");
+  remap::WorkflowFit fit;
+  fit.conversion = conversion_of(table, deviation.dielectric_f0);
+  fit.id = fit_id(options.id, fit.conversion.specular.model, fit.conversion.metallic.model);
+  const MaterialSplit split = split_materials(table, rows, options);
+  const TrainingOptions training = training_options(options);
+  const TrainedNetwork trained = train_network(split.training, training, progress);
+  fit.conversion.formula = remap::LearnedNetwork{trained.network};
+  fit.training.emplace();
+  fit.training->method["network"] = trained.method;
+  fit.training->method["table_against_equation_2"] =
+      "rms of f0 " + error_text(deviation.f0) + ", of diffuse " + error_text(deviation.diffuse);
+  judge(trained.network, split.held_out, &*fit.training);
+  fit.training->split = split.record;
+  fit.training->table = table_record(table.name, bytes, table.comments);
+  fit.tool_version = remap::kVersion;
+  require_valid(fit.conversion, fit.id);
+  return fit;
+}
+
+}  // namespace remapc

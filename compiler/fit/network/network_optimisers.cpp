@@ -1,0 +1,227 @@
+#include "fit/network/network_optimisers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <ceres/ceres.h>
+
+namespace remapc {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Keeps the parameters with the least validation error and says when to give up.
+class ValidationWatch {
+ public:
+  ValidationWatch(const NetworkShape& shape, const NetworkSamples& samples, const OptimiserSettings& settings)
+      : batch_(shape, samples.validation_inputs),
+        expected_(samples.validation_outputs),
+        patience_(settings.patience) {
+    best_.validation_rms = std::numeric_limits<double>::infinity();
+  }
+
+  // False where too many iterations brought nothing better.
+  bool observe(const VectorXd& parameters, int iteration) {
+    const double rms = rms_difference(batch_.forward(parameters.data()), expected_);
+    best_.iterations = iteration;
+    if (rms < best_.validation_rms) {
+      best_.validation_rms = rms;
+      best_.parameters = parameters;
+      best_.best_iteration = iteration;
+    }
+    return iteration - best_.best_iteration < patience_;
+  }
+
+  const OptimisedNetwork& best() const noexcept { return best_; }
+
+ private:
+  NetworkBatch batch_;
+  const MatrixXd& expected_;
+  int patience_;
+  OptimisedNetwork best_;
+};
+
+// Residuals of all samples and outputs, and one of each weight for the decay, with their Jacobian.
+class NetworkResiduals : public ceres::CostFunction {
+ public:
+  NetworkResiduals(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)
+      : batch_(shape, samples.training_inputs),
+        expected_(samples.training_outputs),
+        // The cost is half the sum of squares, the loss their mean.
+        decay_(std::sqrt(weight_decay * static_cast<double>(expected_.size())) * weight_mask(shape)) {
+    const auto count = static_cast<int>(shape.parameter_count());
+    set_num_residuals(static_cast<int>(expected_.size()) + (weight_decay > 0.0 ? count : 0));
+    mutable_parameter_block_sizes()->push_back(count);
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    const Index count = expected_.size();
+    const bool decays = num_residuals() > count;
+    const Eigen::Map<const VectorXd> values(parameters[0], decay_.size());
+    Eigen::Map<MatrixXd>(residuals, expected_.rows(), expected_.cols()) =
+        batch_.forward(values.data()) - expected_;
+    if (decays) Eigen::Map<VectorXd>(residuals + count, decay_.size()) = decay_.cwiseProduct(values);
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    Eigen::Map<NetworkBatch::RowMajor> jacobian(jacobians[0], num_residuals(), decay_.size());
+    batch_.jacobian(values.data(), jacobian.topRows(count));
+    if (decays) {
+      jacobian.bottomRows(decay_.size()).setZero();
+      jacobian.bottomRows(decay_.size()).diagonal() = decay_;
+    }
+    return true;
+  }
+
+ private:
+  mutable NetworkBatch batch_;  // Ceres evaluates on one thread here
+  const MatrixXd& expected_;
+  VectorXd decay_;
+};
+
+// The same loss as one number with its gradient.
+class NetworkLoss : public ceres::FirstOrderFunction {
+ public:
+  NetworkLoss(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)
+      : batch_(shape, samples.training_inputs),
+        expected_(samples.training_outputs),
+        decay_(weight_decay * weight_mask(shape)) {}
+
+  int NumParameters() const override { return static_cast<int>(decay_.size()); }
+
+  bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
+    const Eigen::Map<const VectorXd> values(parameters, decay_.size());
+    const MatrixXd differences = batch_.forward(parameters) - expected_;
+    const auto count = static_cast<double>(expected_.size());
+    *cost = differences.squaredNorm() / count + values.dot(decay_.cwiseProduct(values));
+    if (gradient != nullptr) {
+      batch_.gradient(parameters, differences * (2.0 / count), gradient);
+      Eigen::Map<VectorXd>(gradient, decay_.size()) += 2.0 * decay_.cwiseProduct(values);
+    }
+    return std::isfinite(*cost);
+  }
+
+ private:
+  mutable NetworkBatch batch_;
+  const MatrixXd& expected_;
+  VectorXd decay_;
+};
+
+// Lets the watch and the report see the parameters after each iteration of Ceres.
+class IterationWatch : public ceres::IterationCallback {
+ public:
+  IterationWatch(ValidationWatch& watch, const VectorXd& parameters, int iterations, const StepReport& report)
+      : watch_(watch), parameters_(parameters), iterations_(iterations), report_(report) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    const bool improves = watch_.observe(parameters_, summary.iteration);
+    const bool continues = report_(static_cast<double>(summary.iteration) / iterations_);
+    return improves && continues ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+
+ private:
+  ValidationWatch& watch_;
+  const VectorXd& parameters_;
+  int iterations_;
+  const StepReport& report_;
+};
+
+// The tolerances only end what cannot move any more; the validation error decides.
+template <typename Options>
+void set_limits(Options& options, const OptimiserSettings& settings, ceres::IterationCallback& callback) {
+  options.max_num_iterations = settings.iterations;
+  options.function_tolerance = 1e-9;
+  options.parameter_tolerance = 1e-12;
+  options.gradient_tolerance = 1e-16;
+  options.logging_type = ceres::SILENT;
+  options.update_state_every_iteration = true;
+  options.callbacks.push_back(&callback);
+}
+
+}  // namespace
+
+double rms_difference(const MatrixXd& found, const MatrixXd& expected) {
+  return std::sqrt((found - expected).squaredNorm() / static_cast<double>(expected.size()));
+}
+
+OptimisedNetwork run_levenberg_marquardt(const NetworkShape& shape, const NetworkSamples& samples,
+                                         const VectorXd& start, const OptimiserSettings& settings,
+                                         const StepReport& report) {
+  VectorXd parameters = start;
+  ceres::Problem problem;
+  problem.AddResidualBlock(new NetworkResiduals(shape, samples, settings.weight_decay), nullptr,
+                           parameters.data());
+  ValidationWatch watch(shape, samples, settings);
+  IterationWatch callback(watch, parameters, settings.iterations, report);
+  ceres::Solver::Options options;
+  set_limits(options, settings, callback);
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.num_threads = 1;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return watch.best();
+}
+
+OptimisedNetwork run_lbfgs(const NetworkShape& shape, const NetworkSamples& samples, const VectorXd& start,
+                           const OptimiserSettings& settings, const StepReport& report) {
+  VectorXd parameters = start;
+  const ceres::GradientProblem problem(new NetworkLoss(shape, samples, settings.weight_decay));
+  ValidationWatch watch(shape, samples, settings);
+  IterationWatch callback(watch, parameters, settings.iterations, report);
+  ceres::GradientProblemSolver::Options options;
+  set_limits(options, settings, callback);
+  ceres::GradientProblemSolver::Summary summary;
+  ceres::Solve(options, problem, parameters.data(), &summary);
+  return watch.best();
+}
+
+OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& samples, const VectorXd& start,
+                          const OptimiserSettings& settings, const StepReport& report) {
+  constexpr double kFirst = 0.9, kSecond = 0.999, kFloor = 1e-8;  // as published
+  const VectorXd decay = settings.weight_decay * weight_mask(shape);
+  const Index count = samples.training_inputs.cols();
+  const Index batch_size = std::min<Index>(settings.batch, count);
+  const Index batches = (count + batch_size - 1) / batch_size;
+  const double steps = static_cast<double>(batches) * settings.iterations;
+  std::vector<Index> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::mt19937_64 random(settings.seed);
+
+  NetworkBatch batch(shape, {});
+  ValidationWatch watch(shape, samples, settings);
+  VectorXd parameters = start, gradient(start.size());
+  VectorXd first = VectorXd::Zero(start.size()), second = VectorXd::Zero(start.size());
+  watch.observe(parameters, 0);
+  double step = 0.0;
+  for (int pass = 1; pass <= settings.iterations; ++pass) {
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+    for (Index b = 0; b < count; b += batch_size) {
+      const std::vector<Index> columns(order.begin() + b, order.begin() + std::min(count, b + batch_size));
+      batch.set_inputs(samples.training_inputs(Eigen::all, columns));
+      const MatrixXd differences =
+          batch.forward(parameters.data()) - samples.training_outputs(Eigen::all, columns);
+      batch.gradient(parameters.data(), differences * (2.0 / static_cast<double>(differences.size())),
+                     gradient.data());
+      gradient += 2.0 * decay.cwiseProduct(parameters);
+      step += 1.0;
+      const double done = step / steps;
+      const double rate =
+          settings.step * std::min(1.0, done * 20.0) * (0.5 + 0.5 * std::cos(std::numbers::pi * done));
+      first = kFirst * first + (1.0 - kFirst) * gradient;
+      second = kSecond * second + (1.0 - kSecond) * gradient.cwiseAbs2();
+      const double first_share = 1.0 - std::pow(kFirst, step), second_share = 1.0 - std::pow(kSecond, step);
+      parameters.array() -=
+          rate * (first.array() / first_share) / ((second.array() / second_share).sqrt() + kFloor);
+    }
+    if (!watch.observe(parameters, pass)) break;
+    if (!report(static_cast<double>(pass) / settings.iterations)) break;
+  }
+  return watch.best();
+}
+
+}  // namespace remapc

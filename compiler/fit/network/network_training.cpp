@@ -1,0 +1,286 @@
+#include "fit/network/network_training.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <random>
+#include <utility>
+
+#include "fit/network/network_optimisers.hpp"
+#include "fit/network/network_samples.hpp"
+#include "fit/rows/folds.hpp"
+#include "remap/error.hpp"
+#include "system/parallel.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using remap::Error;
+using remap::ErrorKind;
+
+constexpr std::size_t kFewestRows = 10;
+constexpr std::size_t kLevenbergParameters = 600;
+// Levenberg-Marquardt takes residuals times parameters squared operations an iteration, which these keep to
+// about 0.05 s; small networks spend theirs on the Jacobian, in proportion to the residuals.
+constexpr double kLevenbergWork = 1e8;
+constexpr double kFewestResiduals = 1500.0, kMostResiduals = 3000.0;
+constexpr int kLevenbergIterations = 300;
+constexpr int kLevenbergPatience = 80;
+constexpr int kRefitIterations = 60;
+constexpr double kStartsShare = 0.95;  // of the progress; the rest is the refit
+// Adam: passes over the samples as this many multiplications allow, within bounds.
+constexpr double kAdamWork = 1e10;
+constexpr double kFewestPasses = 10.0, kMostPasses = 400.0;
+constexpr int kLbfgsIterations = 300;
+constexpr int kLbfgsPatience = 50;
+constexpr std::size_t kMostLbfgsRows = 4096;
+
+void require_sound(const Samples& samples, const TrainingOptions& options) {
+  const std::size_t count = samples.count();
+  if (samples.input_count == 0 || samples.output_count == 0 ||
+      samples.inputs.size() % samples.input_count != 0 ||
+      samples.outputs.size() != count * samples.output_count)
+    throw Error(ErrorKind::kInput, "network: " + std::to_string(samples.inputs.size()) + " inputs and " +
+                                       std::to_string(samples.outputs.size()) +
+                                       " outputs; expected whole rows of both, equally many");
+  if (count < kFewestRows)
+    throw Error(ErrorKind::kInput, "network: " + std::to_string(count) + " rows; expected at least " +
+                                       std::to_string(kFewestRows));
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(samples.inputs.begin(), samples.inputs.end(), finite) ||
+      !std::all_of(samples.outputs.begin(), samples.outputs.end(), finite))
+    throw Error(ErrorKind::kInput, "network: a row holds NaN or infinity; expected finite numbers");
+  if (std::find(options.hidden.begin(), options.hidden.end(), std::size_t{0}) != options.hidden.end())
+    throw Error(ErrorKind::kUsage, "network: a hidden layer of 0 units; expected at least 1");
+  if (options.starts == 0) throw Error(ErrorKind::kUsage, "network: 0 starts; expected at least 1");
+  if (!(options.validation_fraction >= 0.0 && options.validation_fraction <= 0.5))
+    throw Error(ErrorKind::kUsage, "network: validation share " +
+                                       remap::number_text(options.validation_fraction) +
+                                       "; expected 0 to 0.5");
+  if (!(options.weight_decay >= 0.0 && std::isfinite(options.weight_decay)))
+    throw Error(ErrorKind::kUsage,
+                "network: weight decay " + remap::number_text(options.weight_decay) + "; expected 0 or more");
+}
+
+NetworkShape shape_of(const Samples& samples, const TrainingOptions& options) {
+  NetworkShape shape{options.activation, {samples.input_count}};
+  shape.sizes.insert(shape.sizes.end(), options.hidden.begin(), options.hidden.end());
+  shape.sizes.push_back(samples.output_count);
+  return shape;
+}
+
+// Uniform weights, after Glorot and Bengio (2010) for tanh and after He et al. (2015) for the others; hidden
+// biases uniform in [-1, 1], so that units bend at different places of the inputs' range.
+VectorXd initial_parameters(const NetworkShape& shape, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
+  VectorXd parameters(static_cast<Index>(shape.parameter_count()));
+  Index next = 0;
+  for (std::size_t l = 0; l + 1 < shape.sizes.size(); ++l) {
+    const auto inputs = static_cast<double>(shape.sizes[l]),
+               outputs = static_cast<double>(shape.sizes[l + 1]);
+    const bool is_last = l + 2 == shape.sizes.size();
+    const double reach =
+        std::sqrt(6.0 / (shape.activation == remap::Activation::kTanh ? inputs + outputs : inputs));
+    for (std::size_t i = 0; i < shape.sizes[l] * shape.sizes[l + 1]; ++i)
+      parameters[next++] = reach * uniform();
+    for (std::size_t i = 0; i < shape.sizes[l + 1]; ++i) parameters[next++] = is_last ? 0.0 : uniform();
+  }
+  return parameters;
+}
+
+// The shares of all starts as one that never falls. An exception does not pass through Ceres: it is kept,
+// ends every start and is thrown when all have ended.
+class StartsProgress {
+ public:
+  StartsProgress(std::size_t starts, const FitProgress& progress)
+      : shares_(starts, 0.0), progress_(progress) {}
+
+  // False where the training has to end.
+  bool report(std::size_t start, double share) noexcept {
+    if (stopped_) return false;
+    const std::lock_guard lock(mutex_);
+    try {
+      shares_[start] = std::max(shares_[start], std::min(1.0, share));
+      const double sum = std::accumulate(shares_.begin(), shares_.end(), 0.0);
+      if (progress_ && !stopped_) progress_(kStartsShare * sum / static_cast<double>(shares_.size()));
+    } catch (...) {
+      exception_ = std::current_exception();
+      stopped_ = true;
+    }
+    return !stopped_;
+  }
+
+  void rethrow() const {
+    if (exception_) std::rethrow_exception(exception_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<double> shares_;
+  const FitProgress& progress_;
+  std::exception_ptr exception_;
+  std::atomic<bool> stopped_ = false;  // read without the lock
+};
+
+// One training of network and rows as they are, from seeded weights.
+using Training = std::function<OptimisedNetwork(std::uint64_t seed, const StepReport& report)>;
+
+std::vector<OptimisedNetwork> run_starts(const Training& train, const TrainingOptions& options,
+                                         const FitProgress& progress) {
+  std::vector<OptimisedNetwork> results(options.starts);
+  StartsProgress board(options.starts, progress);
+  remap::run_parallel(options.starts, options.jobs, [&](std::size_t start) {
+    const auto report = [&board, start](double share) { return board.report(start, share); };
+    if (!report(0.0)) return;
+    results[start] = train(mixed_seed(options.seed, start + 1), report);
+    report(1.0);
+  });
+  board.rethrow();
+  return results;
+}
+
+std::size_t best_of(const std::vector<OptimisedNetwork>& results) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < results.size(); ++i)
+    if (results[i].validation_rms < results[best].validation_rms) best = i;
+  if (!std::isfinite(results[best].validation_rms))
+    throw Error(ErrorKind::kNumeric, "network: none of " + std::to_string(results.size()) +
+                                         " starts gave finite errors; expected at least one to converge");
+  return best;
+}
+
+std::string shape_text(const NetworkShape& shape) {
+  std::string text;
+  for (const std::size_t size : shape.sizes) text += (text.empty() ? "" : "-") + std::to_string(size);
+  return text + " " + std::string(remap::activation_name(shape.activation));
+}
+
+// What the two ways of training have in common with their result.
+struct Outcome {
+  OptimisedNetwork best;
+  NetworkSamples samples;
+  std::size_t best_start = 0;
+  std::string method;
+};
+
+std::string starts_text(const TrainingOptions& options, std::size_t best, const OptimisedNetwork& result) {
+  return std::to_string(options.starts) + " starts from seed " + std::to_string(options.seed) + ", best " +
+         std::to_string(best + 1) + " at iteration " + std::to_string(result.best_iteration) + " of " +
+         std::to_string(result.iterations);
+}
+
+Outcome train_small(const NetworkShape& shape, const NormalisedSamples& all, const TrainingOptions& options,
+                    const FitProgress& progress) {
+  const auto parameters = static_cast<double>(shape.parameter_count());
+  const double residuals =
+      std::clamp(kLevenbergWork / (parameters * parameters), kFewestResiduals, kMostResiduals);
+  const auto most = static_cast<std::size_t>(residuals / static_cast<double>(shape.sizes.back())) + 1;
+  Outcome outcome;
+  outcome.samples = split_columns(all, options.validation_fraction, most);
+  OptimiserSettings settings;
+  settings.weight_decay = options.weight_decay;
+  settings.iterations = kLevenbergIterations;
+  settings.patience = kLevenbergPatience;
+  const auto results = run_starts(
+      [&](std::uint64_t seed, const StepReport& report) {
+        return run_levenberg_marquardt(shape, outcome.samples, initial_parameters(shape, seed), settings,
+                                       report);
+      },
+      options, progress);
+  outcome.best_start = best_of(results);
+  outcome.best = results[outcome.best_start];
+  outcome.method = "Levenberg-Marquardt, " + starts_text(options, outcome.best_start, outcome.best);
+  if (options.validation_fraction == 0.0) return outcome;
+
+  // A refit that is short against the training stays where validation left it and gains the rows.
+  NetworkSamples& samples = outcome.samples;
+  const Index used = samples.training_inputs.cols() + samples.validation_inputs.cols();
+  samples.training_inputs = all.inputs.leftCols(used);
+  samples.training_outputs = all.outputs.leftCols(used);
+  const NetworkSamples everything{samples.training_inputs, samples.training_outputs, samples.training_inputs,
+                                  samples.training_outputs};
+  settings.iterations = std::clamp(outcome.best.best_iteration / 2, 5, kRefitIterations);
+  settings.patience = settings.iterations;
+  const OptimisedNetwork refitted = run_levenberg_marquardt(shape, everything, outcome.best.parameters,
+                                                            settings, [](double) { return true; });
+  if (std::isfinite(refitted.validation_rms)) outcome.best.parameters = refitted.parameters;
+  outcome.method +=
+      ", then " + std::to_string(refitted.best_iteration) + " iterations with the validation rows";
+  return outcome;
+}
+
+Outcome train_large(const NetworkShape& shape, const NormalisedSamples& all, const TrainingOptions& options,
+                    const FitProgress& progress) {
+  Outcome outcome;
+  outcome.samples = split_columns(all, options.validation_fraction, std::numeric_limits<std::size_t>::max());
+  const NetworkSamples part = split_columns(all, options.validation_fraction, kMostLbfgsRows);
+  // A pass takes about three multiplications a parameter and sample.
+  const double pass_work = 3.0 * static_cast<double>(shape.parameter_count()) *
+                           static_cast<double>(outcome.samples.training_inputs.cols());
+  OptimiserSettings adam;
+  adam.weight_decay = options.weight_decay;
+  adam.iterations = static_cast<int>(std::clamp(kAdamWork / pass_work, kFewestPasses, kMostPasses));
+  adam.patience = adam.iterations;
+  OptimiserSettings lbfgs = adam;
+  lbfgs.iterations = kLbfgsIterations;
+  lbfgs.patience = kLbfgsPatience;
+  const auto results = run_starts(
+      [&](std::uint64_t seed, const StepReport& report) {
+        OptimiserSettings own = adam;
+        own.seed = mixed_seed(seed, 0);
+        OptimisedNetwork first = run_adam(shape, outcome.samples, initial_parameters(shape, seed), own,
+                                          [&](double share) { return report(0.5 * share); });
+        if (!std::isfinite(first.validation_rms)) return first;
+        OptimisedNetwork second = run_lbfgs(shape, part, first.parameters, lbfgs,
+                                            [&](double share) { return report(0.5 + 0.5 * share); });
+        second.best_iteration += first.iterations;
+        second.iterations += first.iterations;
+        return second;
+      },
+      options, progress);
+  outcome.best_start = best_of(results);
+  outcome.best = results[outcome.best_start];
+  outcome.method = "Adam for " + std::to_string(adam.iterations) + " passes, then L-BFGS on " +
+                   std::to_string(part.training_inputs.cols()) + " rows, " +
+                   starts_text(options, outcome.best_start, outcome.best);
+  return outcome;
+}
+
+}  // namespace
+
+TrainedNetwork train_network(const Samples& samples, const TrainingOptions& options,
+                             const FitProgress& progress) {
+  require_sound(samples, options);
+  const NetworkShape shape = shape_of(samples, options);
+  const NormalisedSamples all = normalised_samples(samples, options.seed);
+  const bool is_small = shape.parameter_count() <= kLevenbergParameters;
+  const Outcome outcome =
+      is_small ? train_small(shape, all, options, progress) : train_large(shape, all, options, progress);
+
+  TrainedNetwork trained;
+  const double* parameters = outcome.best.parameters.data();
+  trained.network = {shape.activation, all.input_scalings, all.output_scalings,
+                     layers_from_parameters(shape, parameters)};
+  NetworkBatch batch(shape, outcome.samples.training_inputs);
+  trained.training_rms = rms_difference(batch.forward(parameters), outcome.samples.training_outputs);
+  trained.validation_rms = outcome.best.validation_rms;
+  trained.best_start = outcome.best_start;
+  const bool shares_rows = options.validation_fraction == 0.0 || is_small;  // training holds validation rows
+  trained.rows = static_cast<std::size_t>(outcome.samples.training_inputs.cols() +
+                                          (shares_rows ? 0 : outcome.samples.validation_inputs.cols()));
+  trained.method = shape_text(shape) + ", " + outcome.method + ", " + std::to_string(trained.rows) + " of " +
+                   std::to_string(samples.count()) + " rows";
+  if (progress) progress(1.0);
+  return trained;
+}
+
+}  // namespace remapc

@@ -1,0 +1,152 @@
+#include "fit/parametric/parametric.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "fit/parametric/parametric_parts.hpp"
+#include "fit/parametric/specular_terms.hpp"
+#include "model/evaluate.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using Eigen::Index;
+using remap::Error;
+using remap::ErrorKind;
+using remap::number_text;
+using remap::Parametric;
+using remap::Range;
+
+constexpr int kAlphaSteps = 1000;  // of the grid on which a curve is checked
+constexpr int kSpecularSteps = 16;
+
+double grid_value(const Range& range, int i, int steps) {
+  return i == steps ? range.max : range.min + (range.max - range.min) * i / steps;
+}
+
+// Where a quantity that has to be positive is least.
+struct Least {
+  double value = 1e300;
+  double alpha = 0.0;
+  double specular = 0.0;
+  void take(double candidate, double at_alpha, double at_specular) {
+    if (candidate < value || std::isnan(candidate)) *this = {candidate, at_alpha, at_specular};
+  }
+};
+
+double alpha_derivative(const Parametric& form, double alpha, double specular) {
+  double sum = 0.0, specular_power = 1.0;
+  for (const std::vector<double>& row : form.roughness) {
+    double polynomial = 0.0;
+    for (std::size_t i = row.size(); i-- > 0;)
+      polynomial = polynomial * alpha + static_cast<double>(i + 1) * row[i];
+    sum += specular_power * polynomial;
+    specular_power *= specular;
+  }
+  return sum;
+}
+
+double specular_derivative(const Parametric& form, double alpha, double specular) {
+  double sum = 0.0;
+  for (const remap::SpecularTerm& term : form.specular)
+    if (term.power > 0)
+      sum += term.power * std::pow(specular, term.power - 1) * remap::curve_value(term.factor, alpha);
+  return sum;
+}
+
+std::string place(const Least& least, bool with_specular) {
+  std::string text = number_text(least.value) + " at alpha1 " + number_text(least.alpha);
+  if (with_specular) text += ", specular1 " + number_text(least.specular);
+  return text;
+}
+
+}  // namespace
+
+void require_rising_alpha(const Parametric& form, const remap::Domain& domain) {
+  Least least;
+  const bool flat = form.roughness.size() == 1;  // the same at every specular
+  for (int i = 0; i <= kAlphaSteps; ++i) {
+    const double alpha = grid_value(domain.alpha, i, kAlphaSteps);
+    for (int j = flat ? kSpecularSteps : 0; j <= kSpecularSteps; ++j) {
+      const double specular = grid_value(domain.specular, j, kSpecularSteps);
+      least.take(alpha_derivative(form, alpha, specular), alpha, specular);
+    }
+  }
+  if (least.value > 0.0) return;
+  throw Error(ErrorKind::kNumeric, "fit: the roughness curve bends: its slope is " + place(least, !flat) +
+                                       "; expected a rising curve on " + number_text(domain.alpha.min) +
+                                       " to " + number_text(domain.alpha.max));
+}
+
+void require_rising_specular(const Parametric& form, const remap::Domain& domain, double least_specular) {
+  const bool proportional = remap::is_proportional(form);
+  Least slope, value;
+  for (int i = 0; i <= kAlphaSteps; ++i) {
+    const double alpha = grid_value(domain.alpha, i, kAlphaSteps);
+    for (int j = proportional ? kSpecularSteps : 0; j <= kSpecularSteps; ++j) {
+      const double specular = grid_value(domain.specular, j, kSpecularSteps);
+      slope.take(specular_derivative(form, alpha, specular), alpha, specular);
+    }
+    value.take(remap::target_specular(form, alpha, least_specular), alpha, least_specular);
+  }
+  if (!(slope.value > 0.0))
+    throw Error(ErrorKind::kNumeric,
+                proportional ? "fit: k(alpha) is " + place(slope, false) + "; expected a positive factor"
+                             : "fit: specular2 falls: its slope over specular1 is " + place(slope, true) +
+                                   "; expected a rising curve");
+  if (!(value.value >= 0.0))
+    throw Error(ErrorKind::kNumeric,
+                "fit: specular2 is " + place(value, true) + "; expected a number from 0");
+}
+
+double least_positive_specular(const std::vector<TableRow>& rows) {
+  double least = 1e300;
+  for (const TableRow& row : rows)
+    if (row.specular1 > 0.0) least = std::min(least, row.specular1);
+  return least;
+}
+
+std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const RoughnessForm& form) {
+  Eigen::MatrixXd basis(static_cast<Index>(rows.size()), static_cast<Index>(form.coefficient_count()));
+  Eigen::VectorXd target(basis.rows());
+  for (Index r = 0; r < basis.rows(); ++r) {
+    const TableRow& row = rows[static_cast<std::size_t>(r)];
+    Index column = 0;
+    double specular_power = 1.0;
+    for (const int degree : form.degrees) {
+      double power = specular_power;
+      for (int i = 0; i < degree; ++i) basis(r, column++) = power *= row.alpha1;
+      specular_power *= row.specular1;
+    }
+    target(r) = row.alpha2;
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(basis);
+  if (qr.rank() < basis.cols())
+    throw Error(ErrorKind::kInput, "fit: the training rows have too few different samples for the form " +
+                                       std::string(form.name) + "; expected at least " +
+                                       std::to_string(basis.cols()) + " that differ in alpha1 and specular1");
+  const Eigen::VectorXd solution = qr.solve(target);
+  std::vector<std::vector<double>> coefficients;
+  const double* next = solution.data();
+  for (const int degree : form.degrees) {
+    coefficients.emplace_back(next, next + degree);
+    next += degree;
+  }
+  return coefficients;
+}
+
+Parametric fit_parametric(const std::vector<TableRow>& rows, const remap::Domain& domain,
+                          const ParametricForm& form, const Parametric* near) {
+  Parametric fit;
+  fit.specular = fit_specular_terms(rows, *form.specular, near == nullptr ? nullptr : &near->specular);
+  fit.roughness = fit_roughness(rows, *form.roughness);
+  require_rising_alpha(fit, domain);
+  require_rising_specular(fit, domain, least_positive_specular(rows));
+  return fit;
+}
+
+}  // namespace remapc

@@ -1,0 +1,26 @@
+// The halves of the parametric regression, for the code that chooses a form for each.
+#pragma once
+
+#include <vector>
+
+#include "fit/parametric/parametric_form.hpp"
+#include "model/fit.hpp"
+#include "table/table.hpp"
+
+namespace remapc {
+
+// Coefficients of least squares in alpha2. Throws kInput where the rows do not determine them.
+std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const RoughnessForm& form);
+
+// Throws kNumeric, with the place, where alpha2 does not rise with alpha1 everywhere in `domain`.
+void require_rising_alpha(const remap::Parametric& form, const remap::Domain& domain);
+
+// Throws kNumeric, with the place, where a proportional factor is not positive, or else where specular2 does
+// not rise with specular1 or is negative at `least_specular`.
+void require_rising_specular(const remap::Parametric& form, const remap::Domain& domain,
+                             double least_specular);
+
+// The least specular1 above 0.
+double least_positive_specular(const std::vector<TableRow>& rows);
+
+}  // namespace remapc

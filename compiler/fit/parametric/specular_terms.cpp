@@ -1,0 +1,339 @@
+#include "fit/parametric/specular_terms.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include <Eigen/Dense>
+#include <ceres/ceres.h>
+
+#include "model/evaluate.hpp"
+#include "remap/error.hpp"
+
+namespace remapc {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using remap::AlphaCurve;
+using remap::Error;
+using remap::ErrorKind;
+using remap::rise;
+using remap::SpecularTerm;
+
+constexpr std::size_t kFewestAlphas = 6;
+// Rates that the search starts from: from straight lines over the domain to the narrowest bump a grid shows.
+constexpr std::array<double, 12> kStartRates = {0.0, 0.25, 0.5,  1.0,  2.0,   4.0,
+                                                8.0, 16.0, 32.0, 64.0, 256.0, 1024.0};
+// The largest rate of a table: at its second smallest alpha an exponential has fallen to exp(-this). One that
+// falls faster would follow the rows of the smallest alpha alone.
+constexpr double kLargestDecay = 5.0;
+// What a contribution of 1 at the largest alpha costs in rms error: nothing against what a fit leaves, but
+// too much for curves of 1000 that cancel each other.
+constexpr double kContributionPenalty = 1e-6;
+constexpr std::size_t kPolishedStarts = 4;
+constexpr std::size_t kStartAlphas = 256;  // widths that the grid of starts looks at, evenly drawn
+
+// The rows with those of one alpha put together: |weights f - target|^2, f the values of the curves at alpha,
+// is the squared error of the rows up to a constant. Exact, by a QR of the powers of specular.
+struct Samples {
+  VectorXd alpha;
+  MatrixXd weights;  // one column a term
+  VectorXd target;
+  double row_count = 0.0;
+  double first_alpha = 0.0, second_alpha = 0.0, last_alpha = 0.0;
+};
+
+MatrixXd specular_powers(const std::vector<const TableRow*>& rows, const std::vector<int>& powers) {
+  MatrixXd values(static_cast<Index>(rows.size()), static_cast<Index>(powers.size()));
+  for (Index i = 0; i < values.rows(); ++i)
+    for (Index t = 0; t < values.cols(); ++t)
+      values(i, t) =
+          std::pow(rows[static_cast<std::size_t>(i)]->specular1, powers[static_cast<std::size_t>(t)]);
+  return values;
+}
+
+Samples join_rows(const std::map<double, std::vector<const TableRow*>>& by_alpha,
+                  const std::vector<int>& powers) {
+  const auto terms = static_cast<Index>(powers.size());
+  Index count = 0;
+  for (const auto& [alpha, rows] : by_alpha) count += std::min(static_cast<Index>(rows.size()), terms);
+  Samples samples{VectorXd(count),         MatrixXd(count, terms),
+                  VectorXd(count),         0.0,
+                  by_alpha.begin()->first, std::next(by_alpha.begin())->first,
+                  by_alpha.rbegin()->first};
+  Index next = 0;
+  for (const auto& [alpha, rows] : by_alpha) {
+    MatrixXd left = specular_powers(rows, powers);
+    VectorXd right(left.rows());
+    for (Index i = 0; i < right.size(); ++i) right[i] = rows[static_cast<std::size_t>(i)]->specular2;
+    const Index kept = std::min(left.rows(), terms);
+    if (left.rows() > terms) {
+      const Eigen::HouseholderQR<MatrixXd> qr(left);
+      right = qr.householderQ().adjoint() * right;
+      left = qr.matrixQR().topRows(terms).triangularView<Eigen::Upper>();
+    }
+    samples.alpha.segment(next, kept).setConstant(alpha);
+    samples.weights.middleRows(next, kept) = left.topRows(kept);
+    samples.target.segment(next, kept) = right.head(kept);
+    samples.row_count += static_cast<double>(rows.size());
+    next += kept;
+  }
+  return samples;
+}
+
+// d/d rate of phi(rate, x); the series where the closed form is 0 / 0.
+double rise_derivative(double rate, double x) {
+  const double y = rate * x;
+  if (y < 1e-3) return -x * x * (1.0 / 2.0 - y * (1.0 / 3.0 - y * (1.0 / 8.0 - y / 30.0)));
+  return (y * std::exp(-y) + std::expm1(-y)) / (rate * rate);
+}
+
+// The squared error as a function of the rates alone: the linear coefficients are those of least squares for
+// them (Golub and Pereyra 1973; Jacobian after Kaufman 1975, whose gradient is exact).
+// Rates: ramp_rate and bump_rate of the first term, of the second, and so on.
+class Projection {
+ public:
+  Projection(const Samples& samples, const SpecularForm& form)
+      : samples_(samples), form_(form), penalty_(kContributionPenalty * std::sqrt(samples.row_count)) {
+    target_ = VectorXd::Zero(size());
+    target_.head(sample_count()) = samples.target;
+  }
+
+  Index size() const { return sample_count() + column_count(); }
+  double largest_rate(bool bump) const {
+    const double alpha = samples_.second_alpha;
+    return kLargestDecay / (bump ? alpha * alpha : alpha);
+  }
+  std::size_t term_count() const { return form_.powers.size(); }
+  std::size_t slope_term() const {
+    return static_cast<std::size_t>(std::find(form_.powers.begin(), form_.powers.end(), 1) -
+                                    form_.powers.begin());
+  }
+
+  // One row a sample, then one a column for the penalty.
+  MatrixXd basis(const std::vector<double>& rates) const {
+    const Index terms = samples_.weights.cols(), count = sample_count();
+    MatrixXd columns = MatrixXd::Zero(size(), column_count());
+    for (Index t = 0; t < terms; ++t) {
+      const auto term = static_cast<std::size_t>(t);
+      const double ramp_rate = rates[2 * term], bump_rate = rates[2 * term + 1];
+      for (Index i = 0; i < count; ++i) {
+        const double alpha = samples_.alpha[i], weight = samples_.weights(i, t);
+        columns(i, 3 * t) = form_.is_repeated(term) ? 0.0 : weight;
+        columns(i, 3 * t + 1) = weight * rise(ramp_rate, alpha);
+        columns(i, 3 * t + 2) = weight * rise(bump_rate, alpha * alpha);
+      }
+      const double last = samples_.last_alpha;
+      columns(count + 3 * t, 3 * t) = penalty_;
+      columns(count + 3 * t + 1, 3 * t + 1) = penalty_ * rise(ramp_rate, last);
+      columns(count + 3 * t + 2, 3 * t + 2) = penalty_ * rise(bump_rate, last * last);
+    }
+    if (form_.pole) {
+      columns.col(3 * terms).head(count) =
+          samples_.weights.col(static_cast<Index>(slope_term())).cwiseQuotient(samples_.alpha);
+      columns(count + 3 * terms, 3 * terms) = penalty_ / samples_.first_alpha;
+    }
+    return columns;
+  }
+
+  double cost(const std::vector<double>& rates) const {
+    const MatrixXd columns = basis(rates);
+    const VectorXd coefficients = columns.colPivHouseholderQr().solve(target_);
+    return (columns * coefficients - target_).squaredNorm();
+  }
+
+  // Residuals, and, where asked, their derivatives by each rate.
+  void evaluate(const std::vector<double>& rates, double* residuals, double* jacobian) const {
+    const MatrixXd columns = basis(rates);
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
+    const VectorXd coefficients = qr.solve(target_);
+    Eigen::Map<VectorXd>(residuals, size()) = columns * coefficients - target_;
+    if (jacobian == nullptr) return;
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<RowMajor> derivative(jacobian, size(), static_cast<Index>(rates.size()));
+    for (Index r = 0; r < derivative.cols(); ++r) {
+      const Index column = 3 * (r / 2) + 1 + r % 2;
+      VectorXd rotated =
+          qr.householderQ().adjoint() *
+          (coefficients[column] * column_derivative(r, rates[static_cast<std::size_t>(r)])).eval();
+      rotated.head(qr.rank()).setZero();
+      derivative.col(r) = qr.householderQ() * rotated;
+    }
+  }
+
+  std::vector<SpecularTerm> terms(const std::vector<double>& rates) const {
+    const VectorXd c = basis(rates).colPivHouseholderQr().solve(target_);
+    std::vector<SpecularTerm> terms;
+    for (std::size_t t = 0; t < form_.powers.size(); ++t) {
+      const auto first = static_cast<Index>(3 * t);
+      terms.push_back({form_.powers[t], AlphaCurve{c[first], c[first + 1], rates[2 * t], c[first + 2],
+                                                   rates[2 * t + 1], 0.0}});
+    }
+    if (form_.pole) terms[slope_term()].factor.pole = c[c.size() - 1];
+    return terms;
+  }
+
+ private:
+  Index sample_count() const { return samples_.alpha.size(); }
+  Index column_count() const { return 3 * samples_.weights.cols() + (form_.pole ? 1 : 0); }
+
+  // Of the column that rate `r` shapes.
+  VectorXd column_derivative(Index r, double rate) const {
+    const Index count = sample_count();
+    const auto argument = [&](double alpha) { return r % 2 == 1 ? alpha * alpha : alpha; };
+    VectorXd change = VectorXd::Zero(size());
+    for (Index i = 0; i < count; ++i)
+      change[i] = samples_.weights(i, r / 2) * rise_derivative(rate, argument(samples_.alpha[i]));
+    change[count + 3 * (r / 2) + 1 + r % 2] = penalty_ * rise_derivative(rate, argument(samples_.last_alpha));
+    return change;
+  }
+
+  const Samples& samples_;
+  const SpecularForm& form_;
+  const double penalty_;
+  VectorXd target_;
+};
+
+class RateCost : public ceres::CostFunction {
+ public:
+  RateCost(const Projection& projection, int rate_count) : projection_(projection), rate_count_(rate_count) {
+    set_num_residuals(static_cast<int>(projection.size()));
+    mutable_parameter_block_sizes()->push_back(rate_count);
+  }
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    projection_.evaluate({parameters[0], parameters[0] + rate_count_}, residuals,
+                         jacobians == nullptr ? nullptr : jacobians[0]);
+    return true;
+  }
+
+ private:
+  const Projection& projection_;
+  int rate_count_;
+};
+
+struct Rates {
+  std::vector<double> values;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+bool cheaper(const Rates& a, const Rates& b) { return a.cost < b.cost; }
+
+Rates polish(const Projection& projection, Rates rates) {
+  const auto count = static_cast<int>(rates.values.size());
+  for (std::size_t r = 0; r < rates.values.size(); ++r)
+    rates.values[r] = std::min(rates.values[r], projection.largest_rate(r % 2 == 1));
+  ceres::Problem problem;
+  problem.AddResidualBlock(new RateCost(projection, count), nullptr, rates.values.data());
+  for (int r = 0; r < count; ++r) {
+    problem.SetParameterLowerBound(rates.values.data(), r, 0.0);
+    problem.SetParameterUpperBound(rates.values.data(), r, projection.largest_rate(r % 2 == 1));
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = 500;
+  // A cost that falls by less than this share in a step has reached what its rounding leaves.
+  options.function_tolerance = 1e-7;
+  options.parameter_tolerance = 1e-9;
+  options.gradient_tolerance = 1e-14;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (summary.termination_type != ceres::CONVERGENCE || !std::isfinite(summary.final_cost)) return {};
+  rates.cost = 2.0 * summary.final_cost;
+  return rates;
+}
+
+// Rates from the grid, term by term, the slope first: the best few pairs of one term are each tried with
+// every pair of the next.
+std::vector<Rates> search_starts(const Projection& projection) {
+  std::vector<Rates> beams = {{std::vector<double>(2 * projection.term_count(), 0.0)}};
+  std::vector<std::size_t> order = {projection.slope_term()};
+  for (std::size_t term = 0; term < projection.term_count(); ++term)
+    if (term != projection.slope_term()) order.push_back(term);
+  for (const std::size_t term : order) {
+    std::vector<Rates> tried;
+    for (const Rates& beam : beams) {
+      for (const double ramp_rate : kStartRates) {
+        for (const double bump_rate : kStartRates) {
+          if (ramp_rate > projection.largest_rate(false) || bump_rate > projection.largest_rate(true))
+            continue;
+          Rates rates = beam;
+          rates.values[2 * term] = ramp_rate;
+          rates.values[2 * term + 1] = bump_rate;
+          rates.cost = projection.cost(rates.values);
+          tried.push_back(std::move(rates));
+        }
+      }
+    }
+    std::stable_sort(tried.begin(), tried.end(), cheaper);
+    tried.resize(std::min(tried.size(), kPolishedStarts));
+    beams = std::move(tried);
+  }
+  return beams;
+}
+
+Rates best_of(const Projection& projection, const std::vector<Rates>& starts) {
+  Rates best;
+  for (const Rates& start : starts) {
+    const Rates candidate = polish(projection, start);
+    if (candidate.cost < best.cost) best = candidate;
+  }
+  if (!std::isfinite(best.cost))
+    throw Error(ErrorKind::kNumeric,
+                "fit: the rates of k(alpha) did not converge from any start; look at the table with remapc "
+                "check");
+  return best;
+}
+
+void require_samples(std::size_t alpha_count, std::size_t specular_count, const SpecularForm& form) {
+  if (alpha_count < kFewestAlphas)
+    throw Error(ErrorKind::kInput, "fit: the training rows have " + std::to_string(alpha_count) +
+                                       " different alpha1; expected at least " +
+                                       std::to_string(kFewestAlphas));
+  if (specular_count < form.powers.size())
+    throw Error(ErrorKind::kInput, "fit: the training rows have " + std::to_string(specular_count) +
+                                       " different specular1; expected at least " +
+                                       std::to_string(form.powers.size()) + " for the form " +
+                                       std::string(form.name));
+}
+
+}  // namespace
+
+std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, const SpecularForm& form,
+                                             const std::vector<SpecularTerm>* near) {
+  std::map<double, std::vector<const TableRow*>> by_alpha;
+  std::set<double> alphas, speculars;  // where specular counts
+  for (const TableRow& row : rows) {
+    by_alpha[row.alpha1].push_back(&row);
+    if (!(row.specular1 > 0.0)) continue;
+    alphas.insert(row.alpha1);
+    speculars.insert(row.specular1);
+  }
+  require_samples(alphas.size(), speculars.size(), form);
+  std::map<double, std::vector<const TableRow*>> thinned;
+  const std::size_t step = (by_alpha.size() + kStartAlphas - 1) / kStartAlphas;
+  std::size_t position = 0;
+  for (const auto& group : by_alpha)
+    if (position++ % step == 0) thinned.insert(group);
+
+  const Samples samples = join_rows(by_alpha, form.powers);
+  const Projection projection(samples, form);
+  std::vector<Rates> starts(1);
+  if (near != nullptr) {
+    for (const SpecularTerm& term : *near)
+      starts[0].values.insert(starts[0].values.end(), {term.factor.ramp_rate, term.factor.bump_rate});
+  } else {
+    const Samples few = join_rows(thinned, form.powers);
+    const Projection few_projection(few, form);
+    starts = search_starts(few_projection);
+    if (step > 1) starts = {best_of(few_projection, starts)};
+  }
+  return projection.terms(best_of(projection, starts).values);
+}
+
+}  // namespace remapc

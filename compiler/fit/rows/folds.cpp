@@ -1,0 +1,74 @@
+#include "fit/rows/folds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+#include <utility>
+
+namespace remapc {
+namespace {
+
+// Fisher and Yates by hand: std::shuffle is not the same in every standard library.
+std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937_64 random(seed);
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+  return order;
+}
+
+}  // namespace
+
+std::vector<std::size_t> draw_folds(const std::vector<TableRow>& rows, std::size_t fold_count,
+                                    std::uint64_t seed) {
+  std::map<std::pair<double, double>, std::size_t> samples;
+  for (const TableRow& row : rows) samples.try_emplace({row.alpha1, row.specular1}, samples.size());
+  const std::vector<std::size_t> order = shuffled(samples.size(), seed);
+  std::vector<std::size_t> fold_of_row;
+  fold_of_row.reserve(rows.size());
+  for (const TableRow& row : rows)
+    fold_of_row.push_back(order[samples.at({row.alpha1, row.specular1})] % fold_count);
+  return fold_of_row;
+}
+
+Fold select_fold(const std::vector<TableRow>& rows, const std::vector<std::size_t>& fold_of_row,
+                 std::size_t fold) {
+  Fold selected;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    (fold_of_row[i] == fold ? selected.judging : selected.training).push_back(rows[i]);
+  return selected;
+}
+
+std::vector<TableRow> draw_rows(const std::vector<TableRow>& rows, std::size_t count, std::uint64_t seed) {
+  if (rows.size() <= count) return rows;
+  std::vector<std::size_t> order = shuffled(rows.size(), seed);
+  order.resize(count);
+  std::sort(order.begin(), order.end());
+  std::vector<TableRow> drawn;
+  for (const std::size_t i : order) drawn.push_back(rows[i]);
+  return drawn;
+}
+
+CrossValidated cross_validated(const std::vector<std::vector<double>>& errors_of_folds) {
+  double total = 0.0, count = 0.0;
+  std::vector<double> figures;  // root mean square of each fold
+  for (const std::vector<double>& errors : errors_of_folds) {
+    if (errors.empty()) continue;
+    const double square = std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
+    const auto size = static_cast<double>(errors.size());
+    total += square;
+    count += size;
+    figures.push_back(std::sqrt(square / size));
+  }
+  if (figures.empty()) return {};
+  const auto folds = static_cast<double>(figures.size());
+  const double mean = std::accumulate(figures.begin(), figures.end(), 0.0) / folds;
+  double variance = 0.0;
+  for (const double figure : figures) variance += (figure - mean) * (figure - mean);
+  const double error = folds < 2.0 ? 0.0 : std::sqrt(variance / (folds - 1.0) / folds);
+  return {std::sqrt(total / count), error};
+}
+
+}  // namespace remapc

@@ -1,0 +1,73 @@
+#include "fit/rows/regression.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+constexpr double kSmallestSpread = 2e-4;  // of alpha; below it nobody sees a difference
+constexpr double kTimesScatter = 2.0;
+constexpr std::size_t kFewestRows = 10;
+
+}  // namespace
+
+void require_variety(const std::vector<TableRow>& rows, const std::string& kind) {
+  if (rows.size() < kFewestRows)
+    throw remap::Error(remap::ErrorKind::kInput, kind + ": " + std::to_string(rows.size()) +
+                                                     " rows; expected at least " +
+                                                     std::to_string(kFewestRows));
+  const auto require = [&](double TableRow::*input, const std::string& name) {
+    const double first = rows.front().*input;
+    if (std::all_of(rows.begin(), rows.end(), [&](const TableRow& row) { return row.*input == first; }))
+      throw remap::Error(remap::ErrorKind::kInput, kind + ": " + name + " is " + remap::number_text(first) +
+                                                       " in every row; expected at least two values of it");
+  };
+  require(&TableRow::alpha1, "alpha1");
+  require(&TableRow::specular1, "specular1");
+}
+
+bool alpha_needs_specular(const std::vector<TableRow>& rows) {
+  std::map<double, std::vector<const TableRow*>> by_alpha;
+  for (const TableRow& row : rows) by_alpha[row.alpha1].push_back(&row);
+  // Within each alpha1 the straight line over specular: what it explains against what it leaves.
+  double explained = 0.0, left = 0.0, degrees = 0.0, count = 0.0;
+  for (const auto& [alpha, group] : by_alpha) {
+    if (group.size() < 3) continue;
+    const auto size = static_cast<double>(group.size());
+    double s = 0.0, a = 0.0;
+    for (const TableRow* row : group) {
+      s += row->specular1 / size;
+      a += row->alpha2 / size;
+    }
+    double ss = 0.0, sa = 0.0, aa = 0.0;
+    for (const TableRow* row : group) {
+      ss += (row->specular1 - s) * (row->specular1 - s);
+      sa += (row->specular1 - s) * (row->alpha2 - a);
+      aa += (row->alpha2 - a) * (row->alpha2 - a);
+    }
+    if (ss <= 0.0) continue;
+    explained += sa * sa / ss;
+    left += std::max(0.0, aa - sa * sa / ss);
+    degrees += size - 2.0;
+    count += size;
+  }
+  if (count == 0.0 || degrees <= 0.0) return false;
+  const double spread = std::sqrt(explained / count), scatter = std::sqrt(left / degrees);
+  return spread > kSmallestSpread &&
+         spread > kTimesScatter * scatter / std::sqrt(count / static_cast<double>(by_alpha.size()));
+}
+
+std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model) {
+  const std::string chosen = id.empty() ? remap::converter_id(source_model, target_model) : id;
+  if (!remap::is_valid_id(chosen))
+    throw Error(ErrorKind::kUsage,
+                "id: \"" + chosen + "\"; expected a C++ identifier without leading or doubled underscore");
+  return chosen;
+}
+
+}  // namespace remapc

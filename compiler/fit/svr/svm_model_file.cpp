@@ -1,0 +1,163 @@
+// From the text of a libsvm model to a sum of Gaussians.
+#include "fit/svr/svm_model_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "remap/error.hpp"
+#include "system/files.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+constexpr std::size_t kLargestVectorCount = 1'000'000;
+
+std::string excerpt(std::string_view text) {
+  std::string shown(text.substr(0, 40));
+  for (char& c : shown)
+    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
+  return "\"" + shown + (text.size() > 40 ? "...\"" : "\"");
+}
+
+std::string_view take_word(std::string_view& line) {
+  constexpr std::string_view kBlanks = " \t\r";
+  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+class ModelText {
+ public:
+  ModelText(std::string_view text, const std::string& place) : rest_(text), place_(place) {}
+
+  // The next line without its end; none behind the last one.
+  std::optional<std::string_view> next() {
+    ++line_;
+    if (rest_.empty()) return std::nullopt;
+    const auto end = rest_.find('\n');
+    if (end == std::string_view::npos) fail("the file ends inside a line", "a whole model file");
+    const std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(end + 1);
+    return line;
+  }
+  double number(std::string_view text, const std::string& what) const {
+    const auto value = remap::parse_number(text);
+    if (!value || !std::isfinite(*value)) fail(what + " is " + excerpt(text), "a finite number");
+    return *value;
+  }
+  std::size_t count(std::string_view text, const std::string& what, std::size_t largest) const {
+    std::size_t value = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (failure != std::errc() || end != text.data() + text.size() || value > largest)
+      fail(what + " is " + excerpt(text), "a whole number from 0 to " + std::to_string(largest));
+    return value;
+  }
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
+    throw Error(ErrorKind::kInput,
+                place_ + ":" + std::to_string(line_) + ": " + found + "; expected " + expected);
+  }
+
+ private:
+  std::string_view rest_;
+  const std::string& place_;
+  std::size_t line_ = 0;
+};
+
+struct Header {
+  double gamma = 0.0;
+  double rho = 0.0;
+  std::size_t vector_count = 0;
+};
+
+void require_value(const ModelText& text, const std::string& key, std::string_view value) {
+  if (key == "svm_type" && value != "epsilon_svr" && value != "nu_svr")
+    text.fail("svm_type is " + excerpt(value), "epsilon_svr or nu_svr: a regression");
+  if (key == "kernel_type" && value != "rbf")
+    text.fail("kernel_type is " + excerpt(value), "rbf: no other kernel can be compiled");
+  if (key == "nr_class" && value != "2")
+    text.fail("nr_class is " + excerpt(value), "2, as every regression has");
+}
+
+// The lines up to and including `SV`, `key value`, in any order.
+Header read_header(ModelText& text) {
+  std::map<std::string, std::string> values;
+  for (;;) {
+    const auto line = text.next();
+    if (!line) text.fail("the file ends in its header", "a line SV and the support vectors");
+    std::string_view rest = *line;
+    const std::string key(take_word(rest));
+    if (key == "SV") break;
+    const std::string_view value = take_word(rest);
+    // probA comes with probability estimates, degree and coef0 with kernels that are refused below.
+    constexpr std::array<std::string_view, 8> kKeys = {"svm_type", "kernel_type", "gamma", "nr_class",
+                                                       "total_sv", "rho",         "probA", "degree"};
+    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end() && key != "coef0")
+      text.fail("unknown line " + excerpt(*line), "the header of a libsvm model of a regression");
+    if (value.empty() || !take_word(rest).empty())
+      text.fail(excerpt(*line) + " has no or several values", "one value");
+    if (!values.try_emplace(key, value).second) text.fail(key + " stands there again", "it once");
+    require_value(text, key, value);
+    if (key == "gamma" && !(text.number(value, key) > 0.0))
+      text.fail("gamma is " + excerpt(value), "above 0");
+    if (key == "rho") text.number(value, key);
+    if (key == "total_sv") text.count(value, key, kLargestVectorCount);
+  }
+  for (const char* key : {"svm_type", "kernel_type", "gamma", "total_sv", "rho"})
+    if (!values.contains(key)) text.fail(std::string("the header ends without ") + key, "a line for it");
+  return {text.number(values["gamma"], "gamma"), text.number(values["rho"], "rho"),
+          text.count(values["total_sv"], "total_sv", kLargestVectorCount)};
+}
+
+// `weight index:value index:value ...`, indices from 1, rising.
+void read_vector(const ModelText& text, std::string_view line, remap::KernelExpansion& expansion) {
+  const std::size_t input_count = expansion.inputs.size();
+  const std::size_t begin = expansion.vectors.size();
+  expansion.weights.push_back(text.number(take_word(line), "the weight"));
+  expansion.vectors.resize(begin + input_count, 0.0);
+  std::size_t last = 0;
+  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
+    const auto colon = word.find(':');
+    if (colon == std::string_view::npos) text.fail(excerpt(word), "index:value");
+    const std::size_t index = text.count(word.substr(0, colon), "an index", input_count);
+    if (index <= last) text.fail("index " + std::to_string(index), "indices that rise from 1");
+    expansion.vectors[begin + index - 1] = text.number(word.substr(colon + 1), "a value");
+    last = index;
+  }
+}
+
+}  // namespace
+
+remap::KernelExpansion expansion_from_svm_model(std::string_view content, std::size_t input_count,
+                                                const std::string& place) {
+  ModelText text(content, place);
+  const Header header = read_header(text);
+  remap::KernelExpansion expansion;
+  expansion.inputs.resize(input_count);
+  expansion.gamma = header.gamma;
+  expansion.bias = -header.rho;
+  while (const auto line = text.next()) {
+    if (expansion.count() == header.vector_count)
+      text.fail("more vectors", "the " + std::to_string(header.vector_count) + " of total_sv");
+    read_vector(text, *line, expansion);
+  }
+  if (expansion.count() != header.vector_count)
+    text.fail("the file ends after " + std::to_string(expansion.count()) + " vectors",
+              "the " + std::to_string(header.vector_count) + " of total_sv");
+  return expansion;
+}
+
+remap::KernelExpansion read_svm_model(const std::filesystem::path& path, std::size_t input_count) {
+  return expansion_from_svm_model(remap::read_file(path), input_count, path.string());
+}
+
+}  // namespace remapc

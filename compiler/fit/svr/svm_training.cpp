@@ -1,0 +1,134 @@
+// From samples to a sum of Gaussians: libsvm's data structures on the way in, plain numbers on the way out.
+#include "fit/svr/svm_training.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <string_view>
+
+#include <libsvm/svm.h>
+
+#include "model/evaluate.hpp"
+#include "remap/error.hpp"
+
+namespace remapc {
+namespace {
+
+constexpr long kIterationBound = 10'000'000;  // libsvm's own (svm.cpp, Solver::Solve)
+constexpr double kLargestTolerance = 1e-3;    // of the optimality conditions; libsvm's default
+constexpr double kToleranceOfEpsilon = 3.0;   // a looser one costs accuracy, a tighter one only time
+
+// libsvm reports through one function for all threads; the number of iterations is told nowhere else.
+thread_local long iteration_count = 0;
+
+void listen(const char* message) {
+  constexpr std::string_view kMark = "#iter = ";
+  const std::string_view text(message);
+  const auto found = text.find(kMark);
+  if (found == std::string_view::npos) return;
+  const char* begin = text.data() + found + kMark.size();
+  std::from_chars(begin, text.data() + text.size(), iteration_count);
+}
+
+struct ModelDeleter {
+  void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
+};
+
+// The samples as libsvm wants them: one list of (index, value) a sample, ended by index -1.
+struct Problem {
+  Problem(const SvrSamples& samples, const std::vector<remap::Scaling>& scalings) : outputs(samples.outputs) {
+    const std::size_t width = samples.input_count + 1;
+    nodes.reserve(samples.count() * width);
+    for (std::size_t i = 0; i < samples.count(); ++i) {
+      for (std::size_t j = 0; j < samples.input_count; ++j) {
+        const double input = samples.inputs[i * samples.input_count + j];
+        nodes.push_back({static_cast<int>(j) + 1, remap::normalised(scalings[j], input)});
+      }
+      nodes.push_back({-1, 0.0});
+    }
+    for (std::size_t i = 0; i < samples.count(); ++i) lists.push_back(&nodes[i * width]);
+    problem = {static_cast<int>(samples.count()), outputs.data(), lists.data()};
+  }
+  Problem(const Problem&) = delete;
+  Problem& operator=(const Problem&) = delete;
+
+  std::vector<double> outputs;
+  std::vector<svm_node> nodes;
+  std::vector<svm_node*> lists;
+  svm_problem problem{};
+};
+
+// Alpha to [0, 1] over the samples, through the pole; specular to its span.
+std::vector<remap::Scaling> input_scalings(const SvrSamples& samples, const SvrHyperParameters& parameters) {
+  double low = samples.inputs[0], high = low;
+  for (std::size_t i = 0; i < samples.inputs.size(); i += samples.input_count) {
+    low = std::min(low, samples.inputs[i]);
+    high = std::max(high, samples.inputs[i]);
+  }
+  const remap::Scaling warp{0.0, 1.0, parameters.alpha_pole};
+  low = remap::normalised(warp, low);
+  const double range = remap::normalised(warp, high) - low;
+  std::vector<remap::Scaling> scalings = {
+      {low, range > 0.0 && std::isfinite(1.0 / range) ? 1.0 / range : 1.0, parameters.alpha_pole}};
+  if (samples.input_count > 1) scalings.push_back({0.0, parameters.specular_span});
+  return scalings;
+}
+
+svm_parameter parameters_of(const SvrHyperParameters& given) {
+  svm_parameter parameters{};
+  parameters.svm_type = EPSILON_SVR;
+  parameters.kernel_type = RBF;
+  parameters.gamma = given.gamma;
+  parameters.C = given.cost;
+  parameters.p = given.epsilon;
+  parameters.eps = std::min(kLargestTolerance, kToleranceOfEpsilon * given.epsilon);
+  parameters.cache_size = 100.0;  // megabytes; 2000 samples need 32
+  parameters.shrinking = 1;
+  return parameters;
+}
+
+remap::KernelExpansion expansion_of(const svm_model& model, std::vector<remap::Scaling> inputs) {
+  remap::KernelExpansion expansion;
+  const std::size_t input_count = inputs.size();
+  expansion.inputs = std::move(inputs);
+  expansion.gamma = model.param.gamma;
+  expansion.bias = -model.rho[0];
+  const auto count = static_cast<std::size_t>(model.l);
+  for (std::size_t i = 0; i < count; ++i) {
+    expansion.weights.push_back(model.sv_coef[0][i]);
+    for (std::size_t j = 0; j < input_count; ++j) expansion.vectors.push_back(model.SV[i][j].value);
+  }
+  return expansion;
+}
+
+}  // namespace
+
+std::optional<remap::KernelExpansion> train_expansion(const SvrSamples& samples,
+                                                      const SvrHyperParameters& parameters) {
+  static std::once_flag listening;
+  std::call_once(listening, [] { svm_set_print_string_function(listen); });
+
+  const std::vector<remap::Scaling> scalings = input_scalings(samples, parameters);
+  const Problem problem(samples, scalings);
+  const svm_parameter settings = parameters_of(parameters);
+  if (const char* refusal = svm_check_parameter(&problem.problem, &settings); refusal != nullptr)
+    throw remap::Error(remap::ErrorKind::kUsage,
+                       std::string("libsvm: ") + refusal + "; expected hyper-parameters above 0");
+  iteration_count = 0;
+  // The model refers to the lists of `problem`.
+  const std::unique_ptr<svm_model, ModelDeleter> model(svm_train(&problem.problem, &settings));
+  if (iteration_count >= kIterationBound) return std::nullopt;
+  remap::KernelExpansion expansion = expansion_of(*model, scalings);
+  const auto finite = [](double number) { return std::isfinite(number); };
+  if (!finite(expansion.bias) || !std::all_of(expansion.weights.begin(), expansion.weights.end(), finite))
+    return std::nullopt;
+  return expansion;
+}
+
+std::string solver_name() {
+  return "libsvm " + std::to_string(libsvm_version / 100) + "." + std::to_string(libsvm_version % 100);
+}
+
+}  // namespace remapc

@@ -1,0 +1,205 @@
+// From rows to samples, from samples to two trained expansions, and the record of how they came about.
+#include "fit/svr/svr.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <string_view>
+
+#include "fit/svr/svm_training.hpp"
+#include "fit/svr/svr_search.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+using remap::number_text;
+
+constexpr std::size_t kLargestTraining = 2000;  // samples; the time grows faster than their square
+constexpr int kSoftenings = 3;                  // C a tenth each, where the final training does not converge
+constexpr double kSoftening = 0.1;
+
+// One output of the table with its scalings.
+struct Problem {
+  std::string name;  // "alpha" or "specular", as in `method`
+  SvrSamples samples;
+  std::vector<remap::Scaling> inputs;
+  remap::Scaling output;
+};
+
+// To [0, 1] over `values`; a constant becomes 0.
+remap::Scaling scaling_of(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double range = *high - *low;
+  return {*low, range > 0.0 && std::isfinite(1.0 / range) ? 1.0 / range : 1.0};
+}
+
+// Mean output of the rows of each input, in the order of inputs.
+Problem make_problem(const std::string& name, const std::vector<TableRow>& rows, std::size_t input_count,
+                     double TableRow::*output) {
+  struct Mean {
+    double sum = 0.0, count = 0.0;
+  };
+  std::map<std::array<double, 2>, Mean> means;
+  for (const TableRow& row : rows) {
+    Mean& mean = means[{row.alpha1, input_count > 1 ? row.specular1 : 0.0}];
+    mean.sum += row.*output;
+    mean.count += 1.0;
+  }
+  std::array<std::vector<double>, 2> inputs;
+  std::vector<double> outputs;
+  for (const auto& [input, mean] : means) {
+    for (std::size_t j = 0; j < input_count; ++j) inputs[j].push_back(input[j]);
+    outputs.push_back(mean.sum / mean.count);
+  }
+  Problem problem{name, {input_count, {}, {}}, {}, scaling_of(outputs)};
+  problem.inputs.push_back({});  // alpha stays raw: training normalises it
+  if (input_count > 1) problem.inputs.push_back(scaling_of(inputs[1]));
+  const auto normalised = [](const remap::Scaling& scaling, double value) {
+    return (value - scaling.offset) * scaling.scale;
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (std::size_t j = 0; j < input_count; ++j)
+      problem.samples.inputs.push_back(normalised(problem.inputs[j], inputs[j][i]));
+    problem.samples.outputs.push_back(normalised(problem.output, outputs[i]));
+  }
+  return problem;
+}
+
+void require_in_range(const SvrHyperParameters& parameters, const std::string& name) {
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (!positive(parameters.cost) || !positive(parameters.gamma) || !positive(parameters.epsilon) ||
+      !(parameters.specular_span > 0.0 && parameters.specular_span <= 1.0) ||
+      !(parameters.alpha_pole >= 0.0 && std::isfinite(parameters.alpha_pole)))
+    throw Error(ErrorKind::kUsage, "svr " + name + ": C " + number_text(parameters.cost) + ", gamma " +
+                                       number_text(parameters.gamma) + ", epsilon " +
+                                       number_text(parameters.epsilon) + ", specular_span " +
+                                       number_text(parameters.specular_span) + ", alpha_pole " +
+                                       number_text(parameters.alpha_pole) +
+                                       "; expected numbers above 0, a span up to 1 and a pole from 0");
+}
+
+// Trains on `samples`; C falls until libsvm converges where it was searched for.
+remap::KernelExpansion train(const std::string& name, const SvrSamples& samples, bool is_given,
+                             SvrHyperParameters& parameters) {
+  for (int softening = 0; softening <= (is_given ? 0 : kSoftenings); ++softening) {
+    if (softening > 0) parameters.cost *= kSoftening;
+    if (auto expansion = train_expansion(samples, parameters)) return *expansion;
+  }
+  throw Error(ErrorKind::kNumeric, "svr " + name + ": libsvm did not converge on " +
+                                       std::to_string(samples.count()) + " samples with C " +
+                                       number_text(parameters.cost) + ", gamma " +
+                                       number_text(parameters.gamma) + "; expected a smaller C");
+}
+
+remap::KernelExpansion fit_output(const Problem& problem, const std::optional<SvrHyperParameters>& given,
+                                  const SvrOptions& options, const FitProgress& progress,
+                                  std::map<std::string, std::string>& method) {
+  const auto record = [&](const std::string& key, const std::string& value) {
+    method[problem.name + "." + key] = value;
+  };
+  SvrHyperParameters parameters;
+  if (given) {
+    parameters = *given;
+    require_in_range(parameters, problem.name);
+  } else {
+    const SvrChoice choice = search_hyper_parameters(problem.samples, {options.seed, options.jobs}, progress);
+    parameters = choice.parameters;
+    record("folds", std::to_string(choice.fold_count));
+    record("candidates", std::to_string(choice.candidate_count));
+    record("search_samples", std::to_string(choice.sample_count));
+    record("cross_validation_rms", number_text(choice.rms / problem.output.scale));
+  }
+  const SvrSamples training = draw_evenly(problem.samples, kLargestTraining, options.seed);
+  remap::KernelExpansion expansion = train(problem.name, training, given.has_value(), parameters);
+  if (expansion.inputs.size() > 1)
+    expansion.inputs[1] = {problem.inputs[1].offset, problem.inputs[1].scale * expansion.inputs[1].scale};
+  expansion.output = problem.output;
+  record("C", number_text(parameters.cost));
+  record("gamma", number_text(parameters.gamma));
+  record("epsilon", number_text(parameters.epsilon));
+  record("specular_span", number_text(parameters.specular_span));
+  record("alpha_pole", number_text(parameters.alpha_pole));
+  record("inputs", problem.inputs.size() > 1 ? "alpha, specular" : "alpha");
+  record("vectors", std::to_string(expansion.count()));
+  record("trained_samples", std::to_string(training.count()));
+  return expansion;
+}
+
+// `progress` as a part of the whole, never falling whichever thread is first.
+class RisingProgress {
+ public:
+  explicit RisingProgress(const FitProgress& progress) : progress_(progress) {}
+  FitProgress part(double begin, double end) {
+    if (!progress_) return {};
+    return [this, begin, end](double share) {
+      const std::lock_guard lock(mutex_);
+      reached_ = std::max(reached_, begin + (end - begin) * std::clamp(share, 0.0, 1.0));
+      progress_(reached_);
+    };
+  }
+
+ private:
+  const FitProgress& progress_;
+  std::mutex mutex_;
+  double reached_ = 0.0;
+};
+
+std::optional<double> recorded_number(const std::map<std::string, std::string>& method,
+                                      const std::string& key) {
+  const auto found = method.find(key);
+  if (found == method.end()) return std::nullopt;
+  const auto number = remap::parse_number(found->second);
+  if (!number)
+    throw Error(ErrorKind::kInput, "method." + key + ": \"" + found->second + "\"; expected a number");
+  return number;
+}
+
+std::optional<SvrHyperParameters> recorded_parameters(const std::map<std::string, std::string>& method,
+                                                      const std::string& name) {
+  const auto cost = recorded_number(method, name + ".C"), gamma = recorded_number(method, name + ".gamma"),
+             epsilon = recorded_number(method, name + ".epsilon");
+  if (!cost && !gamma && !epsilon) return std::nullopt;
+  if (!cost || !gamma || !epsilon)
+    throw Error(ErrorKind::kInput,
+                "method." + name + ": has only some of C, gamma, epsilon; expected all three or none");
+  return SvrHyperParameters{*cost, *gamma, *epsilon,
+                            recorded_number(method, name + ".specular_span").value_or(1.0),
+                            recorded_number(method, name + ".alpha_pole").value_or(0.0)};
+}
+
+}  // namespace
+
+Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
+                   const FitProgress& progress) {
+  require_variety(rows, "svr");
+  const std::size_t alpha_inputs = alpha_needs_specular(rows) ? 2 : 1;
+  const Problem alpha = make_problem("alpha", rows, alpha_inputs, &TableRow::alpha2);
+  const Problem specular = make_problem("specular", rows, 2, &TableRow::specular2);
+
+  Regression regression;
+  regression.method["solver"] = solver_name() + ", epsilon-SVR, Gaussian kernel";
+  regression.method["seed"] = std::to_string(options.seed);
+  RisingProgress rising(progress);
+  const double share_of_alpha = alpha_inputs > 1 ? 0.5 : 0.05;  // the rest is for specular
+  remap::Svr svr;
+  svr.alpha = fit_output(alpha, options.alpha, options, rising.part(0.0, share_of_alpha), regression.method);
+  svr.specular =
+      fit_output(specular, options.specular, options, rising.part(share_of_alpha, 0.95), regression.method);
+  regression.mapping = std::move(svr);
+  if (progress) rising.part(0.95, 1.0)(1.0);
+  return regression;
+}
+
+SvrOptions options_from_method(const std::map<std::string, std::string>& method, const SvrOptions& base) {
+  SvrOptions options = base;
+  if (const auto found = recorded_parameters(method, "alpha")) options.alpha = found;
+  if (const auto found = recorded_parameters(method, "specular")) options.specular = found;
+  return options;
+}
+
+}  // namespace remapc

@@ -1,0 +1,339 @@
+// The stages of the search, and the threads' shares of it: a task is one candidate on one fold.
+#include "fit/svr/svr_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <random>
+
+#include "fit/rows/folds.hpp"
+#include "model/evaluate.hpp"
+#include "remap/error.hpp"
+#include "system/parallel.hpp"
+
+namespace remapc {
+namespace {
+
+constexpr std::size_t kFewestSamples = 8;
+constexpr std::size_t kFolds = 5;
+constexpr std::size_t kFirstFolds = 2;  // that a candidate has to survive
+constexpr double kHopeless = 1.5;       // times the error of the best on the same folds
+constexpr double kProgress = 0.99;      // an error has to fall below that share to be called smaller
+constexpr double kWorthTime = 0.9;  // the same for a tube a third as wide, which trains three times as long
+constexpr std::size_t kNeverJudges = kFolds;
+
+// Measured on the published table: more samples change the choice little, and the time of a training grows
+// faster than their square.
+constexpr std::size_t kGridSamples = 250;
+constexpr std::size_t kPatternSamples = 400;
+constexpr std::size_t kTubeSamples = 600;
+
+// Hyper-parameters as steps of a quarter of a decade; poles as steps of half a decade.
+enum Axis { kCost, kGamma, kSpan, kPole, kEpsilon, kAxes };
+using Point = std::array<int, kAxes>;
+
+struct Interval {
+  int low, high;
+};
+// C up to 100: beyond it libsvm needs minutes where the kernel is wide. Gamma 0.1 to 3200; a span down to
+// 0.01 of specular; a pole down to 0.01 in alpha.
+constexpr std::array<Interval, kAxes> kBounds = {{{0, 8}, {-4, 14}, {-8, 0}, {0, 5}, {-16, -4}}};
+constexpr int kStartCost = 4;
+constexpr int kFirstStep = 2, kLargestRounds = 8;
+// The tube: a narrower one takes longer to train, in proportion, which only small problems can afford.
+constexpr std::size_t kSmallProblem = 100;
+struct TubeRange {
+  int start, narrowest;
+};
+constexpr TubeRange tube_range(std::size_t sample_count) {
+  return sample_count <= kSmallProblem ? TubeRange{-16, -16} : TubeRange{-12, -14};
+}
+
+// 10^(step / 4) to two digits, so that records are short.
+double value_of(int step) {
+  constexpr std::array<double, 4> kDigits = {10.0, 18.0, 32.0, 56.0};
+  const int decade = (step + 40) / 4 - 10;
+  const double digits = kDigits[static_cast<std::size_t>(step - 4 * decade)];
+  return decade >= 1 ? digits * std::pow(10.0, decade - 1) : digits / std::pow(10.0, 1 - decade);
+}
+
+// The further from 0, the more room for small alpha.
+double pole_of(int step) { return step == 0 ? 0.0 : value_of(2 * (1 - step)); }
+
+SvrHyperParameters parameters_at(const Point& point) {
+  return {value_of(point[kCost]), value_of(point[kGamma]), value_of(point[kEpsilon]), value_of(point[kSpan]),
+          pole_of(point[kPole])};
+}
+
+struct FoldedSamples {
+  SvrSamples samples;
+  std::vector<std::size_t> fold;  // in which each judges, or kNeverJudges
+};
+
+FoldedSamples fold_samples(SvrSamples samples, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<std::size_t> fold(samples.count());
+  std::array<std::size_t, kFolds> order{};
+  for (std::size_t i = 0; i < fold.size(); ++i) {
+    if (i % kFolds == 0) {  // each five neighbours go to the five folds in an order of their own
+      for (std::size_t k = 0; k < kFolds; ++k) order[k] = k;
+      for (std::size_t k = kFolds; k > 1; --k) std::swap(order[k - 1], order[random() % k]);
+    }
+    fold[i] = order[i % kFolds];
+  }
+  if (samples.input_count == 1) fold.front() = fold.back() = kNeverJudges;
+  return {std::move(samples), std::move(fold)};
+}
+
+struct Judgement {
+  double square_sum = 0.0;
+  std::size_t count = 0;
+  std::size_t vector_count = 0;
+};
+
+Judgement judge(const FoldedSamples& folded, const SvrHyperParameters& parameters, std::size_t fold) {
+  const SvrSamples& all = folded.samples;
+  SvrSamples training{all.input_count, {}, {}};
+  for (std::size_t i = 0; i < all.count(); ++i) {
+    if (folded.fold[i] == fold) continue;
+    const auto begin = all.inputs.begin() + static_cast<std::ptrdiff_t>(i * all.input_count);
+    training.inputs.insert(training.inputs.end(), begin,
+                           begin + static_cast<std::ptrdiff_t>(all.input_count));
+    training.outputs.push_back(all.outputs[i]);
+  }
+  const auto expansion = train_expansion(training, parameters);
+  Judgement judgement;
+  for (std::size_t i = 0; i < all.count(); ++i) {
+    if (folded.fold[i] != fold) continue;
+    ++judgement.count;
+    if (!expansion) continue;
+    const double specular = all.input_count > 1 ? all.inputs[2 * i + 1] : 0.0;
+    const double error =
+        remap::expansion_value(*expansion, all.inputs[i * all.input_count], specular) - all.outputs[i];
+    judgement.square_sum += error * error;
+  }
+  if (expansion)
+    judgement.vector_count = expansion->count();
+  else
+    judgement.square_sum = std::numeric_limits<double>::infinity();
+  return judgement;
+}
+
+struct Candidate {
+  Point point{};
+  std::vector<Judgement> folds;
+
+  bool is_finished() const { return folds.size() == kFolds; }
+  double rms() const { return rms_of(folds.size()); }
+  double rms_of(std::size_t fold_count) const {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < fold_count; ++k) {
+      sum += folds[k].square_sum;
+      count += static_cast<double>(folds[k].count);
+    }
+    return std::sqrt(sum / count);
+  }
+  double standard_error() const {
+    double mean = 0.0, variance = 0.0;
+    const auto root = [](const Judgement& fold) {
+      return std::sqrt(fold.square_sum / static_cast<double>(std::max<std::size_t>(1, fold.count)));
+    };
+    for (const Judgement& fold : folds) mean += root(fold) / kFolds;
+    for (const Judgement& fold : folds) variance += (root(fold) - mean) * (root(fold) - mean) / (kFolds - 1);
+    return std::sqrt(variance / kFolds);
+  }
+  std::size_t vector_count() const {
+    std::size_t sum = 0;
+    for (const Judgement& fold : folds) sum += fold.vector_count;
+    return sum / folds.size();
+  }
+};
+
+// The candidates of one stage, each judged once.
+class Contest {
+ public:
+  Contest(FoldedSamples folded, unsigned jobs, FitProgress progress)
+      : folded_(std::move(folded)), jobs_(jobs), progress_(std::move(progress)) {}
+
+  // Judges those of `points` that are new: all on the first folds, then those that have a chance on the rest.
+  void enter(const std::vector<Point>& points) {
+    std::vector<Candidate*> entered;
+    for (const Point& point : points) {
+      const auto [found, is_new] = candidates_.try_emplace(point, Candidate{point, {}});
+      if (is_new) entered.push_back(&found->second);
+    }
+    run(entered, kFirstFolds);
+    double best = std::numeric_limits<double>::infinity();
+    for (const auto& [point, candidate] : candidates_) best = std::min(best, candidate.rms_of(kFirstFolds));
+    std::erase_if(entered, [best](const Candidate* candidate) {
+      return !(candidate->rms_of(kFirstFolds) <= kHopeless * best);
+    });
+    run(entered, kFolds);
+    if (progress_) progress_(1.0);
+  }
+
+  // The smallest error among the finished, the first of equals in the order of points.
+  const Candidate& best() const {
+    const Candidate* best = nullptr;
+    for (const auto& [point, candidate] : candidates_)
+      if (candidate.is_finished() && (best == nullptr || candidate.rms() < best->rms())) best = &candidate;
+    if (best == nullptr || !std::isfinite(best->rms()))
+      throw remap::Error(remap::ErrorKind::kNumeric,
+                         "svr: no candidate of the search converged; expected a table without extreme "
+                         "outliers (remapc check)");
+    return *best;
+  }
+
+  // The smoothest that is within one standard error of the best.
+  const Candidate& smoothest() const {
+    const Candidate* choice = &best();
+    const double limit = choice->rms() + choice->standard_error();
+    const auto roughness = [](const Candidate& candidate) {
+      return std::array<double, 3>{static_cast<double>(candidate.point[kGamma]),
+                                   static_cast<double>(candidate.vector_count()), candidate.rms()};
+    };
+    for (const auto& [point, candidate] : candidates_)
+      if (candidate.is_finished() && candidate.rms() <= limit && roughness(candidate) < roughness(*choice))
+        choice = &candidate;
+    return *choice;
+  }
+
+  const Candidate& at(const Point& point) const { return candidates_.at(point); }
+  std::size_t size() const { return candidates_.size(); }
+  std::size_t sample_count() const { return folded_.samples.count(); }
+  void report_to(FitProgress progress) { progress_ = std::move(progress); }
+
+ private:
+  // Brings each of `entered` to `fold_count` folds.
+  void run(const std::vector<Candidate*>& entered, std::size_t fold_count) {
+    if (entered.empty()) return;
+    const std::size_t begin = entered.front()->folds.size(), folds = fold_count - begin;
+    for (Candidate* candidate : entered) candidate->folds.resize(fold_count);
+    std::size_t done = 0;
+    std::mutex mutex;
+    remap::run_parallel(entered.size() * folds, jobs_, [&](std::size_t task) {
+      Candidate& candidate = *entered[task / folds];
+      const std::size_t fold = begin + task % folds;
+      candidate.folds[fold] = judge(folded_, parameters_at(candidate.point), fold);
+      const std::lock_guard lock(mutex);
+      ++done;
+      const double share = static_cast<double>(done) / static_cast<double>(entered.size() * folds);
+      if (progress_) progress_(begin == 0 ? 0.5 * share : 0.5 + 0.5 * share);
+    });
+  }
+
+  FoldedSamples folded_;
+  unsigned jobs_;
+  FitProgress progress_;
+  std::map<Point, Candidate> candidates_;
+};
+
+std::vector<Point> grid(std::size_t input_count, int epsilon) {
+  std::vector<Point> points;
+  for (int gamma = -2; gamma <= 12; gamma += 2)
+    for (int span = input_count > 1 ? -6 : 0; span <= 0; span += 2)
+      for (const int pole : {0, 3}) points.push_back({kStartCost, gamma, span, pole, epsilon});
+  return points;
+}
+
+// One step along each axis, and along the diagonal on which C makes up for gamma.
+std::vector<Point> neighbours(const Point& centre, int step, std::size_t input_count) {
+  std::vector<Point> moves = {{1, 0, 0, 0, 0},  {-1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {0, -1, 0, 0, 0},
+                              {1, -1, 0, 0, 0}, {0, 0, 0, 1, 0},  {0, 0, 0, -1, 0}};
+  if (input_count > 1) moves.insert(moves.end(), {{0, 0, 1, 0, 0}, {0, 0, -1, 0, 0}});
+  std::vector<Point> points;
+  for (const Point& move : moves) {
+    Point point = centre;
+    for (std::size_t axis = 0; axis < kAxes; ++axis)
+      point[axis] = std::clamp(point[axis] + step * move[axis], kBounds[axis].low, kBounds[axis].high);
+    if (point != centre) points.push_back(point);
+  }
+  return points;
+}
+
+// Walks from `point` along `axis` in steps while each brings the error below `needed` of what it was.
+Point follow(Contest& contest, Point point, Axis axis, int step, Interval bounds, double needed) {
+  for (Point next = point;; point = next) {
+    next[axis] += step;
+    if (next[axis] < bounds.low || next[axis] > bounds.high) return point;
+    contest.enter({next});
+    const Candidate& candidate = contest.at(next);
+    if (!candidate.is_finished() || !(candidate.rms() < needed * contest.at(point).rms())) return point;
+  }
+}
+
+// Narrows the tube while the error falls with it; where it does not, widens it as far as that costs nothing.
+// In a narrow tube differences between kernels show that a wide one hides: gamma may rise once more.
+Point choose_tube(Contest& contest, const Point& start, int narrowest) {
+  contest.enter({start});
+  Point point = follow(contest, start, kEpsilon, -2, {narrowest, kBounds[kEpsilon].high}, kWorthTime);
+  if (point == start) return follow(contest, start, kEpsilon, 2, kBounds[kEpsilon], 1.0);
+  return follow(contest, point, kGamma, 1, kBounds[kGamma], kWorthTime);
+}
+
+// Maps a stage's own progress to its part of the whole.
+FitProgress part(const FitProgress& progress, double begin, double end) {
+  if (!progress) return {};
+  return [&progress, begin, end](double share) { progress(begin + (end - begin) * share); };
+}
+
+}  // namespace
+
+SvrSamples draw_evenly(const SvrSamples& samples, std::size_t count, std::uint64_t seed) {
+  if (samples.count() <= count) return samples;
+  std::mt19937_64 random(seed);
+  SvrSamples drawn{samples.input_count, {}, {}};
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t begin = k * samples.count() / count, end = (k + 1) * samples.count() / count;
+    const std::size_t chosen = begin + random() % (end - begin);
+    for (std::size_t j = 0; j < samples.input_count; ++j)
+      drawn.inputs.push_back(samples.inputs[chosen * samples.input_count + j]);
+    drawn.outputs.push_back(samples.outputs[chosen]);
+  }
+  return drawn;
+}
+
+SvrChoice search_hyper_parameters(const SvrSamples& samples, const SvrSearchOptions& options,
+                                  const FitProgress& progress) {
+  SvrChoice choice;
+  if (samples.count() < kFewestSamples) return choice;
+  const auto contest = [&](std::size_t sample_count) {
+    return Contest(fold_samples(draw_evenly(samples, sample_count, options.seed), options.seed), options.jobs,
+                   {});
+  };
+
+  Contest coarse = contest(kGridSamples);
+  coarse.report_to(part(progress, 0.0, 0.2));
+  coarse.enter(grid(samples.input_count, tube_range(samples.count()).start));
+  Point centre = coarse.best().point;
+
+  Contest fine = contest(kPatternSamples);
+  fine.enter({centre});
+  for (int step = kFirstStep, round = 0; step >= 1 && round < kLargestRounds; ++round) {
+    const double begin = 0.2 + 0.5 * round / kLargestRounds;
+    fine.report_to(part(progress, begin, begin + 0.5 / kLargestRounds));
+    const double before = fine.best().rms();
+    fine.enter(neighbours(centre, step, samples.input_count));
+    if (fine.best().rms() < kProgress * before)
+      centre = fine.best().point;
+    else
+      step /= 2;
+  }
+  centre = fine.smoothest().point;
+
+  Contest tube = contest(kTubeSamples);
+  tube.report_to(part(progress, 0.7, 1.0));
+  centre = choose_tube(tube, centre, tube_range(samples.count()).narrowest);
+
+  choice.parameters = parameters_at(centre);
+  choice.rms = tube.at(centre).rms();
+  choice.fold_count = kFolds;
+  choice.candidate_count = coarse.size() + fine.size() + tube.size();
+  choice.sample_count = tube.sample_count();
+  return choice;
+}
+
+}  // namespace remapc

@@ -1,0 +1,62 @@
+#include "manifest/fit_folder.hpp"
+
+#include <algorithm>
+
+#include "fit_file/fit_json.hpp"
+#include "manifest/manifest.hpp"
+#include "remap/error.hpp"
+#include "text/nearest_name.hpp"
+
+namespace remapc {
+
+using remap::Error;
+using remap::ErrorKind;
+
+FitFolder load_fit_folder(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder))
+    throw Error(ErrorKind::kInput, folder.string() + ": is no folder; expected one with fits (*.json)");
+  FitFolder loaded;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json" || entry.path().filename() == kManifestName) continue;
+    remap::AnyFit fit = remap::load_any_fit(entry.path());
+    if (entry.path().stem() != fit_id(fit))
+      throw Error(ErrorKind::kInput, entry.path().string() + ": holds the fit " + fit_id(fit) +
+                                         "; expected the file to be named after it");
+    if (auto* analytic = std::get_if<remap::WorkflowFit>(&fit))
+      loaded.analytic.push_back(std::move(*analytic));
+    else if (auto* warp = std::get_if<remap::WarpMapFit>(&fit))
+      loaded.warps.push_back(std::move(*warp));
+    else
+      loaded.fits.push_back(std::move(std::get<remap::Fit>(fit)));
+  }
+  const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
+  std::sort(loaded.fits.begin(), loaded.fits.end(), by_id);
+  std::sort(loaded.warps.begin(), loaded.warps.end(), by_id);
+  std::sort(loaded.analytic.begin(), loaded.analytic.end(), by_id);
+  return loaded;
+}
+
+std::vector<remap::Fit> load_fits(const std::filesystem::path& folder) {
+  return load_fit_folder(folder).fits;
+}
+
+remap::AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder) {
+  if (std::filesystem::is_regular_file(name)) return remap::load_any_fit(name);
+  if (const auto path = folder / (name + ".json"); std::filesystem::is_regular_file(path))
+    return remap::load_any_fit(path);
+  std::vector<std::string> known;
+  if (std::filesystem::is_directory(folder)) {
+    const FitFolder loaded = load_fit_folder(folder);
+    for (const remap::Fit& fit : loaded.fits) known.push_back(fit.id);
+    for (const remap::WorkflowFit& fit : loaded.analytic) known.push_back(fit.id);
+    for (const remap::WarpMapFit& fit : loaded.warps) known.push_back(fit.id);
+  }
+  throw Error(ErrorKind::kUsage,
+              name + ": is neither a file nor a fit in " + folder.string() + remap::suggestion(name, known));
+}
+
+remap::Fit find_fit(const std::string& name, const std::filesystem::path& folder) {
+  return remap::require_width_and_specular(find_any_fit(name, folder), ErrorKind::kUsage, name);
+}
+
+}  // namespace remapc

@@ -1,0 +1,49 @@
+#include "manifest/lock.hpp"
+
+#include "system/files.hpp"
+#include "text/json_field.hpp"
+
+namespace remapc {
+namespace {
+
+constexpr int kLockVersion = 1;
+
+LockedItem read_item(const remap::Field& field) {
+  return {field["recipe"].text(), field["table"].text(),         field["fit"].text(),
+          field["header"].text(), field["alpha_bound"].number(), field["specular_bound"].number()};
+}
+
+}  // namespace
+
+Lock load_lock(const std::filesystem::path& fit_folder) {
+  const std::filesystem::path path = fit_folder / kLockName;
+  if (!std::filesystem::exists(path)) return {};
+  try {
+    const nlohmann::ordered_json json = remap::parse_json(remap::read_file(path), path.string());
+    const remap::Field root(json, path.string());
+    if (root["version"].count() != kLockVersion) return {};
+    Lock lock;
+    lock.items = root["items"].dictionary<LockedItem>(read_item);
+    if (root.json().contains("report")) lock.report = root["report"].text();
+    return lock;
+  } catch (const remap::Error& error) {
+    if (error.kind() != remap::ErrorKind::kInput) throw;
+    return {};
+  }
+}
+
+void save_lock(const std::filesystem::path& fit_folder, const Lock& lock) {
+  nlohmann::ordered_json items = nlohmann::ordered_json::object();
+  for (const auto& [id, item] : lock.items)
+    items[id] = {{"recipe", item.recipe},
+                 {"table", item.table},
+                 {"fit", item.fit},
+                 {"header", item.header},
+                 {"alpha_bound", item.alpha_bound},
+                 {"specular_bound", item.specular_bound}};
+  const nlohmann::ordered_json json = {
+      {"format", "remap-lock"}, {"version", kLockVersion}, {"report", lock.report}, {"items", items}};
+  remap::write_file(fit_folder / kLockName, json.dump(1) + "\n");
+}
+
+}  // namespace remapc

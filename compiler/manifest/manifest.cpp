@@ -1,0 +1,196 @@
+#include "manifest/manifest.hpp"
+
+#include <algorithm>
+
+#include "fit_file/fit_fields.hpp"
+#include "fit_file/workflow_fields.hpp"
+#include "remap/error.hpp"
+#include "remap/version.hpp"
+#include "system/files.hpp"
+#include "text/json_field.hpp"
+#include "text/nearest_name.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Field;
+using remap::Fit;
+
+std::size_t read_count(const Field& field) {
+  field.require(field.count() >= 2 && field.count() <= 1000, "a number from 2 to 1000");
+  return static_cast<std::size_t>(field.count());
+}
+
+// The ordered pairs of a group: all of its `models`, or those of `pairs`, both ways.
+std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  const auto name = [](const Field& model) { return model.text(); };
+  if (group.json().contains("pairs")) {
+    group["pairs"].list(1, [&](const Field& entry) {
+      const std::vector<std::string> models = entry.list(2, name);
+      entry.require(models.size() == 2, "two models");
+      pairs.emplace_back(models[0], models[1]);
+      pairs.emplace_back(models[1], models[0]);
+      return 0;
+    });
+    return pairs;
+  }
+  const std::vector<std::string> models = group["models"].list(2, name);
+  for (const std::string& source : models)
+    for (const std::string& target : models)
+      if (source != target) pairs.emplace_back(source, target);
+  return pairs;
+}
+
+void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
+  SweepRecipe recipe;
+  recipe.objective = group["objective"].text();
+  recipe.resolution = static_cast<int>(group["resolution"].count());
+  recipe.alphas = remap::read_range(group["alpha"]);
+  recipe.roughness_samples = read_count(group["roughness_samples"]);
+  recipe.specular_samples = read_count(group["specular_samples"]);
+  if (group.json().contains("speculars"))
+    for (const auto& [model, range] : group["speculars"].json().items())
+      recipe.speculars[model] = remap::read_range(group["speculars"][model]);
+  const auto seed = static_cast<std::uint64_t>(group["seed"].count());
+  for (const auto& [source, target] : read_pairs(group)) {
+    nlohmann::ordered_json text = group.json();
+    text.erase("pairs");
+    text["models"] = {source, target};
+    if (text.contains("speculars"))  // that of this source is all that counts
+      text["speculars"] = text["speculars"].contains(source) ? text["speculars"][source] : nullptr;
+    items->push_back(
+        {remap::converter_id(source, target), SweptItem{source, target, recipe}, text.dump(), seed});
+  }
+}
+
+// Coefficients as the paper prints them (Sztrajman et al. 2019, section 7 and appendix A):
+// c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) + c5 / alpha.
+remap::AlphaCurve read_slope(const Field& field) {
+  const double c1 = field["c1"].number(), c2 = field["c2"].number();
+  const double c3 = field["c3"].number(), c4 = field["c4"].number();
+  field.require(c2 >= 0.0 && c4 >= 0.0, "rates c2 and c4 from 0");
+  return {field["c0"].number() + c1 + c3, -c1 * c2, c2, -c3 * c4, c4, field["c5"].number()};
+}
+
+void read_published(const Field& field, std::vector<ManifestItem>* items) {
+  Fit fit;
+  fit.id = field["id"].text();
+  fit.source = remap::read_side(field["source"]);
+  fit.target = remap::read_side(field["target"]);
+  fit.domain = {remap::read_range(field["domain"]["alpha"]), remap::read_range(field["domain"]["specular"])};
+  fit.mapping = remap::Parametric{{field["roughness"].numbers(1)}, {{1, read_slope(field["slope"])}}};
+  fit.method["form"] = "paper";
+  fit.method["source"] = field["from"].text();
+  fit.remarks = field["remarks"].list(0, [](const Field& remark) { return remark.text(); });
+  fit.remarks.insert(fit.remarks.begin(), "Published in " + fit.method["source"] + ".");
+  fit.tool_version = remap::kVersion;
+  items->push_back({fit.id, PublishedItem{fit}, field.json().dump(), 0});
+}
+
+void read_workflow_item(const Field& field, std::vector<ManifestItem>* items) {
+  remap::WorkflowFit fit{field["id"].text(), remap::read_conversion(field), std::nullopt,
+                         field["remarks"].list(0, [](const Field& remark) { return remark.text(); }),
+                         remap::kVersion};
+  items->push_back({fit.id, WorkflowItem{fit}, field.json().dump(), 0});
+}
+
+remap::Activation read_activation(const Field& field) {
+  const auto activation = remap::activation_from_name(field.text());
+  field.require(activation.has_value(), "relu, tanh or silu");
+  return *activation;
+}
+
+void read_network_item(const Field& field, std::vector<ManifestItem>* items) {
+  NetworkItem item;
+  item.fit.id = field["id"].text();
+  item.fit.conversion.specular = remap::read_specular_workflow(field["source"]);
+  item.fit.conversion.metallic = remap::read_metallic_workflow(field["target"]);
+  item.fit.remarks = field["remarks"].list(0, [](const Field& remark) { return remark.text(); });
+  item.fit.tool_version = remap::kVersion;
+  const Field samples = field["samples"];
+  item.metallic = samples["metallic"].text();
+  item.specular = samples["specular"].text();
+  item.fixed = samples["fixed"].dictionary<double>([](const Field& value) { return value.number(); });
+  item.varied = samples["vary"].list(0, [](const Field& name) { return name.text(); });
+  item.count = static_cast<std::size_t>(samples["count"].count());
+  item.resolution = static_cast<int>(samples["resolution"].count());
+  item.hidden =
+      field["hidden"].list(0, [](const Field& units) { return static_cast<std::size_t>(units.count()); });
+  item.activation = read_activation(field["activation"]);
+  items->push_back(
+      {item.fit.id, item, field.json().dump(), static_cast<std::uint64_t>(field["seed"].count())});
+}
+
+std::string read_id(const Field& field, const std::vector<ManifestItem>& items) {
+  std::vector<std::string> known;
+  for (const ManifestItem& item : items) known.push_back(item.id);
+  const std::string id = field.text();
+  if (std::find(known.begin(), known.end(), id) == known.end())
+    field.fail("is " + id + ", which is no item before it" + remap::suggestion(id, known));
+  return id;
+}
+
+void require_unique(const std::vector<ManifestItem>& items, const std::string& place) {
+  std::vector<std::string> ids;
+  for (const ManifestItem& item : items) ids.push_back(item.id);
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end())
+    throw remap::Error(remap::ErrorKind::kInput,
+                       place + ": makes " + *twice + " twice; expected every id once");
+  for (const std::string& id : ids)
+    if (!remap::is_valid_id(id))
+      throw remap::Error(
+          remap::ErrorKind::kInput,
+          place + ": id \"" + id + "\"; expected a C++ identifier without leading or doubled underscore");
+}
+
+}  // namespace
+
+Manifest manifest_from_json(std::string_view text, const std::string& place) {
+  const nlohmann::ordered_json json = remap::parse_json(text, place);
+  const Field root(json, place);
+  root["format"].require(root["format"].text() == "remap-manifest", "\"remap-manifest\"");
+  root["version"].require(root["version"].count() == kManifestVersion,
+                          "version " + std::to_string(kManifestVersion));
+  Manifest manifest;
+  std::vector<ManifestItem>& items = manifest.items;
+  const auto each = [&](const std::string& key, const auto& read) {
+    root[key].list(0, [&](const Field& entry) {
+      read(entry);
+      return 0;
+    });
+  };
+  each("published", [&](const Field& entry) { read_published(entry, &items); });
+  each("sweeps", [&](const Field& entry) { read_sweeps(entry, &items); });
+  each("inverses", [&](const Field& entry) {
+    const std::string of = read_id(entry["of"], items);
+    items.push_back({entry["id"].text(), InverseItem{of}, entry.json().dump(),
+                     static_cast<std::uint64_t>(entry["seed"].count())});
+  });
+  each("chains", [&](const Field& entry) {
+    ChainItem chain{entry["steps"].list(2, [&](const Field& step) { return read_id(step, items); })};
+    items.push_back({entry["id"].text(), chain, entry.json().dump(), 0});
+  });
+  // Manifests from before there were any have no such sections.
+  if (json.contains("analytic"))
+    each("analytic", [&](const Field& entry) { read_workflow_item(entry, &items); });
+  if (json.contains("networks"))
+    each("networks", [&](const Field& entry) { read_network_item(entry, &items); });
+  require_unique(items, place);
+  return manifest;
+}
+
+Manifest load_manifest(const std::filesystem::path& fit_folder) {
+  const std::filesystem::path path = fit_folder / kManifestName;
+  return manifest_from_json(remap::read_file(path), path.string());
+}
+
+std::vector<std::string> inputs_of(const ManifestItem& item) {
+  if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) return {inverse->of};
+  if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain->steps;
+  return {};
+}
+
+}  // namespace remapc

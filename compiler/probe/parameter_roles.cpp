@@ -1,0 +1,118 @@
+#include "probe/parameter_roles.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "remap/error.hpp"
+#include "text/nearest_name.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+ParameterDescription& named(ModelDescription* model, const std::string& name) {
+  const ParameterDescription& found = std::as_const(*model).parameter(name);
+  return model->parameters[static_cast<std::size_t>(&found - model->parameters.data())];
+}
+
+// Gives `role` to the parameter `name`. The one that had it is of no role then, and stands in `displaced`.
+void give_role(ModelDescription* model, ParameterRole role, const std::string& name,
+               std::set<std::string>* displaced) {
+  if (name.empty()) return;
+  ParameterDescription& chosen = named(model, name);
+  for (ParameterDescription& parameter : model->parameters) {
+    if (parameter.role != role || parameter.name == name) continue;
+    parameter.role = ParameterRole::kOther;
+    displaced->insert(parameter.name);
+  }
+  chosen.role = role;
+  displaced->erase(name);
+}
+
+void fix(ModelDescription* model, const std::string& name, double value, std::set<std::string>* displaced) {
+  ParameterDescription& parameter = named(model, name);
+  if (parameter.role == ParameterRole::kRoughness || parameter.role == ParameterRole::kSpecular)
+    throw Error(ErrorKind::kUsage, model->name + ": " + name + " is fixed, but is the " +
+                                       std::string(role_word(parameter.role)) +
+                                       " of this remap; expected another parameter");
+  require_value(*model, parameter, value);
+  parameter.role = ParameterRole::kOther;
+  parameter.standard = value;
+  displaced->erase(name);
+}
+
+// Canonical widths of the roughness, whose parameter or convention may be another now.
+void measure_widths(ModelDescription* model) {
+  const ParameterDescription& roughness = model->parameter(ParameterRole::kRoughness);
+  const remap::Range alphas = canonical_widths(model->roughness, roughness.range);
+  if (!(alphas.min >= 0.0) || !(alphas.max > 0.0))
+    throw Error(ErrorKind::kUsage, model->name + ": the range of " + roughness.name +
+                                       " is none of widths as " +
+                                       std::string(remap::convention_name(model->roughness)) +
+                                       "; expected another convention, " + roughness.name + ":CONVENTION");
+  model->alpha = alphas;
+}
+
+}  // namespace
+
+void cast_roughness(const std::string& text, ParameterRoles* roles) {
+  const std::size_t colon = text.find(':');
+  roles->roughness = text.substr(0, colon);
+  if (colon == std::string::npos) return;
+  const std::string word = text.substr(colon + 1);
+  roles->convention = remap::convention_from_name(word);
+  if (!roles->convention)
+    throw Error(ErrorKind::kUsage, text + ": " + word + " is no convention" +
+                                       remap::suggestion(word, remap::convention_names()));
+}
+
+ParameterRoles recorded_roles(const std::string& roughness, const std::string& specular,
+                              const std::string& fixed) {
+  ParameterRoles roles;
+  roles.roughness = roughness;
+  roles.specular = specular;
+  std::string_view left = fixed;
+  while (!left.empty()) {
+    const std::string_view setting = left.substr(0, left.find(','));
+    left.remove_prefix(std::min(left.size(), setting.size() + 1));
+    const std::size_t equals = setting.find('=');
+    const auto value =
+        equals == std::string_view::npos ? std::nullopt : remap::parse_number(setting.substr(equals + 1));
+    if (!value)
+      throw Error(ErrorKind::kInput, "fixed parameters: \"" + fixed + "\"; expected NAME=VALUE,NAME=VALUE");
+    roles.fixed[std::string(setting.substr(0, equals))] = *value;
+  }
+  return roles;
+}
+
+ModelDescription recast(const ModelDescription& model, const ParameterRoles& roles) {
+  ModelDescription result = model;
+  std::set<std::string> displaced;
+  give_role(&result, ParameterRole::kRoughness, roles.roughness, &displaced);
+  give_role(&result, ParameterRole::kSpecular, roles.specular, &displaced);
+  give_role(&result, ParameterRole::kDiffuse, roles.diffuse, &displaced);
+  if (roles.convention) result.roughness = *roles.convention;
+  for (const auto& [name, value] : roles.fixed) fix(&result, name, value, &displaced);
+  if (!displaced.empty())
+    throw Error(ErrorKind::kUsage, model.name + ": " + *displaced.begin() +
+                                       " has lost its role and has no value; expected it fixed, " +
+                                       *displaced.begin() + "=VALUE");
+  for (const ParameterRole role : {ParameterRole::kRoughness, ParameterRole::kSpecular})
+    if (model.has(role)) result.parameter(role);  // throws where another role has taken the parameter
+  if (!roles.roughness.empty() || roles.convention) measure_widths(&result);
+  return result;
+}
+
+std::string fixed_text(const ModelDescription& model) {
+  std::string text;
+  for (const ParameterDescription& parameter : model.parameters)
+    if (parameter.role == ParameterRole::kOther)
+      text += (text.empty() ? "" : ",") + parameter.name + "=" + remap::number_text(parameter.standard);
+  return text;
+}
+
+}  // namespace remapc

@@ -1,0 +1,341 @@
+// The built-in renderer: the hub's models on the sweep scene, in double precision, without any approximation
+// but the sampling of the pixel.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <numbers>
+
+#include "remap/error.hpp"
+#include "remap/version.hpp"
+#include "renderer/brdf.hpp"
+#include "renderer/fresnel.hpp"
+#include "renderer/renderer.hpp"
+#include "renderer/shape.hpp"
+#include "text/nearest_name.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+using remap::Range;
+using remap::RoughnessConvention;
+
+// What the parameters beside width and diffuse mean, and which reflectance they give the lobe.
+enum class Reflectance {
+  kScale,         // `specular`, 0 to 1
+  kTrimmedScale,  // `specular`, 0 to 2, trimmed to 1 so that energy is conserved
+  kSchlick,       // `f0`, with Schlick's Fresnel
+  kSchlickIor,    // `ior`: Schlick's Fresnel with F0 from equation (1) of the paper
+  kDielectric,    // `ior`: exact Fresnel of a dielectric
+  kConductor,     // `eta`, `k`: exact Fresnel of a conductor
+  kMetallic,  // `base_color`, `metallic`, `specular`: diffuse and Schlick's F0 by equation (2) of the paper
+};
+
+struct BuiltinModel {
+  const char* name;
+  Brdf brdf;
+  Reflectance reflectance;
+  RoughnessConvention roughness = RoughnessConvention::kAlpha;
+};
+
+// Names as in the hub; `-plain` scales the microfacet lobe by a constant reflectance instead of Schlick's F0.
+constexpr std::array kModels = {
+    BuiltinModel{"mitsuba/ward", Brdf::kWard, Reflectance::kScale},
+    BuiltinModel{"mitsuba/ward-duer", Brdf::kWardDuer, Reflectance::kScale},
+    BuiltinModel{"mitsuba/ward-balanced", Brdf::kWardBalanced, Reflectance::kScale},
+    BuiltinModel{"mitsuba/ward-conserving", Brdf::kWard, Reflectance::kTrimmedScale},
+    BuiltinModel{"mitsuba/phong", Brdf::kPhong, Reflectance::kScale, RoughnessConvention::kExponent},
+    BuiltinModel{"mitsuba/beckmann", Brdf::kBeckmann, Reflectance::kSchlick},
+    BuiltinModel{"mitsuba/ggx", Brdf::kGgx, Reflectance::kSchlick},
+    BuiltinModel{"mitsuba/as", Brdf::kAs, Reflectance::kSchlick},
+    BuiltinModel{"mitsuba/beckmann-plain", Brdf::kBeckmann, Reflectance::kScale},
+    BuiltinModel{"mitsuba/ggx-plain", Brdf::kGgx, Reflectance::kScale},
+    BuiltinModel{"mitsuba/as-plain", Brdf::kAs, Reflectance::kScale},
+    BuiltinModel{"mitsuba/beckmann-ior", Brdf::kBeckmann, Reflectance::kSchlickIor},
+    BuiltinModel{"mitsuba/ggx-ior", Brdf::kGgx, Reflectance::kSchlickIor},
+    BuiltinModel{"mitsuba/as-ior", Brdf::kAs, Reflectance::kSchlickIor},
+    BuiltinModel{"mitsuba/beckmann-dielectric", Brdf::kBeckmann, Reflectance::kDielectric},
+    BuiltinModel{"mitsuba/ggx-dielectric", Brdf::kGgx, Reflectance::kDielectric},
+    BuiltinModel{"mitsuba/as-dielectric", Brdf::kAs, Reflectance::kDielectric},
+    BuiltinModel{"mitsuba/beckmann-conductor", Brdf::kBeckmann, Reflectance::kConductor},
+    BuiltinModel{"mitsuba/ggx-conductor", Brdf::kGgx, Reflectance::kConductor},
+    BuiltinModel{"mitsuba/as-conductor", Brdf::kAs, Reflectance::kConductor},
+    BuiltinModel{"mitsuba/beckmann-metallic", Brdf::kBeckmann, Reflectance::kMetallic,
+                 RoughnessConvention::kRoughness},
+    BuiltinModel{"mitsuba/ggx-metallic", Brdf::kGgx, Reflectance::kMetallic, RoughnessConvention::kRoughness},
+    BuiltinModel{"mitsuba/as-metallic", Brdf::kAs, Reflectance::kMetallic, RoughnessConvention::kRoughness},
+};
+
+// Widths below 1e-4 are mirrors that no picture of the sweep resolves.
+constexpr Range kAlphaRange{1e-4, 1.0};
+// Of dielectrics, from none to germanium's in the infrared; of conductors, what measurements in visible light
+// have, the 0 of values projected into a color space included.
+constexpr Range kIorRange{1.0, 4.0};
+constexpr Range kEtaRange{0.0, 12.0};
+constexpr Range kExtinctionRange{0.0, 20.0};
+// F0 of a dielectric at `specular` 1 (Burley 2012): 0.5 is 4 %, the index 1.5; 0.375 is the paper's 3 %.
+constexpr double kDielectricF0 = 0.08;
+
+std::vector<ParameterDescription> specular_parameters(Reflectance reflectance) {
+  switch (reflectance) {
+    case Reflectance::kScale:
+      return {{"specular", ParameterRole::kSpecular, {0.0, 1.0}}};
+    case Reflectance::kTrimmedScale:
+      return {{"specular", ParameterRole::kSpecular, {0.0, 2.0}}};
+    case Reflectance::kSchlick:
+      return {{"f0", ParameterRole::kSpecular, {0.0, 1.0}}};
+    case Reflectance::kSchlickIor:
+    case Reflectance::kDielectric:
+      return {{"ior", ParameterRole::kSpecular, kIorRange}};
+    case Reflectance::kConductor:
+      return {{"eta", ParameterRole::kIndex, kEtaRange}, {"k", ParameterRole::kExtinction, kExtinctionRange}};
+    case Reflectance::kMetallic:
+      return {{"base_color", ParameterRole::kSpecular, {0.0, 1.0}},
+              {"metallic", ParameterRole::kOther, {0.0, 1.0}, 1.0, true},
+              {"specular", ParameterRole::kOther, {0.0, 1.0}, 0.5, true}};
+  }
+  return {};
+}
+
+ModelDescription describe(const BuiltinModel& model) {
+  const double bound_a = remap::from_alpha(model.roughness, kAlphaRange.min);
+  const double bound_b = remap::from_alpha(model.roughness, kAlphaRange.max);
+  ModelDescription description{model.name,
+                               model.roughness,
+                               kAlphaRange,
+                               {{std::string(remap::convention_name(model.roughness)),
+                                 ParameterRole::kRoughness,
+                                 {std::min(bound_a, bound_b), std::max(bound_a, bound_b)}}}};
+  for (ParameterDescription& parameter : specular_parameters(model.reflectance))
+    description.parameters.push_back(std::move(parameter));
+  if (model.reflectance != Reflectance::kMetallic)
+    description.parameters.push_back({"diffuse", ParameterRole::kDiffuse, {0.0, 1.0}});
+  return description;
+}
+
+// None where the name is unknown.
+const BuiltinModel* find_builtin(const std::string& name) {
+  const auto model = std::find_if(kModels.begin(), kModels.end(),
+                                  [&](const BuiltinModel& candidate) { return name == candidate.name; });
+  return model == kModels.end() ? nullptr : &*model;
+}
+
+// One lit sample of the picture: its pixel, its directions, and cos_light / distance^2 over the samples a
+// pixel.
+struct LitSample {
+  std::uint32_t pixel;
+  LocalGeometry geometry;
+  double irradiance;
+};
+
+std::vector<LitSample> lit_samples(const Scene& scene) {
+  const double angle = scene.light.angle * std::numbers::pi / 180.0;
+  const double light_x = scene.light.distance * std::sin(angle),
+               light_z = scene.light.distance * std::cos(angle);
+  const double step = 1.0 / scene.samples_per_axis;
+  std::vector<LitSample> samples;
+  for (int row = 0; row < scene.resolution * scene.samples_per_axis; ++row) {
+    for (int column = 0; column < scene.resolution * scene.samples_per_axis; ++column) {
+      SurfaceHit hit;
+      if (!shape_point(scene.shape, scene.resolution, (column + 0.5) * step, (row + 0.5) * step, &hit))
+        continue;
+      const SurfacePoint &p = hit.position, &n = hit.normal;
+      double lx = light_x - p.x, ly = -p.y, lz = light_z - p.z;
+      const double light_distance = std::sqrt(lx * lx + ly * ly + lz * lz);
+      lx /= light_distance, ly /= light_distance, lz /= light_distance;
+      double vx = -p.x, vy = -p.y, vz = kCameraDistance - p.z;
+      const double view_distance = std::sqrt(vx * vx + vy * vy + vz * vz);
+      vx /= view_distance, vy /= view_distance, vz /= view_distance;
+      const double cos_light = lx * n.x + ly * n.y + lz * n.z;
+      const double cos_view = vx * n.x + vy * n.y + vz * n.z;
+      if (cos_light <= 0.0 || cos_view <= 0.0) continue;
+      if (is_shadowed(scene.shape, hit, {light_x, 0.0, light_z})) continue;
+      const double cos_between = lx * vx + ly * vy + lz * vz;
+      const double half_length_2 = 2.0 + 2.0 * cos_between;
+      const double half_length = std::sqrt(half_length_2);
+      const int pixel = row / scene.samples_per_axis * scene.resolution + column / scene.samples_per_axis;
+      samples.push_back({static_cast<std::uint32_t>(pixel),
+                         {cos_light, cos_view, std::min(1.0, (cos_light + cos_view) / half_length),
+                          std::min(1.0, 0.5 * half_length), half_length_2,
+                          std::min(1.0, 2.0 * cos_light * cos_view - cos_between)},
+                         cos_light / (light_distance * light_distance) * step * step});
+    }
+  }
+  return samples;
+}
+
+class BuiltinRenderer final : public Renderer {
+ public:
+  std::string version() const override { return std::string("remapc ") + remap::kVersion; }
+
+  std::vector<ModelDescription> models() const override {
+    std::vector<ModelDescription> descriptions;
+    for (const BuiltinModel& model : kModels) descriptions.push_back(describe(model));
+    return descriptions;
+  }
+
+  Image render(const Material& material, const Scene& scene) const override;
+
+ private:
+  // Directions depend on the scene alone; a sweep takes hundreds of pictures of a few scenes.
+  std::shared_ptr<const std::vector<LitSample>> samples_of(const Scene& scene) const;
+
+  mutable std::mutex mutex_;
+  mutable std::map<std::string, std::shared_ptr<const std::vector<LitSample>>> samples_;
+};
+
+void require_scene(const Scene& scene) {
+  if (scene.resolution < 1 || scene.resolution > 16384)
+    throw Error(ErrorKind::kUsage,
+                "resolution: " + std::to_string(scene.resolution) + "; expected 1 to 16384");
+  if (scene.samples_per_axis < 1 || scene.samples_per_axis > 64)
+    throw Error(ErrorKind::kUsage,
+                "samples in a pixel: " + std::to_string(scene.samples_per_axis) + "; expected 1 to 64");
+  if (!(scene.light.distance > 1.0))
+    throw Error(ErrorKind::kUsage, "light distance: " + remap::number_text(scene.light.distance) +
+                                       "; expected more than 1, the radius of the sphere");
+}
+
+std::shared_ptr<const std::vector<LitSample>> BuiltinRenderer::samples_of(const Scene& scene) const {
+  const std::string key = std::to_string(scene.resolution) + "/" + std::to_string(scene.samples_per_axis) +
+                          "/" + light_name(scene.light) + "/" + shape_name(scene.shape);
+  const std::lock_guard lock(mutex_);
+  auto& samples = samples_[key];
+  if (!samples) samples = std::make_shared<const std::vector<LitSample>>(lit_samples(scene));
+  return samples;
+}
+
+// The parameters of one color channel.
+struct Channel {
+  double specular = 0.0;  // scale, F0, or the index of a dielectric
+  double eta = 0.0, k = 0.0;
+  double diffuse = 0.0;
+  double metallic = 0.0, level = 0.0;  // of kMetallic, whose base color stands in `specular`
+};
+
+// Base color, metallic and specular level as diffuse and F0 (Sztrajman et al. 2019, equation 2).
+Channel layered(const Channel& metal) {
+  Channel channel = metal;
+  channel.diffuse = metal.specular * (1.0 - metal.metallic);
+  channel.specular = kDielectricF0 * metal.level * (1.0 - metal.metallic) + metal.specular * metal.metallic;
+  return channel;
+}
+
+double channel_value(const std::vector<double>& values, std::size_t channel) {
+  return values[values.size() == 1 ? 0 : channel];
+}
+
+// Values of the material for each channel; one channel where all are grey.
+std::vector<Channel> channels_of(const Material& material, const ModelDescription& description,
+                                 Reflectance reflectance) {
+  std::vector<Channel> channels(1);
+  const auto fill = [&](const ParameterDescription& parameter, double Channel::*value) {
+    const std::vector<double>& values = material.parameters.at(parameter.name);
+    if (values.size() > channels.size()) channels.resize(values.size(), channels.front());
+    for (std::size_t c = 0; c < channels.size(); ++c) channels[c].*value = channel_value(values, c);
+  };
+  for (const ParameterDescription& parameter : description.parameters) {
+    if (parameter.role == ParameterRole::kSpecular) fill(parameter, &Channel::specular);
+    if (parameter.role == ParameterRole::kIndex) fill(parameter, &Channel::eta);
+    if (parameter.role == ParameterRole::kExtinction) fill(parameter, &Channel::k);
+    if (parameter.role == ParameterRole::kDiffuse) fill(parameter, &Channel::diffuse);
+    if (parameter.name == "metallic") fill(parameter, &Channel::metallic);
+    if (parameter.name == "specular" && parameter.role == ParameterRole::kOther)
+      fill(parameter, &Channel::level);
+  }
+  for (Channel& channel : channels) {
+    if (reflectance == Reflectance::kTrimmedScale) channel.specular = std::min(channel.specular, 1.0);
+    if (reflectance == Reflectance::kSchlickIor) channel.specular = normal_reflectance(channel.specular);
+    if (reflectance == Reflectance::kMetallic) channel = layered(channel);
+  }
+  return channels;
+}
+
+// A lobe of mirror white, `shape`, with the reflectance of one channel. Schlick's weight is that of the
+// geometry.
+double specular_reflectance(Reflectance reflectance, double shape, double schlick, const Channel& channel,
+                            double cos_light_half) {
+  switch (reflectance) {
+    case Reflectance::kScale:
+    case Reflectance::kTrimmedScale:
+      return channel.specular * shape;
+    case Reflectance::kSchlick:
+    case Reflectance::kSchlickIor:
+    case Reflectance::kMetallic:
+      return shape * schlick + channel.specular * (shape * (1.0 - schlick));
+    case Reflectance::kDielectric:
+      return shape * fresnel_dielectric(cos_light_half, channel.specular).mean();
+    case Reflectance::kConductor:
+      return shape * fresnel_conductor(cos_light_half, channel.eta, channel.k).mean();
+  }
+  return 0.0;
+}
+
+Image BuiltinRenderer::render(const Material& material, const Scene& scene) const {
+  require_scene(scene);
+  const ModelDescription description = find_model(*this, material.model);
+  require_material(material, description);
+  const BuiltinModel* model = find_builtin(material.model);
+  const std::string& roughness = description.parameter(ParameterRole::kRoughness).name;
+  const double alpha = remap::to_alpha(model->roughness, material.parameters.at(roughness).front());
+
+  const std::vector<Channel> channels = channels_of(material, description, model->reflectance);
+  const auto side = static_cast<std::size_t>(scene.resolution);
+  std::vector<double> radiance(side * side * channels.size(), 0.0);
+  const auto samples = samples_of(scene);
+  for (const LitSample& sample : *samples) {
+    const double shape = evaluate_shape(model->brdf, alpha, sample.geometry);
+    const double cosine = sample.geometry.cos_light_half, schlick = schlick_weight(cosine);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const double reflectance =
+          specular_reflectance(model->reflectance, shape, schlick, channels[c], cosine) +
+          channels[c].diffuse * std::numbers::inv_pi;
+      radiance[sample.pixel * channels.size() + c] += reflectance * sample.irradiance;
+    }
+  }
+  Image image{scene.resolution, scene.resolution, static_cast<int>(channels.size()), {}};
+  image.values.assign(radiance.begin(), radiance.end());
+  return image;
+}
+
+}  // namespace
+
+BrdfModel builtin_brdf(const std::string& name) {
+  find_model(BuiltinRenderer(), name);
+  const BuiltinModel* model = find_builtin(name);
+  if (model->reflectance == Reflectance::kScale) return {model->brdf, Fresnel::kNone};
+  if (model->reflectance == Reflectance::kSchlick) return {model->brdf, Fresnel::kSchlick};
+  throw Error(ErrorKind::kUsage, name +
+                                     ": is given by an index of refraction or trimmed; expected a model of a "
+                                     "plain scale or F0");
+}
+
+MapModel builtin_map_model(const std::string& name) {
+  find_model(BuiltinRenderer(), name);
+  const BuiltinModel* model = find_builtin(name);
+  switch (model->reflectance) {
+    case Reflectance::kScale:
+    case Reflectance::kTrimmedScale:
+      return {{model->brdf, Fresnel::kNone}, false};
+    case Reflectance::kSchlick:
+    case Reflectance::kSchlickIor:
+    case Reflectance::kMetallic:
+      return {{model->brdf, Fresnel::kSchlick}, false};
+    case Reflectance::kDielectric:
+      return {{model->brdf, Fresnel::kNone}, true};
+    case Reflectance::kConductor:
+      break;
+  }
+  throw Error(ErrorKind::kUsage, name +
+                                     ": is a conductor, whose index maps of F0 do not tell; expected a "
+                                     "model of a scale, of F0 or of a dielectric");
+}
+
+std::unique_ptr<Renderer> make_builtin_renderer() { return std::make_unique<BuiltinRenderer>(); }
+
+}  // namespace remapc

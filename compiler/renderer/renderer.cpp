@@ -1,0 +1,139 @@
+#include "renderer/renderer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "remap/error.hpp"
+#include "text/nearest_name.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+
+namespace {
+
+const char* role_name(ParameterRole role) {
+  switch (role) {
+    case ParameterRole::kRoughness:
+      return "roughness";
+    case ParameterRole::kSpecular:
+      return "specular";
+    case ParameterRole::kDiffuse:
+      return "diffuse";
+    case ParameterRole::kIndex:
+      return "index of refraction";
+    case ParameterRole::kExtinction:
+      return "extinction";
+    case ParameterRole::kOther:
+      return "anything else";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string_view role_word(ParameterRole role) {
+  if (role == ParameterRole::kIndex) return "index";
+  if (role == ParameterRole::kOther) return "other";
+  return role_name(role);
+}
+
+bool ModelDescription::has(ParameterRole role) const {
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [&](const ParameterDescription& description) { return description.role == role; });
+}
+
+const ParameterDescription& ModelDescription::parameter(ParameterRole role) const {
+  for (const ParameterDescription& description : parameters)
+    if (description.role == role) return description;
+  throw remap::Error(remap::ErrorKind::kUsage, name + ": has no parameter for " + role_name(role) +
+                                                   "; expected a model with one (remapc list --models)");
+}
+
+const ParameterDescription& ModelDescription::parameter(const std::string& parameter_name) const {
+  std::vector<std::string> names;
+  for (const ParameterDescription& description : parameters) {
+    if (description.name == parameter_name) return description;
+    names.push_back(description.name);
+  }
+  throw remap::Error(remap::ErrorKind::kUsage, name + ": has no parameter " + parameter_name +
+                                                   remap::suggestion(parameter_name, names));
+}
+
+std::string Renderer::version_of(const std::string&) const { return version(); }
+
+ModelDescription Renderer::model(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const ModelDescription& model : models()) {
+    if (model.name == name) return model;
+    names.push_back(model.name);
+  }
+  throw remap::Error(remap::ErrorKind::kUsage,
+                     name + ": is no model of " + version() + remap::suggestion(name, names));
+}
+
+void require_value(const ModelDescription& model, const ParameterDescription& parameter, double value) {
+  if (parameter.range.contains(value)) return;
+  throw remap::Error(remap::ErrorKind::kUsage, model.name + ": " + parameter.name + " = " +
+                                                   remap::number_text(value) + "; expected " +
+                                                   remap::number_text(parameter.range.min) + " to " +
+                                                   remap::number_text(parameter.range.max));
+}
+
+void require_material(const Material& material, const ModelDescription& model) {
+  const auto fail = [&](const std::string& what) {
+    throw remap::Error(remap::ErrorKind::kUsage, model.name + ": " + what);
+  };
+  std::vector<std::string> names;
+  for (const ParameterDescription& parameter : model.parameters) names.push_back(parameter.name);
+  for (const auto& entry : material.parameters)
+    if (std::find(names.begin(), names.end(), entry.first) == names.end())
+      fail("has no parameter " + entry.first + remap::suggestion(entry.first, names));
+  for (const ParameterDescription& parameter : model.parameters) {
+    const auto found = material.parameters.find(parameter.name);
+    if (found == material.parameters.end()) fail("parameter " + parameter.name + " is missing");
+    const std::vector<double>& values = found->second;
+    const bool is_one = parameter.grey || parameter.role == ParameterRole::kRoughness;
+    if (values.size() != 1 && (is_one || values.size() != 3))
+      fail("parameter " + parameter.name + " has " + std::to_string(values.size()) + " values; expected " +
+           (is_one ? "1" : "1 or 3"));
+    for (const double value : values) require_value(model, parameter, value);
+  }
+}
+
+ModelDescription find_model(const Renderer& renderer, const std::string& name) {
+  return renderer.model(name);
+}
+
+namespace {
+
+// A width in the model's own parameter. The end of a range, there and back through alpha, may be an ulp off.
+double own_width(const ModelDescription& model, double alpha) {
+  const remap::Range range = model.parameter(ParameterRole::kRoughness).range;
+  const double own = remap::from_alpha(model.roughness, alpha);
+  const double held = std::clamp(own, range.min, range.max);
+  return std::fabs(own - held) <= 1e-12 * std::fabs(held) ? held : own;
+}
+
+}  // namespace
+
+Material grey_material(const ModelDescription& model, double alpha, double specular, double diffuse) {
+  Material material{model.name,
+                    {{model.parameter(ParameterRole::kRoughness).name, {own_width(model, alpha)}},
+                     {model.parameter(ParameterRole::kSpecular).name, {specular}}}};
+  for (const ParameterDescription& parameter : model.parameters) {
+    if (parameter.role == ParameterRole::kDiffuse) material.parameters[parameter.name] = {diffuse};
+    if (parameter.role == ParameterRole::kOther) material.parameters[parameter.name] = {parameter.standard};
+  }
+  return material;
+}
+
+remap::Range canonical_widths(remap::RoughnessConvention convention, const remap::Range& own) {
+  const double a = remap::to_alpha(convention, own.min), b = remap::to_alpha(convention, own.max);
+  return {std::min(a, b), std::max(a, b)};
+}
+
+remap::ModelSide model_side(const ModelDescription& model) {
+  return {model.name, model.roughness, model.parameter(ParameterRole::kSpecular).name};
+}
+
+}  // namespace remapc

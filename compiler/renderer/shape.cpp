@@ -1,0 +1,108 @@
+#include "renderer/shape.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "remap/error.hpp"
+#include "text/nearest_name.hpp"
+
+namespace remapc {
+namespace {
+
+// A march along a ray by distances to the torus ends as a hit here, and as a miss after so many steps: rays
+// that graze it take the longest.
+constexpr double kHitDistance = 1e-10;
+constexpr int kMostSteps = 500;
+// Shadow rays start this far above the surface, in units of the sphere's radius.
+constexpr double kShadowOffset = 1e-6;
+
+const double kSine = std::sin(kTorusTilt * std::numbers::pi / 180.0);
+const double kCosine = std::cos(kTorusTilt * std::numbers::pi / 180.0);
+
+double length(const SurfacePoint& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+SurfacePoint along(const SurfacePoint& origin, const SurfacePoint& direction, double t) {
+  return {origin.x + t * direction.x, origin.y + t * direction.y, origin.z + t * direction.z};
+}
+
+SurfacePoint normalised(const SurfacePoint& v) {
+  const double scale = 1.0 / length(v);
+  return {v.x * scale, v.y * scale, v.z * scale};
+}
+
+// The nearest point of the circle in the middle of the tube.
+SurfacePoint tube_middle(const SurfacePoint& p) {
+  const double height = p.y * kSine + p.z * kCosine;  // along the axis
+  const SurfacePoint flat = {p.x, p.y - height * kSine, p.z - height * kCosine};
+  const double radius = std::max(length(flat), 1e-12);
+  return along({0.0, 0.0, 0.0}, flat, kTorusRadius / radius);
+}
+
+double torus_distance(const SurfacePoint& p) {
+  const SurfacePoint middle = tube_middle(p);
+  return length({p.x - middle.x, p.y - middle.y, p.z - middle.z}) - kTubeRadius;
+}
+
+// Sphere tracing (Hart 1996): steps of the exact distance never pass the surface. Negative where the ray
+// misses up to `end`.
+double march(const SurfacePoint& origin, const SurfacePoint& direction, double start, double end) {
+  double t = start;
+  for (int step = 0; step < kMostSteps && t < end; ++step) {
+    const double distance = torus_distance(along(origin, direction, t));
+    if (distance < kHitDistance) return t;
+    t += distance;
+  }
+  return -1.0;
+}
+
+bool torus_point(int resolution, double column, double row, SurfaceHit* hit) {
+  const SurfacePoint camera = {0.0, 0.0, kCameraDistance};
+  const SurfacePoint direction = normalised(camera_ray(resolution, column, row));
+  const double t = march(camera, direction, kCameraDistance - 1.0, kCameraDistance + 1.0);
+  if (t < 0.0) return false;
+  hit->position = along(camera, direction, t);
+  const SurfacePoint middle = tube_middle(hit->position);
+  hit->normal =
+      normalised({hit->position.x - middle.x, hit->position.y - middle.y, hit->position.z - middle.z});
+  return true;
+}
+
+}  // namespace
+
+std::string shape_name(Shape shape) { return shape == Shape::kSphere ? "sphere" : "torus"; }
+
+Shape shape_from_name(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Shape shape : kShapes) {
+    if (shape_name(shape) == name) return shape;
+    names.push_back(shape_name(shape));
+  }
+  throw remap::Error(remap::ErrorKind::kUsage,
+                     "shape: " + name + " is none" + remap::suggestion(name, names));
+}
+
+bool shape_point(Shape shape, int resolution, double column, double row, SurfaceHit* hit) {
+  if (shape == Shape::kTorus) return torus_point(resolution, column, row, hit);
+  if (!sphere_point(resolution, column, row, &hit->position)) return false;
+  hit->normal = hit->position;
+  return true;
+}
+
+bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light) {
+  if (shape == Shape::kSphere) return false;
+  const SurfacePoint origin = along(hit.position, hit.normal, kShadowOffset);
+  const SurfacePoint way = {light.x - origin.x, light.y - origin.y, light.z - origin.z};
+  return march(origin, normalised(way), 0.0, length(way)) >= 0.0;
+}
+
+std::vector<std::uint32_t> shape_pixels(Shape shape, int resolution) {
+  std::vector<std::uint32_t> pixels;
+  SurfaceHit hit{};
+  for (int row = 0; row < resolution; ++row)
+    for (int column = 0; column < resolution; ++column)
+      if (shape_point(shape, resolution, column + 0.5, row + 0.5, &hit))
+        pixels.push_back(static_cast<std::uint32_t>(row * resolution + column));
+  return pixels;
+}
+
+}  // namespace remapc

@@ -1,0 +1,223 @@
+#include "report/fit_plot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "fit/fit_table.hpp"
+#include "fit/rows/folds.hpp"
+#include "fit/rows/split.hpp"
+#include "model/interpreter.hpp"
+#include "remap/error.hpp"
+#include "report/gnuplot.hpp"
+#include "system/files.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+using remap::Fit;
+using remap::number_text;
+
+constexpr std::size_t kMostRows = 2000;
+constexpr int kCurvePoints = 200;
+constexpr std::size_t kCurves = 5;  // alphas whose specular is drawn
+// Colors that differ for color-blind eyes too (Okabe and Ito 2008).
+constexpr std::array<const char*, 6> kColors = {"#0072B2", "#D55E00", "#009E73",
+                                                "#CC79A7", "#E69F00", "#56B4E9"};
+
+// A name inside a double-quoted string of gnuplot, without its markup.
+std::string quoted(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') escaped += '\\';
+    if (c == '\n') continue;
+    escaped += c;
+  }
+  return '"' + escaped + '"';
+}
+
+// The least error that is drawn: below it rounding is all that is left.
+constexpr double kLeastError = 1e-8;
+
+std::string shown_error(double error) { return number_text(std::max(std::fabs(error), kLeastError)); }
+
+// `count` of the values, from the least to the largest, evenly by position.
+std::vector<double> spread(const std::set<double>& values, std::size_t count) {
+  const std::vector<double> sorted(values.begin(), values.end());
+  std::vector<double> chosen;
+  for (std::size_t i = 0; i < std::min(count, sorted.size()); ++i)
+    chosen.push_back(sorted[count >= sorted.size() ? i : i * (sorted.size() - 1) / (count - 1)]);
+  return chosen;
+}
+
+class Plot {
+ public:
+  Plot(const Table& table, const std::vector<Fit>& fits) : fits_(fits), fit_(fits.front()) {
+    rows_ = draw_rows(usable_rows(table), kMostRows, 1);
+    for (const TableRow& row : rows_) {
+      alphas_.insert(row.alpha1);
+      speculars_.insert(row.specular1);
+    }
+  }
+
+  std::string script() {
+    write_data();
+    out_ << "set terminal svg size 1280,1040 enhanced font 'Helvetica,13' background rgb 'white'\n"
+         << "set multiplot layout 2,2 margins 0.07,0.98,0.16,0.92 spacing 0.08,0.11 title "
+         << quoted(fit_.source.model + " to " + fit_.target.model + ", " + std::to_string(rows_.size()) +
+                   " rows of " + fit_.table.name)
+         << " noenhanced font ',16'\n"
+         << "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
+         << "set tics textcolor rgb 'black'\nset key font ',11' noenhanced\n";
+    alpha_panel();
+    specular_panel();
+    residual_panel("alpha", 2);
+    residual_panel(fit_.target.specular, 3);
+    out_ << "unset multiplot\n";
+    return out_.str();
+  }
+
+ private:
+  void write_data() {
+    out_ << "$rows << EOD\n";
+    for (const TableRow& row : rows_)
+      out_ << number_text(row.alpha1) << ' ' << number_text(row.specular1) << ' ' << number_text(row.alpha2)
+           << ' ' << number_text(row.specular2) << '\n';
+    out_ << "EOD\n";
+    const double middle = *std::next(speculars_.begin(), static_cast<std::ptrdiff_t>(speculars_.size() / 2));
+    shown_ = spread(alphas_, kCurves);
+    for (std::size_t f = 0; f < fits_.size(); ++f) {
+      write_residuals(f);
+      write_alpha_curve(f, middle);
+      write_specular_curves(f);
+    }
+    out_ << "$shown << EOD\n";
+    for (const TableRow& row : rows_)
+      if (std::find(shown_.begin(), shown_.end(), row.alpha1) != shown_.end())
+        out_ << number_text(row.specular1) << ' ' << number_text(row.specular2) << '\n';
+    out_ << "EOD\n";
+  }
+
+  void write_residuals(std::size_t f) {
+    out_ << "$residuals" << f << " << EOD\n";
+    for (const TableRow& row : rows_) {
+      const remap::MappedTexel texel = remap::evaluate_mapping(fits_[f].mapping, row.alpha1, row.specular1);
+      out_ << number_text(row.alpha1) << ' ' << shown_error(texel.alpha - row.alpha2) << ' '
+           << shown_error(texel.specular - row.specular2) << '\n';
+    }
+    out_ << "EOD\n";
+  }
+
+  void write_alpha_curve(std::size_t f, double specular) {
+    out_ << "$alpha" << f << " << EOD\n";
+    const remap::Range& range = fit_.domain.alpha;
+    for (int i = 0; i <= kCurvePoints; ++i) {
+      const double alpha = range.min + (range.max - range.min) * i / kCurvePoints;
+      out_ << number_text(alpha) << ' '
+           << number_text(remap::evaluate_mapping(fits_[f].mapping, alpha, specular).alpha) << '\n';
+    }
+    out_ << "EOD\n";
+  }
+
+  // A blank line ends the curve of one alpha.
+  void write_specular_curves(std::size_t f) {
+    out_ << "$specular" << f << " << EOD\n";
+    for (const double alpha : shown_) {
+      for (int i = 0; i <= kCurvePoints / 4; ++i) {
+        const double specular = fit_.domain.specular.max * i / (kCurvePoints / 4);
+        out_ << number_text(specular) << ' '
+             << number_text(remap::evaluate_mapping(fits_[f].mapping, alpha, specular).specular) << '\n';
+      }
+      out_ << '\n';
+    }
+    out_ << "EOD\n";
+  }
+
+  void axes(const std::string& title, const std::string& x, const std::string& y) {
+    out_ << "set title " << quoted(title) << " noenhanced\nset xlabel " << quoted(x)
+         << " noenhanced\nset ylabel " << quoted(y) << " noenhanced\n";
+  }
+
+  // The first line is the widest, so that lines on top of each other can all be seen; the rows come last.
+  void plot_curves(const std::string& block, const std::string& rows) {
+    // At least so high: gnuplot wants a range where all is 0.
+    out_ << "set yrange [0:1e-3<*]\nset key left top Left reverse\nplot ";
+    for (std::size_t f = 0; f < fits_.size(); ++f)
+      out_ << "$" << block << f << " using 1:2 with lines linewidth "
+           << 1.2 + 1.8 * static_cast<double>(fits_.size() - 1 - f) << " linecolor rgb '" << kColors[f]
+           << "' title " << quoted(fit_label(fits_[f])) << ", ";
+    out_ << rows << " with points pointtype 7 pointsize 0.25 linecolor rgb 'black' title 'rows'\n"
+         << "unset yrange\n";
+  }
+
+  void alpha_panel() {
+    axes("Target alpha; curves at the middle " + fit_.source.specular, "alpha of " + fit_.source.model,
+         "alpha of " + fit_.target.model);
+    plot_curves("alpha", "$rows using 1:3");
+  }
+
+  void specular_panel() {
+    std::string alphas;
+    for (const double alpha : shown_)
+      alphas += (alphas.empty() ? "" : ", ") + number_text(std::round(alpha * 1000.0) / 1000.0);
+    axes("Target " + fit_.target.specular + " at alpha " + alphas,
+         fit_.source.specular + " of " + fit_.source.model,
+         fit_.target.specular + " of " + fit_.target.model);
+    plot_curves("specular", "$shown using 1:2");
+  }
+
+  // Logarithmic: the errors of the kinds differ by powers of ten.
+  void residual_panel(const std::string& output, int column) {
+    axes("Error of each fit in " + output, "alpha of " + fit_.source.model, "|fit - row|, " + output);
+    out_ << "set logscale y\nset yrange [*:1e-6<*]\nset format y '10^{%T}'\n"
+         << "set key at graph 0.5,-0.17 center top Left reverse maxcols 1\nplot ";
+    for (std::size_t f = 0; f < fits_.size(); ++f) {
+      const RowErrors errors = row_errors(fits_[f], rows_);
+      const double rms = column == 2 ? errors.alpha.rms : errors.specular.rms;
+      out_ << (f == 0 ? "" : ", ") << "$residuals" << f << " using 1:" << column
+           << " with points pointtype 7 pointsize 0.3 linecolor rgb '" << kColors[f] << "' title "
+           << quoted(fit_label(fits_[f]) + ", rms " + error_text(rms));
+    }
+    out_
+        << "\nunset logscale y\nunset yrange\nset format y\nset key default\nset key font ',11' noenhanced\n";
+  }
+
+  const std::vector<Fit>& fits_;
+  const Fit& fit_;  // any of them: models, table and domain are the same
+  std::vector<TableRow> rows_;
+  std::set<double> alphas_, speculars_;
+  std::vector<double> shown_;  // alphas of the second panel
+  std::ostringstream out_;
+};
+
+}  // namespace
+
+void require_plot(const std::filesystem::path& path) {
+  if (path.extension() != ".svg")
+    throw Error(ErrorKind::kUsage, "plot: " + path.string() + "; expected a file name that ends with .svg");
+  require_gnuplot();
+  remap::create_parent(path);
+}
+
+void write_plot(const std::filesystem::path& path, const Table& table, const std::vector<Fit>& fits) {
+  const std::vector<Fit> drawn(
+      fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(std::min(fits.size(), kColors.size())));
+  const std::string picture = run_gnuplot(Plot(table, drawn).script());
+  // gnuplot does not notice that a disk is full.
+  if (picture.find("</svg>") == std::string::npos)
+    throw Error(ErrorKind::kOutput,
+                "plot: gnuplot's picture is incomplete; is there room for temporary files?");
+  remap::write_file(path, picture);
+}
+
+std::string fit_label(const Fit& fit) {
+  const auto form = fit.method.find("form");
+  return kind_name(fit.mapping) + (form == fit.method.end() ? "" : " " + form->second);
+}
+
+}  // namespace remapc

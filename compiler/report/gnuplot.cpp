@@ -1,0 +1,111 @@
+#include "report/gnuplot.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+#include "remap/error.hpp"
+#include "system/files.hpp"
+
+extern char** environ;
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+// A folder for script and output that goes away with the object.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "remapc-plot-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw Error(ErrorKind::kOutput, name + ": cannot be made: " + std::strerror(errno));
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::string file(const char* name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+struct FileActions {
+  posix_spawn_file_actions_t value;
+  FileActions() { posix_spawn_file_actions_init(&value); }
+  ~FileActions() { posix_spawn_file_actions_destroy(&value); }
+  FileActions(const FileActions&) = delete;
+  FileActions& operator=(const FileActions&) = delete;
+  void open(int descriptor, const std::string& path, int flags) {
+    posix_spawn_file_actions_addopen(&value, descriptor, path.c_str(), flags, 0600);
+  }
+};
+
+// Exit code of `gnuplot argument`, -1 where a signal ended it.
+int run(std::string argument, const std::string& output, const std::string& complaints) {
+  FileActions actions;
+  actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
+  actions.open(STDOUT_FILENO, output, O_WRONLY | O_CREAT | O_TRUNC);
+  actions.open(STDERR_FILENO, complaints, O_WRONLY | O_CREAT | O_TRUNC);
+  std::string program = "gnuplot";
+  std::vector<char*> arguments = {program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  const int failure =
+      posix_spawnp(&child, program.c_str(), &actions.value, nullptr, arguments.data(), environ);
+  if (failure != 0)
+    throw Error(ErrorKind::kOutput,
+                "plot: gnuplot cannot be started: " + std::string(std::strerror(failure)) +
+                    "; Debian has it in the package gnuplot-nox");
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// The first line of gnuplot's message that says something: it begins with a picture of the place.
+std::string complaint(const std::string& text) {
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    if (line.find("line ") != std::string::npos || line.find("rror") != std::string::npos) return line;
+    begin = end + 1;
+  }
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+void require_gnuplot() {
+  const ScratchFolder folder;
+  const int code = run("--version", folder.file("output"), folder.file("complaints"));
+  if (code != 0)
+    throw Error(ErrorKind::kOutput, "plot: gnuplot --version failed (" + std::to_string(code) +
+                                        "); Debian has it in the package gnuplot-nox");
+}
+
+std::string run_gnuplot(const std::string& script) {
+  const ScratchFolder folder;
+  remap::write_file(folder.file("script"), script);
+  const int code = run(folder.file("script"), folder.file("output"), folder.file("complaints"));
+  const std::string complaints = remap::read_file(folder.file("complaints"));
+  // What gnuplot says beside a code of 0 is a warning.
+  if (code != 0)
+    throw Error(ErrorKind::kOutput,
+                "plot: gnuplot failed (" + std::to_string(code) + "): " + complaint(complaints));
+  return remap::read_file(folder.file("output"));
+}
+
+}  // namespace remapc

@@ -1,0 +1,19 @@
+// remap-study: measures what the converters are worth, under environments, between workflows and for measured
+// materials, and reproduces figures of the papers.
+#include <CLI/CLI.hpp>
+
+#include "command_line/run_app.hpp"
+#include "remap/version.hpp"
+#include "study/commands/studies.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app("Studies of the converters: each writes tables, plots and a summary in words.", "remap-study");
+  app.set_version_flag("--version", std::string("remap-study ") + remap::kVersion);
+  app.require_subcommand(1);
+  remapc::add_environments_study(app);
+  remapc::add_workflows_study(app);
+  remapc::add_conductors_study(app);
+  remapc::add_dielectrics_study(app);
+  remapc::add_warp_study(app);
+  return remap::run_app(app, argc, argv);
+}

@@ -1,0 +1,287 @@
+#include "sweep/material_sample.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <mutex>
+#include <random>
+
+#include "match/joint_match.hpp"
+#include "match/target_bank.hpp"
+#include "probe/family_probe.hpp"
+#include "probe/picture_taker.hpp"
+#include "remap/error.hpp"
+#include "remap/version.hpp"
+#include "sweep/provenance.hpp"
+#include "system/parallel.hpp"
+#include "table/domain.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+using remap::number_text;
+using remap::Range;
+
+constexpr int kSampleDigits = 9, kMatchDigits = 9, kErrorDigits = 6;
+constexpr std::array kChannelSuffixes = {"_r", "_g", "_b"};
+
+// A parameter of the source that varies.
+struct Varied {
+  ParameterDescription parameter;
+  Range range;
+  bool color;
+};
+
+std::vector<std::string> columns_of(const std::string& name, bool color, char side) {
+  if (!color) return {name + side};
+  std::vector<std::string> columns;
+  for (const char* suffix : kChannelSuffixes) columns.push_back(name + suffix + side);
+  return columns;
+}
+
+// The whole range of a parameter, or the part of it that the options ask for.
+Range range_of(const MaterialSampleOptions& options, const ModelDescription& model,
+               const ParameterDescription& parameter) {
+  const Range whole = parameter.range;
+  if (const auto given = options.ranges.find(parameter.name); given != options.ranges.end()) {
+    if (whole.contains(given->second.min) && whole.contains(given->second.max)) return given->second;
+    throw Error(ErrorKind::kUsage, model.name + ": " + parameter.name + " " + range_text(given->second) +
+                                       "; expected a range within " + range_text(whole));
+  }
+  if (parameter.role != ParameterRole::kRoughness) return whole;
+  const double narrow =
+      remap::from_alpha(model.roughness, std::clamp(kLeastRandomAlpha, model.alpha.min, model.alpha.max));
+  const double wide = remap::from_alpha(model.roughness, model.alpha.max);
+  return {std::max(whole.min, std::min(narrow, wide)), std::min(whole.max, std::max(narrow, wide))};
+}
+
+// Throws for a name that the model has not, or whose parameter has a role already.
+void require_roleless(const ModelDescription& model, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (const ParameterRole role = model.parameter(name).role; role != ParameterRole::kOther)
+      throw Error(ErrorKind::kUsage, model.name + ": " + name + " is the " + std::string(role_word(role)) +
+                                         ", which varies anyway; expected a parameter of no role");
+}
+
+std::vector<Varied> varied_of(const MaterialSampleOptions& options, const ModelDescription& source) {
+  require_roleless(source, options.varied);
+  std::vector<Varied> all;
+  for (const ParameterDescription& parameter : source.parameters) {
+    const bool named =
+        std::find(options.varied.begin(), options.varied.end(), parameter.name) != options.varied.end();
+    if (parameter.role == ParameterRole::kOther && !named) continue;
+    const bool one = options.grey || parameter.grey || parameter.role == ParameterRole::kRoughness;
+    all.push_back({parameter, range_of(options, source, parameter), !one});
+  }
+  for (const auto& given : options.ranges)
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const Varied& varied) { return varied.parameter.name == given.first; }))
+      throw Error(ErrorKind::kUsage, source.name + ": " + given.first +
+                                         " has a range but does not vary; expected one that does");
+  return all;
+}
+
+// Columns of the source for every sample. std::uniform_real_distribution is not the same in every standard
+// library.
+std::vector<std::vector<double>> draw(const MaterialSampleOptions& options,
+                                      const std::vector<Varied>& varied) {
+  std::mt19937_64 generator(options.seed);
+  std::vector<std::vector<double>> samples(options.count);
+  for (std::vector<double>& sample : samples)
+    for (const Varied& parameter : varied)
+      for (int c = 0; c < (parameter.color ? 3 : 1); ++c) {
+        const double share = static_cast<double>(generator() >> 11) * 0x1p-53;
+        const Range& range = parameter.range;
+        sample.push_back(remap::rounded(range.min + share * (range.max - range.min), kSampleDigits));
+      }
+  return samples;
+}
+
+// What all samples share.
+struct Matching {
+  const MaterialSampleOptions& options;
+  const PictureTaker& picture_taker;
+  ModelDescription source;
+  std::vector<Varied> varied;
+  ProbedModel target;
+  double irradiance_scale = 1.0;
+  std::unique_ptr<TargetBank> bank;  // of a target that has a family, and to which diffuse adds
+  std::unique_ptr<TargetPictures> pictures;
+
+  bool color(const Coordinate& coordinate) const { return !options.grey && !coordinate.shared; }
+};
+
+Material material_of(const Matching& matching, const std::vector<double>& sample) {
+  Material material{matching.source.name, {}};
+  for (const ParameterDescription& parameter : matching.source.parameters)
+    if (parameter.role == ParameterRole::kOther) material.parameters[parameter.name] = {parameter.standard};
+  auto value = sample.begin();
+  for (const Varied& varied : matching.varied) {
+    const std::ptrdiff_t count = varied.color ? 3 : 1;
+    material.parameters[varied.parameter.name].assign(value, value + count);
+    value += count;
+  }
+  return material;
+}
+
+double source_alpha(const Matching& matching, const Material& material) {
+  const std::string& name = matching.source.parameter(ParameterRole::kRoughness).name;
+  return remap::to_alpha(matching.source.roughness, material.parameters.at(name).front());
+}
+
+// The name of a coordinate in the target's words, and a canonical value in its unit.
+std::string target_name(const Matching& matching, std::size_t coordinate) {
+  const ModelDescription& model = matching.target.model;
+  if (coordinate == kAlphaCoordinate) return model.parameter(ParameterRole::kRoughness).name;
+  if (coordinate == kSpecularCoordinate) return model.parameter(ParameterRole::kSpecular).name;
+  if (coordinate == kDiffuseCoordinate)
+    return model.has(ParameterRole::kDiffuse) ? model.parameter(ParameterRole::kDiffuse).name : "";
+  return matching.pictures->coordinates()[coordinate].name;
+}
+
+double target_value(const Matching& matching, std::size_t coordinate, double canonical) {
+  if (coordinate == kAlphaCoordinate) return remap::from_alpha(matching.target.model.roughness, canonical);
+  if (coordinate == kSpecularCoordinate) return matching.target.response.own(canonical);
+  return canonical;
+}
+
+std::vector<double> target_values(const Matching& matching, const std::vector<RoleValues>& points) {
+  std::vector<double> values;
+  const auto& coordinates = matching.pictures->coordinates();
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    if (target_name(matching, i).empty()) continue;
+    for (std::size_t c = 0; c < (matching.color(coordinates[i]) ? 3u : 1u); ++c) {
+      const double canonical = matching.pictures->value(points[std::min(c, points.size() - 1)], i);
+      values.push_back(remap::rounded(target_value(matching, i, canonical), kMatchDigits));
+    }
+  }
+  return values;
+}
+
+NamedRow matched_row(const Matching& matching, const std::vector<double>& sample) {
+  const Material material = material_of(matching, sample);
+  std::vector<JointChannel> channels;
+  float brightest = 0.0f;
+  for (std::vector<float>& picture : matching.picture_taker.take_channels(material)) {
+    for (float& value : picture) value = static_cast<float>(value * matching.irradiance_scale);
+    brightest = std::max(brightest, *std::max_element(picture.begin(), picture.end()));
+    auto weights = matching.picture_taker.weights(picture);
+    channels.push_back({std::move(picture), std::move(weights)});
+  }
+  const std::size_t channel_count = channels.size();
+  const JointMatcher matcher(*matching.pictures, std::move(channels), {true, true});
+  if (!(brightest > 0.0f)) {
+    const RoleValues least = matcher.point_of({0.0, 0.0, 0.0});
+    return {sample, target_values(matching, std::vector<RoleValues>(channel_count, least)), 0.0,
+            RowStatus::kFlat, 0};
+  }
+  std::vector<RoleValues> guesses = {matcher.point_of(kFixedGuess)};
+  guesses.front().alpha = source_alpha(matching, material);
+  for (const RoleValues& shares : JointMatcher::other_guesses()) guesses.push_back(matcher.point_of(shares));
+  const JointMatch match = matcher.best_match(guesses);
+  return {sample, target_values(matching, match.points), remap::rounded(match.error, kErrorDigits),
+          match.status, 0};
+}
+
+Matching make_matching(const MaterialSampleOptions& options, const PictureTaker& picture_taker,
+                       const ModelDescription& source, const ModelDescription& target) {
+  std::vector<Varied> varied = varied_of(options, source);  // throws: not within the aggregate (make_setup)
+  Matching matching{options, picture_taker, source, std::move(varied), {}, 1.0, nullptr, nullptr};
+  require_roleless(target, options.searched);
+  const Range own = range_of(options, source, source.parameter(ParameterRole::kRoughness));
+  const double narrowest = std::max({target.alpha.min, canonical_widths(source.roughness, own).min, 1e-4});
+  const Range searched = searched_widths(target, narrowest);
+  matching.target = {target, probe_specular(picture_taker, target, {narrowest, target.alpha.max})};
+  if (options.match_irradiance && light_matched(source, target))
+    matching.irradiance_scale = 1.0 / match_diffuse(picture_taker, source, target).scale;
+  if (!matching.target.response.affine() && options.searched.empty())
+    matching.target.curve = probe_family(picture_taker, target, {narrowest, target.alpha.max});
+  const bool adds = !target.has(ParameterRole::kDiffuse) ||
+                    probe_diffuse(picture_taker, target, {narrowest, target.alpha.max});
+  if (matching.target.family() && adds && options.searched.empty()) {
+    matching.bank = std::make_unique<TargetBank>(picture_taker, matching.target, searched, kBankRatio);
+    matching.pictures = std::make_unique<BankPictures>(picture_taker, matching.target, *matching.bank);
+  } else {
+    matching.pictures =
+        std::make_unique<RenderedPictures>(picture_taker, matching.target, searched, options.searched);
+  }
+  return matching;
+}
+
+std::string ranges_text(const std::vector<Varied>& varied) {
+  std::string text;
+  for (const Varied& parameter : varied)
+    text += (text.empty() ? "" : ", ") + parameter.parameter.name + " " + range_text(parameter.range);
+  return text;
+}
+
+MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matching) {
+  const MaterialSampleOptions& options = matching.options;
+  MaterialTable table;
+  auto& comments = table.comments;
+  comments = {{"tool", std::string("remapc ") + remap::kVersion},
+              {"source", matching.source.name},
+              {"source_roughness", std::string(remap::convention_name(matching.source.roughness))}};
+  ProbedModel target = matching.target;  // without what is matched: the rest is fixed
+  std::erase_if(target.model.parameters, [&](const ParameterDescription& parameter) {
+    return std::find(options.searched.begin(), options.searched.end(), parameter.name) !=
+           options.searched.end();
+  });
+  add_noise("source", renderer, options.source, &comments);
+  add_side("target", target, &comments);
+  add_noise("target", renderer, options.target, &comments);
+  add_comparison(renderer, options, &comments);
+  comments.emplace_back("irradiance_scale", number_text(matching.irradiance_scale));
+  add_resolution(options, &comments);
+  comments.emplace_back(
+      "samples", std::to_string(options.count) + " random, uniform in " + ranges_text(matching.varied));
+  comments.emplace_back("seed", std::to_string(options.seed));
+  ModelDescription source = matching.source;  // without what varies
+  std::erase_if(source.parameters, [&](const ParameterDescription& parameter) {
+    return std::any_of(matching.varied.begin(), matching.varied.end(),
+                       [&](const Varied& v) { return v.parameter.name == parameter.name; });
+  });
+  if (const std::string fixed = fixed_text(source); !fixed.empty())
+    comments.emplace_back("source_fixed", fixed);
+  const auto add = [](std::vector<std::string>* all, const std::vector<std::string>& more) {
+    all->insert(all->end(), more.begin(), more.end());
+  };
+  for (const Varied& varied : matching.varied)
+    add(&table.source_columns, columns_of(varied.parameter.name, varied.color, '1'));
+  const auto& coordinates = matching.pictures->coordinates();
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    if (const std::string name = target_name(matching, i); !name.empty())
+      add(&table.target_columns, columns_of(name, matching.color(coordinates[i]), '2'));
+  return table;
+}
+
+}  // namespace
+
+MaterialTable run_material_sample(const Renderer& any_renderer, const MaterialSampleOptions& options,
+                                  const SweepExecution& execution) {
+  const SteadyRenderer renderer(any_renderer, {options.source, options.target},
+                                options.objective.lights.front());
+  const ModelDescription source = recast(find_model(renderer, options.source), options.source_roles);
+  const ModelDescription target = recast(find_model(renderer, options.target), options.target_roles);
+  if (options.count == 0) throw Error(ErrorKind::kUsage, "samples: 0; expected at least 1");
+  const PictureTaker picture_taker(renderer, options.objective, options.resolution, options.samples_per_axis);
+  const Matching matching = make_matching(options, picture_taker, source, target);
+  const std::vector<std::vector<double>> samples = draw(options, matching.varied);
+  MaterialTable table = empty_table(renderer, matching);
+  table.rows.resize(samples.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  remap::run_parallel(samples.size(), execution.jobs, [&](std::size_t i) {
+    if (execution.cancelled != nullptr && *execution.cancelled)
+      throw Error(ErrorKind::kInterrupted, "sweep: interrupted; nothing was written");
+    table.rows[i] = matched_row(matching, samples[i]);
+    const std::lock_guard lock(mutex);
+    if (execution.progress) execution.progress(++done, samples.size());
+  });
+  return table;
+}
+
+}  // namespace remapc

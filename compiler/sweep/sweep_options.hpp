@@ -1,0 +1,48 @@
+// What a sweep computes, and how it is carried out.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "probe/objective.hpp"
+#include "probe/parameter_roles.hpp"
+#include "probe/probe.hpp"
+#include "renderer/renderer.hpp"
+
+namespace remapc {
+
+struct SamplePoint {
+  double alpha = 0.0;
+  double specular = 0.0;  // canonical (probe.hpp)
+};
+
+// Two models, and how their pictures are compared.
+struct PairOptions {
+  std::string source;
+  std::string target;
+  ParameterRoles source_roles, target_roles;
+  Objective objective;
+  std::string objective_name;  // preset, or `custom` where parts of it were changed
+  int resolution = 512;
+  int samples_per_axis = 1;
+  bool match_irradiance = true;
+};
+
+// What a sweep computes. Every field is recorded in the table's comments.
+struct SweepOptions : PairOptions {
+  std::string sampling;              // how the samples were chosen, in words
+  std::vector<SamplePoint> samples;  // in the order of the table; specular canonical
+  int stages = 2;                    // 1, 2 or 3 (section 3.1)
+  double diffuse = 0.0;              // of the source, for every sample
+};
+
+// How a sweep is carried out. Nothing of it changes the table.
+struct SweepExecution {
+  unsigned jobs = 0;                                                // 0: one a core
+  std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
+  const std::atomic<bool>* cancelled = nullptr;                     // stops between rows; throws kInterrupted
+};
+
+}  // namespace remapc

@@ -1,0 +1,91 @@
+#include "table/material_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "remap/error.hpp"
+#include "table/csv.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+std::vector<std::string> split_names(const std::string& text) {
+  std::vector<std::string> names;
+  for (const CsvCell& cell : split_csv_line(text, ',')) names.emplace_back(cell.text);
+  return names;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  return text;
+}
+
+std::size_t place_of(const Csv& csv, const std::string& column) {
+  for (std::size_t i = 0; i < csv.header.cells.size(); ++i)
+    if (csv.header.cells[i].text == column) return i;
+  csv.fail(csv.header.number, 1, "has no column " + column + ", which the comments name");
+}
+
+std::vector<std::size_t> places_of(const Csv& csv, const std::vector<std::string>& columns) {
+  std::vector<std::size_t> places;
+  for (const std::string& column : columns) places.push_back(place_of(csv, column));
+  return places;
+}
+
+}  // namespace
+
+bool is_material_table(std::string_view text, const std::string& name) {
+  return !parse_csv(text, name).comment(kSourceColumnsComment).empty();
+}
+
+MaterialTable parse_material_table(std::string_view text, const std::string& name) {
+  const Csv csv = parse_csv(text, name);
+  MaterialTable table;
+  table.name = name;
+  for (const auto& comment : csv.comments)
+    if (comment.first != kSourceColumnsComment && comment.first != kTargetColumnsComment)
+      table.comments.push_back(comment);
+  for (const char* key : {kSourceColumnsComment, kTargetColumnsComment})
+    if (csv.comment(key).empty())
+      csv.fail(csv.header.number, 1,
+               std::string("has no comment ") + key + "; expected the names of columns");
+  table.source_columns = split_names(csv.comment(kSourceColumnsComment));
+  table.target_columns = split_names(csv.comment(kTargetColumnsComment));
+  const auto sources = places_of(csv, table.source_columns), targets = places_of(csv, table.target_columns);
+  const std::size_t error = place_of(csv, "error"), status = place_of(csv, "status");
+  for (const CsvLine& line : csv.lines) {
+    NamedRow row;
+    const auto number = [&](std::size_t place) {
+      return csv.number(line, line.cells[place], std::string(csv.header.cells[place].text));
+    };
+    for (const std::size_t place : sources) row.source.push_back(number(place));
+    for (const std::size_t place : targets) row.target.push_back(number(place));
+    row.error = number(error);
+    row.status = read_status(csv, line, line.cells[status]);
+    row.line = line.number;
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string material_table_text(const MaterialTable& table) {
+  const std::string sources = joined(table.source_columns), targets = joined(table.target_columns);
+  std::string text;
+  for (const auto& [key, value] : table.comments) text += "# " + key + ": " + value + "\n";
+  text += std::string("# ") + kSourceColumnsComment + ": " + sources + "\n";
+  text += std::string("# ") + kTargetColumnsComment + ": " + targets + "\n";
+  text += sources + "," + targets + ",error,status\n";
+  for (const NamedRow& row : table.rows) {
+    for (const std::vector<double>* values : {&row.source, &row.target})
+      for (const double value : *values) text += number_text(value) + ",";
+    text += number_text(row.error) + "," + std::string(status_name(row.status)) + "\n";
+  }
+  return text;
+}
+
+}  // namespace remapc

@@ -1,0 +1,64 @@
+// Measured BRDFs of the MERL database (Matusik et al. 2003): three 32-bit counts (90 half angles, 90
+// difference angles, 180 azimuths), then as many 64-bit values of red, of green and of blue, all little
+// endian.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <numbers>
+
+#include "remap/error.hpp"
+#include "warp/input/tabulated_set.hpp"
+#include "warp/space/quadrature.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+using std::numbers::pi;
+
+static_assert(std::endian::native == std::endian::little, "values are read as they are stored");
+
+constexpr std::array<std::int32_t, 3> kCounts = {90, 90, 180};
+constexpr std::size_t kCells = 90 * 90 * 180;
+constexpr std::array<double, 3> kScales = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
+
+std::size_t cell(double share, std::int32_t count) {
+  return static_cast<std::size_t>(std::clamp(static_cast<std::int32_t>(share * count), 0, count - 1));
+}
+
+// Half angles are even in their square root.
+std::size_t cell_of(const QuadratureDirection& direction) {
+  const std::size_t half = cell(std::sqrt(direction.half_angle / (pi / 2.0)), kCounts[0]),
+                    difference = cell(direction.difference_angle / (pi / 2.0), kCounts[1]),
+                    azimuth = cell(direction.azimuth / pi, kCounts[2]);
+  return (half * 90 + difference) * 180 + azimuth;
+}
+
+}  // namespace
+
+std::vector<float> read_merl(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::array<std::int32_t, 3> counts{};
+  stream.read(reinterpret_cast<char*>(counts.data()), sizeof counts);
+  std::vector<double> values(3 * kCells);
+  if (stream && counts == kCounts)
+    stream.read(reinterpret_cast<char*>(values.data()),
+                static_cast<std::streamsize>(values.size() * sizeof(double)));
+  if (!stream || counts != kCounts)
+    throw Error(
+        ErrorKind::kInput,
+        file.string() + ": is no BRDF of the MERL database; expected 90 x 90 x 180 cells of three channels");
+  std::vector<float> samples;
+  for (std::size_t c = 0; c < kScales.size(); ++c)
+    for (const QuadratureDirection& direction : half_vector_quadrature()) {
+      const double value = kScales[c] * values[c * kCells + cell_of(direction)];
+      samples.push_back(value > 0.0 && std::isfinite(value) ? static_cast<float>(value) : 0.0f);
+    }
+  return samples;
+}
+
+}  // namespace remapc

@@ -1,0 +1,303 @@
+#include "warp/input/stroke_colors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "remap/error.hpp"
+#include "text/report_text.hpp"
+#include "warp/input/stroke_image.hpp"
+
+namespace remapc {
+namespace {
+
+namespace fs = std::filesystem;
+using remap::Error;
+using remap::ErrorKind;
+
+using Color = std::uint32_t;  // 0xRRGGBB
+constexpr Color kTransparent = Color{1} << 24;
+
+constexpr double kColorRadius = 40.0;    // within which colors are one
+constexpr double kPairRadius = 48.0;     // within which colors of two images are
+constexpr double kShadeRadius = 80.0;    // of the background, where JPEG bleeds into it
+constexpr double kBlendRadius = 60.0;    // of a blend, from the line between the two
+constexpr double kMostBlends = 0.4;      // of the texels: thin strokes have long rims
+constexpr double kLeastShare = 2e-5;     // of the texels
+constexpr std::size_t kLeastTexels = 8;  // of a color
+constexpr std::size_t kMostColors = 33;  // with the background
+constexpr std::size_t kMostCandidates = 128;
+
+using Point = std::array<double, 3>;
+Point point_of(Color color) {
+  return {static_cast<double>(color >> 16 & 255), static_cast<double>(color >> 8 & 255),
+          static_cast<double>(color & 255)};
+}
+
+double distance(Color a, Color b) {
+  const Point p = point_of(a), q = point_of(b);
+  return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+}
+
+// Of `color` to the segment between the others.
+double distance_to_blends(Color color, Color a, Color b) {
+  const Point p = point_of(color), q = point_of(a), r = point_of(b);
+  double along = 0.0, length = 0.0, square = 0.0;
+  for (std::size_t c = 0; c < p.size(); ++c) {
+    along += (p[c] - q[c]) * (r[c] - q[c]);
+    length += (r[c] - q[c]) * (r[c] - q[c]);
+  }
+  const double t = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
+  for (std::size_t c = 0; c < p.size(); ++c) square += std::pow(p[c] - q[c] - t * (r[c] - q[c]), 2.0);
+  return std::sqrt(square);
+}
+
+std::string text_of(Color color) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "#%06x", color & 0xffffffu);
+  return text.data();
+}
+
+// Texels of an image as colors of 8 bits.
+struct Painting {
+  fs::path path;
+  std::size_t width = 0;
+  std::vector<Color> texels;  // kTransparent where alpha is below a half
+};
+
+Painting read_painting(const fs::path& path, const MapFrame& material) {
+  Painting painting{path, material.width, std::vector<Color>(material.width * material.height, 0)};
+  std::vector<char> is_transparent(painting.texels.size(), 0);
+  unsigned colors = 0;
+  read_stroke_image(path, material, [&](const std::vector<float>& values, bool is_alpha) {
+    if (!is_alpha && ++colors > 3) return;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const float value = values[i] > 0.0f ? std::min(values[i], 1.0f) : 0.0f;  // NaN is black
+      if (is_alpha)
+        is_transparent[i] = value < 0.5f ? 1 : 0;
+      else
+        painting.texels[i] |= static_cast<Color>(value * 255.0f + 0.5f) << (8 * (3 - colors));
+    }
+  });
+  for (std::size_t i = 0; i < painting.texels.size(); ++i) {
+    if (colors < 3) painting.texels[i] = (painting.texels[i] >> 16) * 0x010101u;  // grey
+    if (is_transparent[i] != 0) painting.texels[i] = kTransparent;
+  }
+  return painting;
+}
+
+// Colors that are one.
+struct Cluster {
+  Color color = 0;  // the most frequent of them
+  std::size_t texels = 0;
+};
+
+struct Frequency {
+  Color color = 0;
+  std::size_t texels = 0;
+};
+
+// Those of the image, the most frequent first.
+std::vector<Frequency> frequencies(const Painting& painting) {
+  std::vector<std::uint32_t> counts(kTransparent + 1, 0);
+  for (const Color color : painting.texels) ++counts[color];
+  std::vector<Frequency> found;
+  for (Color color = 0; color < kTransparent; ++color)
+    if (counts[color] > 0) found.push_back({color, counts[color]});
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Frequency& a, const Frequency& b) { return a.texels > b.texels; });
+  return found;
+}
+
+// Each around the most frequent color that none before has taken; the largest first.
+std::vector<Cluster> clusters_of(const std::vector<Frequency>& colors, std::size_t least_texels) {
+  std::vector<char> taken(colors.size(), 0);
+  std::vector<Cluster> clusters;
+  for (std::size_t i = 0, candidates = 0; i < colors.size() && candidates < kMostCandidates; ++i) {
+    if (taken[i] != 0) continue;
+    ++candidates;
+    Cluster cluster{colors[i].color, 0};
+    for (std::size_t k = i; k < colors.size(); ++k) {
+      if (taken[k] != 0 || distance(colors[k].color, cluster.color) > kColorRadius) continue;
+      taken[k] = 1;
+      cluster.texels += colors[k].texels;
+    }
+    if (cluster.texels >= least_texels) clusters.push_back(cluster);
+  }
+  std::stable_sort(clusters.begin(), clusters.end(),
+                   [](const Cluster& a, const Cluster& b) { return a.texels > b.texels; });
+  return clusters;
+}
+
+constexpr std::uint8_t kNoCluster = 255;
+
+// For each texel the index of the nearest cluster, or none.
+std::vector<std::uint8_t> labels_of(const Painting& painting, const std::vector<Frequency>& colors,
+                                    const std::vector<Cluster>& clusters) {
+  std::vector<std::uint8_t> label_of_color(kTransparent + 1, kNoCluster);
+  for (const Frequency& entry : colors) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+      const double d = distance(entry.color, clusters[c].color);
+      if (d > kColorRadius || d >= nearest) continue;
+      nearest = d;
+      label_of_color[entry.color] = static_cast<std::uint8_t>(c);
+    }
+  }
+  std::vector<std::uint8_t> labels(painting.texels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = label_of_color[painting.texels[i]];
+  return labels;
+}
+
+// What stands around the texels of one cluster.
+struct Surroundings {
+  double count = 0.0;
+  double flat = 0.0;                                  // texels with three or more of their own beside them
+  double beside = 0.0;                                // with another stroke six texels away, or nearer
+  double at_rim = 0.0;                                // with a larger one there
+  double close = 0.0;                                 // with a larger one two texels away, or nearer
+  std::array<std::size_t, kNoCluster + 1> rims = {};  // how often which
+};
+
+// Looks in eight directions, as far as blurred rims of strokes reach.
+void look_around(const std::vector<std::uint8_t>& labels, std::size_t width, std::size_t texel,
+                 std::size_t first_stroke, Surroundings& found) {
+  const std::uint8_t own = labels[texel];
+  const auto columns = static_cast<std::ptrdiff_t>(width),
+             rows = static_cast<std::ptrdiff_t>(labels.size() / width);
+  const auto x = static_cast<std::ptrdiff_t>(texel) % columns,
+             y = static_cast<std::ptrdiff_t>(texel) / columns;
+  int alike = 0;
+  bool beside = false, close = false;
+  std::uint8_t larger = kNoCluster;
+  for (const std::ptrdiff_t reach : {1, 2, 4, 6})
+    for (std::ptrdiff_t direction = 0; direction < 9; ++direction) {
+      const std::ptrdiff_t u = x + reach * (direction % 3 - 1), v = y + reach * (direction / 3 - 1);
+      if (direction == 4 || u < 0 || v < 0 || u >= columns || v >= rows) continue;
+      const std::uint8_t other = labels[static_cast<std::size_t>(v * columns + u)];
+      if (other == own && reach == 1) ++alike;
+      if (other == own || other < first_stroke || other == kNoCluster) continue;
+      beside = true;
+      if (other > own) continue;
+      larger = std::min(larger, other);
+      close = close || reach <= 2;
+    }
+  found.count += 1.0;
+  found.flat += alike >= 3 ? 1.0 : 0.0;
+  found.beside += beside ? 1.0 : 0.0;
+  found.close += close ? 1.0 : 0.0;
+  if (larger == kNoCluster) return;
+  found.at_rim += 1.0;
+  ++found.rims[larger];
+}
+
+// Whether a cluster is but the rim of a larger stroke: thin, or a blend with the background, all along it; or
+// a shade of the background that shows beside strokes, as JPEG leaves it.
+bool is_rim(const std::vector<Cluster>& clusters, std::size_t index, const Surroundings& around,
+            std::size_t first_stroke) {
+  if (around.close > 0.75 * around.count && around.flat < 0.4 * around.count) return true;
+  if (first_stroke == 0) return false;
+  const Color color = clusters[index].color, background = clusters.front().color;
+  if (distance(color, background) < kShadeRadius && around.beside > 0.25 * around.count) return true;
+  if (around.at_rim < 0.75 * around.count) return false;
+  const auto most = std::max_element(around.rims.begin(), around.rims.end()) - around.rims.begin();
+  return distance_to_blends(color, background, clusters[static_cast<std::size_t>(most)].color) < kBlendRadius;
+}
+
+struct ColorStroke {
+  Color color = 0;
+  std::vector<std::uint32_t> texels;
+};
+
+[[noreturn]] void fail_not_flat(const Painting& painting, const std::string& what) {
+  throw Error(ErrorKind::kInput, painting.path.string() + ": " + what +
+                                     "; expected strokes of a few flat colors on black, white or "
+                                     "transparent (hard brush, no picture below)");
+}
+
+// Clusters without rims; `first_stroke` is the index of the first that is no background.
+std::vector<Cluster> without_rims(const std::vector<Cluster>& clusters, const Painting& painting,
+                                  const std::vector<std::uint8_t>& labels, std::size_t first_stroke) {
+  std::vector<Surroundings> around(clusters.size());
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (labels[i] != kNoCluster && labels[i] >= first_stroke)
+      look_around(labels, painting.width, i, first_stroke, around[labels[i]]);
+  std::vector<Cluster> kept;
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    if (c < first_stroke || !is_rim(clusters, c, around[c], first_stroke)) kept.push_back(clusters[c]);
+  return kept;
+}
+
+// In the order of their first texels.
+std::vector<ColorStroke> strokes_in(const Painting& painting, const MapFrame& material) {
+  const auto count = static_cast<double>(painting.texels.size());
+  const auto transparent =
+      static_cast<double>(std::count(painting.texels.begin(), painting.texels.end(), kTransparent));
+  const std::size_t first_stroke = transparent >= 0.01 * count ? 0 : 1;
+  const std::vector<Frequency> colors = frequencies(painting);
+  const std::size_t least = std::max(kLeastTexels, static_cast<std::size_t>(kLeastShare * count));
+  const std::vector<Cluster> all = clusters_of(colors, least);
+  const std::vector<Cluster> kept =
+      without_rims(all, painting, labels_of(painting, colors, all), first_stroke);
+  if (kept.size() > kMostColors) fail_not_flat(painting, "has more than 32 colors");
+  const std::vector<std::uint8_t> labels = labels_of(painting, colors, kept);
+  std::vector<ColorStroke> strokes(kept.size());
+  std::size_t marked = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == kNoCluster || labels[i] < first_stroke) continue;
+    strokes[labels[i]].texels.push_back(static_cast<std::uint32_t>(i));
+    ++marked;
+  }
+  const auto blends = static_cast<double>(std::count(labels.begin(), labels.end(), kNoCluster)) - transparent;
+  if (blends > kMostBlends * count)
+    fail_not_flat(painting, percent(blends / count) + " of it have none of its most frequent colors");
+  for (std::size_t c = 0; c < kept.size(); ++c) strokes[c].color = kept[c].color;
+  std::erase_if(strokes, [](const ColorStroke& stroke) { return stroke.texels.empty(); });
+  if (strokes.empty()) fail_not_flat(painting, "has no stroke: all of it is background");
+  require_background(painting.path, marked, material);
+  std::sort(strokes.begin(), strokes.end(),
+            [](const ColorStroke& a, const ColorStroke& b) { return a.texels.front() < b.texels.front(); });
+  return strokes;
+}
+
+// Index of the stroke whose color is nearest.
+std::size_t nearest_stroke(const std::vector<ColorStroke>& strokes, Color color) {
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k < strokes.size(); ++k)
+    if (distance(strokes[k].color, color) < distance(strokes[nearest].color, color)) nearest = k;
+  return nearest;
+}
+
+// Every stroke of `strokes` has its partner, in both directions, among `others`, or it is named.
+void require_partners(const std::vector<ColorStroke>& strokes, const fs::path& image,
+                      const std::vector<ColorStroke>& others, const fs::path& other_image) {
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    const ColorStroke& nearest = others[nearest_stroke(others, strokes[k].color)];
+    if (nearest_stroke(strokes, nearest.color) == k &&
+        distance(nearest.color, strokes[k].color) <= kPairRadius)
+      continue;
+    throw Error(ErrorKind::kInput, other_image.string() + ": has no stroke of " + text_of(strokes[k].color) +
+                                       ", which " + image.string() + " has; the nearest is " +
+                                       text_of(nearest.color) + "; expected every color in both images");
+  }
+}
+
+}  // namespace
+
+std::vector<StrokePair> read_color_strokes(const fs::path& source_image, const MapFrame& source,
+                                           const fs::path& template_image, const MapFrame& target) {
+  std::vector<ColorStroke> from = strokes_in(read_painting(source_image, source), source);
+  std::vector<ColorStroke> to = strokes_in(read_painting(template_image, target), target);
+  require_partners(from, source_image, to, template_image);
+  require_partners(to, template_image, from, source_image);
+  std::vector<StrokePair> strokes(from.size());
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    strokes[k].color = text_of(from[k].color);
+    strokes[k].source = std::move(from[k].texels);
+    strokes[k].target = std::move(to[nearest_stroke(to, from[k].color)].texels);
+  }
+  return strokes;
+}
+
+}  // namespace remapc

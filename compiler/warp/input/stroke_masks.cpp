@@ -1,0 +1,52 @@
+#include "warp/input/stroke_masks.hpp"
+
+#include <sstream>
+
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
+#include "warp/input/stroke_image.hpp"
+
+namespace remapc {
+using remap::Error;
+using remap::ErrorKind;
+
+std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MapFrame& material) {
+  std::vector<char> marked(material.width * material.height, 0);
+  read_stroke_image(mask, material, [&](const std::vector<float>& values, bool is_alpha) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!is_alpha && values[i] > 0.5f) marked[i] = 1;
+  });
+  std::vector<std::uint32_t> stroke;
+  for (std::uint32_t i = 0; i < marked.size(); ++i)
+    if (marked[i] != 0) stroke.push_back(i);
+  if (stroke.empty())
+    throw Error(ErrorKind::kInput, mask.string() + ": marks no texel; expected some above half of white");
+  require_background(mask, stroke.size(), material);
+  return stroke;
+}
+
+std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& material) {
+  const auto fail = [&] {
+    throw Error(ErrorKind::kUsage, "--box: is " + box + "; expected x0,y0,x1,y1 within " +
+                                       size_text(material.width, material.height) +
+                                       " texels, x0 below x1 and y0 "
+                                       "below y1");
+  };
+  std::vector<std::size_t> corner;
+  std::istringstream parts(box);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto number = remap::parse_number(part);
+    if (!number || *number < 0.0 || *number > 1e6) fail();
+    corner.push_back(static_cast<std::size_t>(*number));
+  }
+  if (corner.size() != 4 || corner[0] >= corner[2] || corner[1] >= corner[3] || corner[2] > material.width ||
+      corner[3] > material.height)
+    fail();
+  std::vector<std::uint32_t> stroke;
+  for (std::size_t y = corner[1]; y < corner[3]; ++y)
+    for (std::size_t x = corner[0]; x < corner[2]; ++x)
+      stroke.push_back(static_cast<std::uint32_t>(y * material.width + x));
+  return stroke;
+}
+
+}  // namespace remapc

@@ -1,0 +1,162 @@
+#include "warp/input/texture_material.hpp"
+
+#include "convert/material_converter.hpp"
+#include "discovery/discovery.hpp"
+#include "remap/error.hpp"
+#include "texture/convert_maps.hpp"
+#include "texture/texture_set.hpp"
+#include "warp/input/image_texels.hpp"
+
+namespace remapc {
+namespace {
+
+namespace fs = std::filesystem;
+using remap::Error;
+using remap::ErrorKind;
+using remap::Parameter;
+using remap::Role;
+
+bool is_diffuse(Role role) { return role == Role::kDiffuse; }
+bool is_base_color(Role role) { return role == Role::kBaseColor; }
+bool is_specular(Role role) { return role == Role::kSpecular; }
+bool is_metallic(Role role) { return role == Role::kMetallic; }
+
+// Whether a set has colors of the diffuse lobe, and nothing that tells of the other.
+bool is_albedo(const remap::FoundSet& set) {
+  const auto has = [&](bool (*wanted)(Role)) { return !remap::uses(set, wanted).empty(); };
+  return (has(is_diffuse) || has(is_base_color)) && !has(is_specular) && !has(is_metallic) &&
+         !has(remap::tells_width);
+}
+
+remap::FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
+  remap::DiscoveryOptions options;
+  options.recursive = false;
+  remap::Discovery found = find_sets(folder, options);
+  std::erase_if(found.sets, [&](const remap::FoundSet& set) {
+    return set.state == remap::SetState::kSkipped && (albedo == AlbedoAlone::kRefuse || !is_albedo(set));
+  });
+  if (found.sets.size() != 1)
+    throw Error(ErrorKind::kInput, folder.string() + ": has " + std::to_string(found.sets.size()) +
+                                       " texture sets that are known by their names; expected one, with maps "
+                                       "named diffuse, specular and roughness");
+  if (found.sets[0].state == remap::SetState::kFaulty)
+    throw Error(ErrorKind::kInput, found.sets[0].remarks.empty() ? folder.string() + ": is ambiguous"
+                                                                 : found.sets[0].remarks[0]);
+  return found.sets[0];
+}
+
+// Puts the first map whose role is wanted into the request; false where the set has none.
+bool add_map(const remap::FoundSet& set, const fs::path& root, Parameter parameter, bool (*wanted)(Role),
+             remap::TextureSetRequest& request) {
+  const std::vector<remap::MapUse> found = remap::uses(set, wanted);
+  if (found.empty()) return false;
+  const remap::MapUse& use = found.front();
+  request.parameters[parameter].source =
+      remap::MapName{root / map_of(set, use).path, remap::channel_names(use.channels)};
+  if (parameter == Parameter::kWidth)
+    request.convention = remap::convention_of(use.role).value_or(remap::RoughnessConvention::kRoughness);
+  return true;
+}
+
+struct MaterialRequest {
+  remap::TextureSetRequest maps;
+  bool from_metallic = false, is_albedo = false;
+};
+
+// What the set has: maps of the specular workflow, else of the metallic one, else of the diffuse lobe.
+MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
+  const remap::FoundSet set = only_set(folder, albedo);
+  MaterialRequest result;
+  remap::TextureSetRequest& request = result.maps;
+  const auto add = [&](Parameter parameter, bool (*wanted)(Role)) {
+    return add_map(set, folder, parameter, wanted, request);
+  };
+  if (is_albedo(set)) {
+    result.is_albedo = true;
+    if (!add(Parameter::kDiffuse, is_diffuse)) add(Parameter::kDiffuse, is_base_color);
+    request.parameters[Parameter::kSpecular].source = remap::ConstantValues{0.0f};
+    request.parameters[Parameter::kWidth].source = remap::ConstantValues{1.0f};
+    request.convention = remap::RoughnessConvention::kAlpha;
+    return result;
+  }
+  if (!add(Parameter::kWidth, remap::tells_width))
+    throw Error(ErrorKind::kInput, folder.string() + ": has no roughness map; expected one");
+  if (add(Parameter::kSpecular, is_specular)) {
+    if (add(Parameter::kDiffuse, is_diffuse) || add(Parameter::kDiffuse, is_base_color)) return result;
+    throw Error(ErrorKind::kInput, folder.string() + ": has no diffuse map; expected one beside specular");
+  }
+  result.from_metallic =
+      add(Parameter::kMetallic, is_metallic) &&
+      (add(Parameter::kBaseColor, is_base_color) || add(Parameter::kBaseColor, is_diffuse));
+  if (!result.from_metallic)
+    throw Error(ErrorKind::kInput, folder.string() +
+                                       ": has neither diffuse and specular nor base color and metallic maps; "
+                                       "expected either pair");
+  return result;
+}
+
+remap::SourceParameter source_of(const remap::SetParameter& parameter, const remap::TextureSet& set,
+                                 const std::vector<std::vector<std::byte>>& texels) {
+  remap::SourceParameter source;
+  source.constants = parameter.constants;
+  source.factors = parameter.factors;
+  source.transfer = parameter.transfer;
+  source.grey_tolerance = 1.0f;
+  for (const remap::ChannelPlace& place : parameter.channels) {
+    const remap::ImageLayout& layout = set.maps[place.map].layout();
+    const remap::Channel& channel = layout.channels[place.channel];
+    source.name = set.maps[place.map].path().string();
+    source.channel_names.push_back(channel.name);
+    source.channels.push_back({texels[place.map].data() + channel.offset, channel.type,
+                               static_cast<std::ptrdiff_t>(layout.texel_bytes),
+                               static_cast<std::ptrdiff_t>(layout.row_bytes())});
+  }
+  return source;
+}
+
+}  // namespace
+
+TextureMaterial read_texture_material(const fs::path& folder, const std::string& model, AlbedoAlone albedo) {
+  TextureMaterial result;
+  result.material.name = folder.string();
+  const MapModel map_model = builtin_map_model(model);
+  result.material.model = map_model.lobe;
+  result.material.is_dielectric = map_model.is_dielectric;
+  const MaterialRequest request = request_of(folder, albedo);
+  result.is_albedo = request.is_albedo;
+  remap::TextureSet set = open_texture_set(request.maps);
+  remap::WorkflowStages stages;
+  stages.target = remap::SpecularWorkflow{};
+  if (request.from_metallic)
+    stages.source = remap::MetallicWorkflow{};
+  else
+    stages.source = remap::SpecularWorkflow{};
+  const auto converter = make_workflow_converter(stages);
+
+  std::vector<std::vector<std::byte>> texels;
+  for (remap::ImageReader& map : set.maps) texels.push_back(texels_of(map));
+  const remap::ImageLayout& layout = set.maps[set.first_map()].layout();
+  result.width = static_cast<std::size_t>(layout.width);
+  result.height = static_cast<std::size_t>(layout.height);
+  result.material.texels.resize(result.width * result.height);
+  float* first = result.material.texels.data()->data();
+  remap::MapConversion conversion;
+  conversion.width = result.width;
+  conversion.height = result.height;
+  conversion.source_convention = set.convention;
+  conversion.target_convention = remap::RoughnessConvention::kAlpha;
+  for (const auto& [parameter, found] : set.parameters)
+    conversion.sources[parameter] = source_of(found, set, texels);
+  const auto want = [&](Parameter parameter, std::size_t from, std::size_t count) {
+    for (std::size_t c = 0; c < count; ++c)
+      conversion.targets[parameter].channels.push_back(
+          remap::float_channel(first + from + c, result.width, remap::kWarpParameters));
+  };
+  want(Parameter::kDiffuse, 0, 3);
+  want(Parameter::kSpecular, 3, 3);
+  want(Parameter::kWidth, 6, 1);
+  convert_maps(*converter, conversion);
+  return result;
+}
+
+}  // namespace remapc

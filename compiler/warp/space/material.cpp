@@ -1,0 +1,115 @@
+#include "warp/space/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "remap/error.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+void require_strokes(const MaterialRef& material, const std::vector<StrokePair>& strokes,
+                     std::vector<std::uint32_t> StrokePair::*side) {
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    const std::string place = material.name() + ", " + stroke_name(strokes, k);
+    bool has_finite = false;
+    for (const std::uint32_t texel : strokes[k].*side) {
+      if (texel >= material.texel_count())
+        throw Error(ErrorKind::kInput, place + ": texel " + std::to_string(texel) + "; expected one of " +
+                                           std::to_string(material.texel_count()));
+      has_finite = has_finite || material.takes_part(texel);
+    }
+    if (!has_finite)
+      throw Error(ErrorKind::kInput,
+                  place + ": marks no texel with finite values; expected a painted region");
+  }
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    const Overlap overlap = largest_overlap(strokes, side, k, material.texel_count());
+    if (overlap.share == 1.0)
+      throw Error(ErrorKind::kInput, material.name() + ", " + stroke_name(strokes, k) + ": lies within " +
+                                         stroke_name(strokes, overlap.other) +
+                                         "; expected another region (erase one of the two there)");
+  }
+}
+
+}  // namespace
+
+std::string stroke_name(const std::vector<StrokePair>& strokes, std::size_t stroke) {
+  const std::string& color = strokes[stroke].color;
+  return "stroke " + (color.empty() ? std::to_string(stroke + 1) : color);
+}
+
+Overlap largest_overlap(const std::vector<StrokePair>& strokes, std::vector<std::uint32_t> StrokePair::*side,
+                        std::size_t stroke, std::size_t texel_count) {
+  std::vector<char> own(texel_count, 0);
+  double size = 0.0;
+  for (const std::uint32_t texel : strokes[stroke].*side) {
+    size += own[texel] == 0 ? 1.0 : 0.0;
+    own[texel] = 1;
+  }
+  Overlap largest;
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    if (k == stroke) continue;
+    std::vector<char> shared = own;
+    double count = 0.0;
+    for (const std::uint32_t texel : strokes[k].*side) {
+      count += shared[texel] != 0 ? 1.0 : 0.0;
+      shared[texel] = 0;
+    }
+    if (count / size > largest.share) largest = {k, count / size};
+  }
+  return largest;
+}
+
+remap::WarpTexel held(const remap::WarpTexel& texel) noexcept {
+  remap::WarpTexel result = texel;
+  for (float& value : result) value = value < 0.0f ? 0.0f : value > 1.0f ? 1.0f : value;
+  return result;
+}
+
+bool is_finite(const remap::WarpTexel& texel) noexcept {
+  return std::all_of(texel.begin(), texel.end(), [](float value) { return std::isfinite(value); });
+}
+
+bool MaterialRef::takes_part(std::size_t texel) const noexcept {
+  if (parametric_ != nullptr) return is_finite(parametric_->texels[texel]);
+  return static_cast<Eigen::Index>(tabulated_->entries[texel]) < tabulated_->samples.cols();
+}
+
+std::vector<std::uint32_t> sample_texels(const MaterialRef& material, std::size_t limit) {
+  std::vector<std::uint32_t> texels;
+  const std::size_t count = material.texel_count(), wanted = std::min(limit, count);
+  const std::size_t step = count / std::max<std::size_t>(wanted, 1);
+  texels.reserve(wanted);
+  for (std::size_t i = 0; i < wanted; ++i)
+    if (const std::size_t texel = i * count / wanted + i * 61 % step; material.takes_part(texel))
+      texels.push_back(static_cast<std::uint32_t>(texel));
+  if (!texels.empty()) return texels;
+  for (std::size_t i = 0; i < count && texels.size() < limit; ++i)  // they are rare
+    if (material.takes_part(i)) texels.push_back(static_cast<std::uint32_t>(i));
+  return texels;
+}
+
+void require_valid(const MaterialRef& source, const MaterialRef& target,
+                   const std::vector<StrokePair>& strokes) {
+  for (const MaterialRef* material : {&source, &target}) {
+    const TabulatedMaterial* table = material->tabulated();
+    if (table != nullptr && !(table->samples.array() >= 0.0f && table->samples.array().isFinite()).all())
+      throw Error(
+          ErrorKind::kInput,
+          material->name() + ": holds samples that are negative or not finite; expected reflectances");
+    if (sample_texels(*material, 1).empty())
+      throw Error(ErrorKind::kInput,
+                  material->name() + ": has no texel with finite values; expected a material");
+  }
+  if (strokes.empty())
+    throw Error(ErrorKind::kUsage,
+                source.name() + ": no stroke; expected at least one pair of marked regions");
+  require_strokes(source, strokes, &StrokePair::source);
+  require_strokes(target, strokes, &StrokePair::target);
+}
+
+}  // namespace remapc

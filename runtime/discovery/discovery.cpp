@@ -1,0 +1,222 @@
+#include "discovery/discovery.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "discovery/shown_path.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+// A map of a folder and the set that it belongs to.
+struct NamedMap {
+  TileGroup files;
+  std::vector<NameReading> readings;
+  std::size_t chosen = 0;  // index of the reading that is taken
+  bool numbered = false;   // a bare number before the word belongs to the set's name
+
+  const NameReading& reading() const { return readings[chosen]; }
+  const std::string& stem() const { return numbered ? reading().numbered_stem : reading().stem; }
+};
+
+// The name without extension and tile, as the habits read it.
+std::string readable_name(const TileGroup& files) {
+  const auto without_extension = [](const std::string& name) { return name.substr(0, name.rfind('.')); };
+  if (!files.pattern) return without_extension(files.name);
+  const std::string after = without_extension(files.pattern->after);
+  const bool doubled = !files.pattern->before.empty() && !after.empty();  // the separators around the tile
+  return files.pattern->before + (doubled ? after.substr(1) : after);
+}
+
+// A longer word may have taken the end of the set's name: dark_metallic_roughness. It is given back where its
+// stem is that of no other map and the shorter word's is. Doubtful readings without such a neighbour are
+// given up.
+void choose_readings(std::vector<NamedMap>& maps) {
+  std::map<std::string, int> map_counts;
+  for (const NamedMap& map : maps) ++map_counts[map.readings.front().stem];
+  for (NamedMap& map : maps) {
+    if (map_counts[map.readings.front().stem] > 1) continue;
+    for (std::size_t i = 1; i < map.readings.size() && map.chosen == 0; ++i)
+      if (map_counts.contains(map.readings[i].stem)) map.chosen = i;
+    if (map.chosen == 0)
+      std::erase_if(map.readings, [](const NameReading& reading) { return reading.doubtful; });
+  }
+}
+
+// wood_512_rough beside wood_1024_rough: the numbers tell sets apart, and are no resolutions.
+void choose_stems(std::vector<NamedMap>& maps) {
+  std::map<std::pair<std::string, std::vector<ChannelMeaning>>, std::set<std::string>> numbered_stems;
+  std::set<std::string> numbered;
+  for (const NamedMap& map : maps) {
+    std::set<std::string>& stems = numbered_stems[{map.stem(), map.reading().meaning}];
+    stems.insert(map.reading().numbered_stem);
+    if (stems.size() > 1) numbered.insert(map.stem());
+  }
+  for (NamedMap& map : maps) map.numbered = numbered.contains(map.stem());
+}
+
+FoundMap found_map(const fs::path& folder, const NamedMap& map) {
+  const fs::path path = folder / map.files.name;
+  FoundMap found{path, map.files.pattern, {}, {}, map.reading().habit, map.reading().meaning};
+  for (const int number : map.files.numbers)
+    found.tiles.push_back({number, folder / tile_name(*map.files.pattern, number)});
+  return found;
+}
+
+bool takes_part(const ChannelMeaning& entry) {
+  return tells_width(entry.role) || entry.role == Role::kSpecular;
+}
+
+std::string place_of(const FoundSet& set) { return shown(set.folder / set.name); }
+
+// The one candidate for a role; several make the set faulty.
+std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std::string& what) {
+  const std::vector<MapUse> candidates = uses(set, wanted);
+  if (candidates.size() == 1) return candidates.front();
+  if (candidates.size() > 1) {
+    set.state = SetState::kFaulty;
+    set.remarks.push_back(place_of(set) + ": " + too_many_text(set, candidates, what));
+  }
+  return std::nullopt;
+}
+
+void note_missing_tiles(FoundSet& set) {
+  std::vector<FoundMap*> maps;
+  std::vector<std::vector<int>> numbers;
+  for (std::vector<FoundMap>* list : {&set.maps, &set.bystanders}) {
+    for (FoundMap& map : *list) {
+      maps.push_back(&map);
+      std::vector<int>& own = numbers.emplace_back();
+      for (const Tile& tile : map.tiles) own.push_back(tile.number);
+    }
+  }
+  std::vector<std::vector<int>> missing = missing_tiles(numbers);
+  for (std::size_t i = 0; i < maps.size(); ++i) maps[i]->missing_tiles = std::move(missing[i]);
+}
+
+void judge(FoundSet& set) {
+  set.width = single_use(set, tells_width, "the width of the highlight");
+  set.specular = single_use(
+      set, [](Role role) { return role == Role::kSpecular; }, "specular");
+  note_missing_tiles(set);
+  if (set.state == SetState::kFaulty || set.width) return;
+  set.state = SetState::kSkipped;
+  set.remarks.push_back(place_of(set) + ": no map of roughness or glossiness; expected one");
+}
+
+// The sets of one folder.
+void add_sets(const ImageFolder& folder, const std::string& folder_name, const Naming& naming,
+              Discovery& discovery) {
+  std::vector<NamedMap> maps;
+  for (TileGroup& files : group_tiles(folder.images)) {
+    std::vector<NameReading> readings = naming.read(readable_name(files));
+    if (readings.empty())
+      discovery.unrecognised.push_back(folder.path / files.name);
+    else
+      maps.push_back({std::move(files), std::move(readings)});
+  }
+  choose_readings(maps);
+  std::erase_if(maps, [&](const NamedMap& map) {
+    if (map.readings.empty()) discovery.unrecognised.push_back(folder.path / map.files.name);
+    return map.readings.empty();
+  });
+  choose_stems(maps);
+
+  std::map<std::string, FoundSet> sets;
+  for (const NamedMap& map : maps) {
+    FoundSet& set = sets[map.stem()];
+    set.name = map.stem().empty() ? folder_name : map.stem();
+    set.folder = folder.path;
+    FoundMap found = found_map(folder.path, map);
+    const bool part = std::any_of(found.meaning.begin(), found.meaning.end(), takes_part);
+    (part ? set.maps : set.bystanders).push_back(std::move(found));
+  }
+  for (auto& [stem, set] : sets) {
+    judge(set);
+    discovery.sets.push_back(std::move(set));
+  }
+}
+
+// The last name of a path; for `.` and `a/..` that of the folder they lead to.
+std::string last_name(const fs::path& path) {
+  std::error_code failure;
+  const fs::path whole = fs::weakly_canonical(path, failure);
+  const fs::path& named = failure ? path : whole;
+  return named.filename().empty() ? named.parent_path().filename().string() : named.filename().string();
+}
+
+}  // namespace
+
+std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role)) {
+  std::vector<MapUse> found;
+  for (std::size_t i = 0; i < set.maps.size() + set.bystanders.size(); ++i)
+    for (const ChannelMeaning& entry : map_of(set, {i}).meaning)
+      if (wanted(entry.role)) found.push_back({i, entry.channels, entry.role});
+  return found;
+}
+
+const FoundMap& map_of(const FoundSet& set, const MapUse& use) {
+  return use.map < set.maps.size() ? set.maps[use.map] : set.bystanders[use.map - set.maps.size()];
+}
+
+std::vector<std::string> channel_names(Channels channels) {
+  if (channels == Channels::kWhole) return {};
+  if (channels == Channels::kRgb) return {"R", "G", "B"};
+  return {std::string(channels_name(channels))};
+}
+
+std::optional<RoughnessConvention> convention_of(Role role) {
+  if (role == Role::kGlossiness) return RoughnessConvention::kGlossiness;
+  if (role == Role::kAlphaWidth) return RoughnessConvention::kAlpha;
+  return std::nullopt;
+}
+
+std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what) {
+  std::string text;
+  for (const MapUse& use : found) {
+    text += (text.empty() ? "" : ", ") + shown(map_of(set, use).path.filename()) + " (";
+    text += role_name(use.role);
+    if (use.channels != Channels::kWhole) text += " in " + std::string(channels_name(use.channels));
+    text += ")";
+  }
+  return std::to_string(found.size()) + " maps for " + what + ": " + text + "; expected one";
+}
+
+Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {
+  const Naming& naming = options.naming != nullptr ? *options.naming : built_in_naming();
+  Walk walk = walk_images(root, {options.recursive, options.excluded});
+  Discovery discovery;
+  discovery.problems = std::move(walk.problems);
+  for (const ImageFolder& folder : walk.folders)
+    add_sets(folder, folder.path.empty() ? last_name(root) : folder.path.filename().string(), naming,
+             discovery);
+
+  const auto key = [](const FoundSet& set) { return (set.folder / set.name).string(); };
+  std::stable_sort(discovery.sets.begin(), discovery.sets.end(),
+                   [&](const FoundSet& a, const FoundSet& b) { return key(a) < key(b); });
+  const auto bytes = [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); };
+  std::sort(discovery.unrecognised.begin(), discovery.unrecognised.end(), bytes);
+  std::sort(discovery.problems.begin(), discovery.problems.end(),
+            [&](const WalkProblem& a, const WalkProblem& b) { return bytes(a.path, b.path); });
+  return discovery;
+}
+
+std::vector<OutputCollision> output_collisions(std::span<const FoundSet> sets, const OutputPlan& plan) {
+  std::map<std::string, std::pair<std::size_t, fs::path>> writers;
+  std::vector<OutputCollision> collisions;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (sets[i].state != SetState::kReady) continue;
+    for (PlannedOutput& output : plan(sets[i])) {
+      const fs::path path = output.path.lexically_normal();
+      const auto [first, added] = writers.try_emplace(path.string(), i, output.source);
+      if (!added)
+        collisions.push_back({path, first->second.first, first->second.second, i, std::move(output.source)});
+    }
+  }
+  return collisions;
+}
+
+}  // namespace remap

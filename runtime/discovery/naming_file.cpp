@@ -1,0 +1,162 @@
+// Naming habits as JSON: the built-in table and files that extend it.
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "discovery/naming.hpp"
+#include "discovery/naming_text.hpp"
+#include "system/files.hpp"
+#include "text/json_field.hpp"
+#include "text/nearest_name.hpp"
+
+namespace remap {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, ResolutionPlace>, 4> kPlaces = {
+    {{"none", ResolutionPlace::kNone},
+     {"before", ResolutionPlace::kBefore},
+     {"before-with-format", ResolutionPlace::kBeforeWithFormat},
+     {"after", ResolutionPlace::kAfter}}};
+
+// A mistyped optional field would go unnoticed otherwise.
+void refuse_unknown_fields(const Field& field, const std::vector<std::string>& known) {
+  field.require(field.json().is_object(), "an object");
+  for (const auto& [key, value] : field.json().items())
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      field.fail("has an unknown field \"" + key + "\"" + suggestion(key, known));
+}
+
+bool has(const Field& field, const std::string& key) { return field.json().contains(key); }
+
+// False where it is not there.
+bool read_flag(const Field& field, const std::string& key) {
+  if (!has(field, key)) return false;
+  field[key].require(field.json()[key].is_boolean(), "true or false");
+  return field.json()[key].get<bool>();
+}
+
+Role read_role(const Field& field) {
+  const std::string text = field.text();
+  std::vector<std::string> known;
+  for (const Role role : all_roles()) {
+    if (role_name(role) == text) return role;
+    known.emplace_back(role_name(role));
+  }
+  field.fail("is no role: \"" + text + "\"" + suggestion(text, known));
+}
+
+// The roles that a converter reads are of one map each, so that no rule may give one twice.
+void refuse_doubles(const Field& field, const std::vector<ChannelMeaning>& meaning) {
+  const auto width = [](const ChannelMeaning& entry) { return tells_width(entry.role); };
+  const auto specular = [](const ChannelMeaning& entry) { return entry.role == Role::kSpecular; };
+  field.require(std::count_if(meaning.begin(), meaning.end(), width) <= 1,
+                "at most one of roughness, glossiness and alpha_width");
+  field.require(std::count_if(meaning.begin(), meaning.end(), specular) <= 1, "specular at most once");
+}
+
+std::vector<ChannelMeaning> read_channels(const Field& field) {
+  field.require(field.json().is_object() && !field.json().empty(), "an object of channels and their roles");
+  std::vector<std::string> known;
+  for (const Channels channels : all_channels())
+    if (channels != Channels::kWhole) known.emplace_back(channels_name(channels));
+  refuse_unknown_fields(field, known);
+  const bool color = has(field, "RGB");
+  field.require(!color || (!has(field, "R") && !has(field, "G") && !has(field, "B")),
+                "RGB or its channels one by one");
+  std::vector<ChannelMeaning> meaning;
+  for (const Channels channels : all_channels()) {
+    const std::string key(channels_name(channels));
+    if (has(field, key)) meaning.push_back({channels, read_role(field[key])});
+  }
+  refuse_doubles(field, meaning);
+  return meaning;
+}
+
+std::string read_word(const Field& field) {
+  const std::string word = field.text();
+  field.require(!word_key(word).empty(), "a word");
+  field.require(!is_resolution(word) && !is_format_word(word),
+                "a word that is neither resolution nor format: those are skipped in every name");
+  return word;
+}
+
+NamingRule read_rule(const Field& field) {
+  refuse_unknown_fields(field, {"words", "ordinary", "role", "channels"});
+  field.require(has(field, "role") != has(field, "channels"), "either \"role\" or \"channels\"");
+  NamingRule rule;
+  rule.words = field["words"].list(1, read_word);
+  rule.ordinary = read_flag(field, "ordinary");
+  if (has(field, "role"))
+    rule.meaning = {{Channels::kWhole, read_role(field["role"])}};
+  else
+    rule.meaning = read_channels(field["channels"]);
+  return rule;
+}
+
+ResolutionPlace read_place(const Field& field) {
+  const std::string text = field.text();
+  std::vector<std::string> known;
+  for (const auto& [name, place] : kPlaces) {
+    if (name == text) return place;
+    known.emplace_back(name);
+  }
+  field.fail("is no place of a resolution: \"" + text + "\"" + suggestion(text, known));
+}
+
+Habit read_habit(const Field& field) {
+  refuse_unknown_fields(field, {"name", "camel_case", "resolution", "rules"});
+  Habit habit;
+  habit.name = field["name"].text();
+  field["name"].require(!habit.name.empty(), "a name");
+  habit.camel_case = read_flag(field, "camel_case");
+  if (has(field, "resolution")) habit.resolution = read_place(field["resolution"]);
+  habit.rules = field["rules"].list(1, read_rule);
+
+  std::set<std::string> earlier;
+  for (const NamingRule& rule : habit.rules) {
+    std::set<std::string> own;
+    for (const std::string& word : rule.words) own.insert(word_key(word));
+    for (const std::string& key : own)
+      if (!earlier.insert(key).second) field.fail("has two rules for the word \"" + key + "\"; expected one");
+  }
+  return habit;
+}
+
+struct NamingTables {
+  std::vector<Habit> habits;
+  std::vector<std::string> ignored_words;
+};
+
+NamingTables read_tables(std::string_view text, const std::string& place) {
+  const nlohmann::ordered_json json = parse_json(text, place);
+  const Field field(json, place);
+  refuse_unknown_fields(field, {"habits", "ignored_words"});
+  NamingTables tables;
+  tables.habits = field["habits"].list(1, read_habit);
+  if (has(field, "ignored_words")) tables.ignored_words = field["ignored_words"].list(0, read_word);
+  return tables;
+}
+
+}  // namespace
+
+const Naming& built_in_naming() {
+  static const Naming naming = [] {
+    NamingTables tables = read_tables(kNamingText, "naming.json");
+    for (Habit& habit : tables.habits) habit.built_in = true;
+    return Naming(std::move(tables.habits), std::move(tables.ignored_words));
+  }();
+  return naming;
+}
+
+Naming parse_naming(std::string_view text, const std::string& place) {
+  NamingTables tables = read_tables(text, place);
+  const Naming& built_in = built_in_naming();
+  tables.habits.insert(tables.habits.end(), built_in.habits().begin(), built_in.habits().end());
+  tables.ignored_words.insert(tables.ignored_words.end(), built_in.ignored_words().begin(),
+                              built_in.ignored_words().end());
+  return Naming(std::move(tables.habits), std::move(tables.ignored_words));
+}
+
+Naming read_naming(const std::filesystem::path& file) { return parse_naming(read_file(file), file.string()); }
+
+}  // namespace remap

@@ -1,0 +1,244 @@
+#include "fit_file/fit_json.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "fit_file/fit_fields.hpp"
+#include "fit_file/network_json.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
+#include "text/json_field.hpp"
+
+namespace remap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t kLargestPower = 4;  // of specular, in a parametric form
+
+Json to_json(const Range& range) { return Json::array({finite(range.min), finite(range.max)}); }
+
+Json to_json(const ModelSide& side) {
+  return {{"model", side.model},
+          {"roughness", std::string(convention_name(side.roughness))},
+          {"specular", side.specular}};
+}
+
+Json to_json(const Parametric& form) {
+  Json roughness = Json::array(), specular = Json::array();
+  for (const auto& row : form.roughness) roughness.push_back(numbers_json(row));
+  for (const auto& [power, curve] : form.specular)
+    specular.push_back({{"power", power},
+                        {"start", finite(curve.start)},
+                        {"ramp", finite(curve.ramp)},
+                        {"ramp_rate", finite(curve.ramp_rate)},
+                        {"bump", finite(curve.bump)},
+                        {"bump_rate", finite(curve.bump_rate)},
+                        {"pole", finite(curve.pole)}});
+  return {{"roughness", roughness}, {"specular", specular}};
+}
+
+Json to_json(const KernelExpansion& expansion) {
+  return {{"inputs", scalings_json(expansion.inputs)},  {"output", scalings_json({expansion.output})[0]},
+          {"gamma", finite(expansion.gamma)},           {"bias", finite(expansion.bias)},
+          {"vectors", numbers_json(expansion.vectors)}, {"weights", numbers_json(expansion.weights)}};
+}
+
+Json to_json(const Svr& svr) { return {{"alpha", to_json(svr.alpha)}, {"specular", to_json(svr.specular)}}; }
+Json to_json(const Mlp& mlp) {
+  return {{"alpha", network_json(mlp.alpha)}, {"specular", network_json(mlp.specular)}};
+}
+
+// A mapping with its kind.
+Json mapping_json(const MappingKind& mapping);
+
+Json to_json(const Chain& chain) {
+  Json steps = Json::array();
+  for (const auto& [id, mapping] : chain.steps)
+    steps.push_back({{"id", id}, {"mapping", mapping_json(widened(mapping))}});
+  return {{"steps", steps}};
+}
+
+Json mapping_json(const MappingKind& mapping) {
+  Json json = {{"kind", kind_name(mapping)}};
+  json.update(std::visit([](const auto& kind) { return to_json(kind); }, mapping));
+  return json;
+}
+
+Json to_json(const Candidate& candidate) {
+  return {{"name", candidate.name},
+          {"number_count", candidate.number_count},
+          {"alpha", figures_json(candidate.alpha)},
+          {"alpha_standard_error", finite(candidate.alpha_standard_error)},
+          {"specular", figures_json(candidate.specular)},
+          {"specular_standard_error", finite(candidate.specular_standard_error)},
+          {"edge_alpha_rms", finite(candidate.edge_alpha_rms)},
+          {"edge_specular_rms", finite(candidate.edge_specular_rms)},
+          {"raw_edge_alpha_rms", finite(candidate.raw_edge_alpha_rms)},
+          {"raw_edge_specular_rms", finite(candidate.raw_edge_specular_rms)},
+          {"chroma_shift", finite(candidate.chroma_shift)},
+          {"verdict", candidate.verdict}};
+}
+
+Json to_json(const std::optional<ImageSimilarity>& image_similarity) {
+  if (!image_similarity) return nullptr;
+  Json spheres = Json::array();
+  for (const auto& [alpha, ssim] : image_similarity->ssim)
+    spheres.push_back({{"alpha", finite(alpha)}, {"ssim", finite(ssim)}});
+  return {{"image_error", figures_json(image_similarity->image_error)}, {"spheres", spheres}};
+}
+
+double read_rate(const Field& field) {
+  field.require(field.number() >= 0.0, "a rate from 0");
+  return field.number();
+}
+
+SpecularTerm read_term(const Field& field) {
+  const std::int64_t power = field["power"].count();
+  field["power"].require(power <= kLargestPower, "a power from 0 to " + std::to_string(kLargestPower));
+  return {static_cast<int>(power),
+          {field["start"].number(), field["ramp"].number(), read_rate(field["ramp_rate"]),
+           field["bump"].number(), read_rate(field["bump_rate"]), field["pole"].number()}};
+}
+
+Parametric read_parametric(const Field& field) {
+  Parametric form;
+  form.roughness = field["roughness"].list(1, [](const Field& row) { return row.numbers(1); });
+  form.specular = field["specular"].list(1, read_term);
+  const auto falls = [](const SpecularTerm& a, const SpecularTerm& b) { return a.power > b.power; };
+  const bool ordered =
+      std::adjacent_find(form.specular.begin(), form.specular.end(), falls) == form.specular.end();
+  field["specular"].require(ordered, "terms whose powers do not fall");
+  return form;
+}
+
+// Inputs of a regressor over one texel: alpha, or alpha and specular.
+std::vector<Scaling> read_inputs(const Field& field) {
+  const auto inputs = field.list(1, read_scaling);
+  field.require(inputs.size() <= 2, "one input (alpha) or two (alpha, specular)");
+  return inputs;
+}
+
+KernelExpansion read_expansion(const Field& field) {
+  KernelExpansion expansion;
+  expansion.inputs = read_inputs(field["inputs"]);
+  expansion.output = read_output_scaling(field["output"]);
+  expansion.gamma = field["gamma"].number();
+  field["gamma"].require(expansion.gamma > 0.0, "a gamma above 0");
+  expansion.bias = field["bias"].number();
+  expansion.weights = field["weights"].numbers(0);
+  expansion.vectors = field["vectors"].numbers(0);
+  field["vectors"].require(expansion.vectors.size() == expansion.weights.size() * expansion.inputs.size(),
+                           "a number for each weight and input");
+  return expansion;
+}
+
+Network read_texel_network(const Field& field) {
+  read_inputs(field["inputs"]);
+  return read_network(field, 1);
+}
+
+RegressedKind read_regressed(const Field& field) {
+  const std::string kind = field["kind"].text();
+  if (kind == "parametric") return read_parametric(field);
+  if (kind == "svr") return Svr{read_expansion(field["alpha"]), read_expansion(field["specular"])};
+  if (kind == "mlp") {
+    const Mlp mlp{read_texel_network(field["alpha"]), read_texel_network(field["specular"])};
+    field["specular"]["activation"].require(mlp.alpha.activation == mlp.specular.activation,
+                                            "the activation of the other network");
+    return mlp;
+  }
+  field["kind"].require(false, "parametric, svr or mlp");
+  return {};
+}
+
+MappingKind read_mapping(const Field& field) {
+  if (field["kind"].text() != "chain") return widened(read_regressed(field));
+  return Chain{field["steps"].list(1, [](const Field& step) {
+    const std::string id = step["id"].text();
+    step["id"].require(is_valid_id(id), "the id of a fit");
+    return ChainStep{id, read_regressed(step["mapping"])};
+  })};
+}
+
+Candidate read_candidate(const Field& field) {
+  return {field["name"].text(),
+          static_cast<std::size_t>(field["number_count"].count()),
+          read_figures(field["alpha"]),
+          read_figures(field["specular"]),
+          field["alpha_standard_error"].number(),
+          field["specular_standard_error"].number(),
+          field["edge_alpha_rms"].number(),
+          field["edge_specular_rms"].number(),
+          field["raw_edge_alpha_rms"].number(),
+          field["raw_edge_specular_rms"].number(),
+          field["chroma_shift"].number(),
+          field["verdict"].text()};
+}
+
+std::optional<ImageSimilarity> read_similarity(const Field& field) {
+  if (field.is_null()) return std::nullopt;
+  return ImageSimilarity{read_figures(field["image_error"]), field["spheres"].list(0, [](const Field& entry) {
+                           return SphereSimilarity{entry["alpha"].number(), entry["ssim"].number()};
+                         })};
+}
+
+}  // namespace
+
+std::string fit_to_json(const Fit& fit) {
+  Json candidates = Json::array();
+  for (const Candidate& candidate : fit.candidates) candidates.push_back(to_json(candidate));
+  const Json json = {
+      {"format", "remap-fit"},
+      {"version", kFitFormatVersion},
+      {"id", fit.id},
+      {"source", to_json(fit.source)},
+      {"target", to_json(fit.target)},
+      {"domain", {{"alpha", to_json(fit.domain.alpha)}, {"specular", to_json(fit.domain.specular)}}},
+      {"mapping", mapping_json(fit.mapping)},
+      {"method", fit.method},
+      {"candidates", candidates},
+      {"error_on_held_out_rows",
+       {{"alpha", figures_json(fit.roughness_error)}, {"specular", figures_json(fit.specular_error)}}},
+      {"likeness", to_json(fit.image_similarity)},
+      {"remarks", fit.remarks},
+      {"split", split_json(fit.split)},
+      {"table", table_record_json(fit.table)},
+      {"tool", "remapc " + fit.tool_version},
+  };
+  return json.dump(2) + "\n";
+}
+
+Fit read_fit(const Field& root) {
+  Fit fit;
+  fit.id = read_id(root["id"]);
+  fit.source = read_side(root["source"]);
+  fit.target = read_side(root["target"]);
+  fit.domain = {read_range(root["domain"]["alpha"]), read_range(root["domain"]["specular"])};
+  root["domain"]["alpha"].require(fit.domain.alpha.min > 0.0, "an alpha above 0");
+  root["domain"]["specular"].require(fit.domain.specular.min == 0.0, "a range from 0");
+  fit.mapping = read_mapping(root["mapping"]);
+  fit.method = root["method"].dictionary<std::string>([](const Field& entry) { return entry.text(); });
+  fit.candidates = root["candidates"].list(0, read_candidate);
+  fit.roughness_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
+  fit.specular_error = read_figures(root["error_on_held_out_rows"]["specular"]);
+  fit.image_similarity = read_similarity(root["likeness"]);
+  fit.remarks = read_texts(root["remarks"]);
+  fit.split = read_split(root["split"]);
+  fit.table = read_table_record(root["table"]);
+  fit.tool_version = read_tool_version(root["tool"]);
+  return fit;
+}
+
+Fit fit_from_json(std::string_view text, const std::string& place) {
+  const Json json = parse_json(text, place);
+  const Field root(json, place);
+  require_fit_format(root);
+  if (is_of_materials(root)) require_width_and_specular(AnyFit{WorkflowFit{}}, ErrorKind::kInput, place);
+  return read_fit(root);
+}
+
+Fit load_fit(const std::filesystem::path& path) { return fit_from_json(read_file(path), path.string()); }
+
+}  // namespace remap

@@ -1,0 +1,345 @@
+#include "texremap/conversion_jobs.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "discovery/discovery.hpp"
+#include "discovery/shown_path.hpp"
+#include "remap/error.hpp"
+#include "texremap/conversion_request.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+// The file of `map` for a tile; a map that is one file serves every tile. None where the tile is missing.
+std::optional<fs::path> file_of(const FoundMap& map, int tile) {
+  if (map.tiles.empty()) return map.path;
+  for (const Tile& candidate : map.tiles)
+    if (candidate.number == tile) return candidate.path;
+  return std::nullopt;
+}
+
+std::vector<int> tiles_of(const FoundSet& set) {
+  std::set<int> numbers;
+  for (const FoundMap& map : set.maps)
+    for (const Tile& tile : map.tiles) numbers.insert(tile.number);
+  if (numbers.empty()) return {0};
+  return {numbers.begin(), numbers.end()};
+}
+
+// The files that a job names, in one order.
+std::vector<fs::path*> files_of(ConversionJob& job) {
+  std::vector<fs::path*> files;
+  const auto add = [&](ParameterRequest& parameter) {
+    if (auto* map = std::get_if<MapName>(&parameter.source)) files.push_back(&map->file);
+  };
+  for (auto& [parameter, asked] : job.request.parameters) add(asked);
+  for (CarriedRequest& carried : job.request.carried) add(carried.parameter);
+  for (CopiedFile& copy : job.copies) files.push_back(&copy.source);
+  return files;
+}
+
+// Whether a request names a map or numbers, rather than nothing yet.
+bool is_given(const ParameterRequest& request) {
+  const auto* map = std::get_if<MapName>(&request.source);
+  return map == nullptr || !map->file.empty();
+}
+
+// Where a set may have a parameter: in the best role that there is. Many a set calls its base color diffuse,
+// or its diffuse color albedo.
+std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
+  const auto is_diffuse = [](Role role) { return role == Role::kDiffuse; };
+  const auto is_base_color = [](Role role) { return role == Role::kBaseColor; };
+  const auto either = [](std::vector<MapUse> best, std::vector<MapUse> other) {
+    return best.empty() ? other : best;
+  };
+  switch (parameter) {
+    case Parameter::kWidth:
+      return uses(set, tells_width);
+    case Parameter::kSpecular:
+      return uses(set, [](Role role) { return role == Role::kSpecular; });
+    case Parameter::kDiffuse:
+      return either(uses(set, is_diffuse), uses(set, is_base_color));
+    case Parameter::kBaseColor:
+      return either(uses(set, is_base_color), uses(set, is_diffuse));
+    case Parameter::kMetallic:
+      return uses(set, [](Role role) { return role == Role::kMetallic; });
+    default:
+      return {};
+  }
+}
+
+// The set with its diffuse map among those that take part, where that alone is to be converted.
+FoundSet of_diffuse_alone(FoundSet set) {
+  const std::vector<MapUse> found = uses_of(set, Parameter::kDiffuse);
+  if (found.empty() || found.front().map < set.maps.size()) return set;
+  const auto map = set.bystanders.begin() + static_cast<std::ptrdiff_t>(found.front().map - set.maps.size());
+  set.maps.push_back(*map);
+  set.bystanders.erase(map);
+  set.state = SetState::kReady;
+  set.remarks.clear();
+  return set;
+}
+
+// The folder of sets turned into jobs.
+class TreeJobs {
+ public:
+  TreeJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& stand_ins)
+      : options_(options),
+        workflow_(workflow),
+        choice_(target_choice(options, workflow)),
+        stand_ins_(stand_ins),
+        root_(options.folder) {}
+
+  JobList list();
+
+ private:
+  void add(const FoundSet& set);
+  void add_tile(const FoundSet& set, int tile);
+  bool find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
+                   ConversionJob& job);
+  void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
+  void copy_others(const FoundSet& set, int tile, ConversionJob& job) const;
+  std::vector<PlannedOutput> outputs(const FoundSet& set) const;
+  void require_no_collisions() const;
+  std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
+
+  const ConvertOptions& options_;
+  const WorkflowChoice& workflow_;
+  TargetChoice choice_;
+  const TextureSetRequest& stand_ins_;  // for what sets do not have, and factors for all
+  fs::path root_;
+  std::vector<FoundSet> converted_;
+  JobList jobs_;
+};
+
+JobList TreeJobs::list() {
+  const Naming naming = options_.names.empty() ? built_in_naming() : read_naming(options_.names);
+  DiscoveryOptions discovery;
+  discovery.recursive = options_.recursive;
+  discovery.naming = &naming;
+  if (!options_.output.empty()) discovery.excluded = {options_.output};
+  Discovery found = find_sets(root_, discovery);
+  jobs_.is_tree = true;
+  jobs_.unrecognised_count = found.unrecognised.size();
+  for (const WalkProblem& problem : found.problems) jobs_.left_out.push_back({problem.message, true});
+  for (FoundSet& set : found.sets) {
+    if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kWidth))
+      set = of_diffuse_alone(std::move(set));
+    if (set.state == SetState::kReady)
+      add(set);
+    else
+      for (const std::string& remark : set.remarks)
+        jobs_.left_out.push_back({remark, set.state == SetState::kFaulty});
+  }
+  require_no_collisions();
+  if (jobs_.jobs.empty() && jobs_.left_out.empty())
+    throw Error(ErrorKind::kUsage, root_.string() +
+                                       ": has no texture set that is known by its names; expected " +
+                                       (options_.recursive ? "" : "--recursive for folders below it, or ") +
+                                       "--names FILE for other names");
+  return std::move(jobs_);
+}
+
+void TreeJobs::add(const FoundSet& set) {
+  for (const Parameter parameter : workflow_.sources()) {
+    const std::vector<MapUse> found = uses_of(set, parameter);
+    const std::string name(parameter_name(parameter));
+    if (!found.empty() && workflow_.constants.contains(parameter)) {
+      jobs_.left_out.push_back(
+          {place(set) + ": has a " + std::string(role_name(found.front().role)) +
+               " map, and the warp's source is a diffuse map alone; expected a warp of all "
+               "its maps, or --diffuse MAP in place of the folder",
+           true});
+      return;
+    }
+    if (found.size() > 1) {
+      jobs_.left_out.push_back({place(set) + ": " + too_many_text(set, found, name), true});
+      return;
+    }
+    if (!found.empty() || is_given(stand_ins_.parameters.at(parameter))) continue;
+    jobs_.left_out.push_back({place(set) + ": has no " + name + " map; expected one, or " +
+                                  parameter_option(parameter) + " VALUE for such sets",
+                              true});
+    return;
+  }
+  converted_.push_back(set);
+  for (const int tile : tiles_of(set)) add_tile(set, tile);
+}
+
+// Puts the map of a parameter into the job; false, with a message, where the set lacks the tile.
+bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
+                           ConversionJob& job) {
+  const std::vector<MapUse> found = uses_of(set, parameter);
+  if (found.empty()) return true;
+  const MapUse& use = found.front();
+  const FoundMap& map = map_of(set, use);
+  const std::optional<fs::path> file = file_of(map, tile);
+  if (!file) {
+    jobs_.left_out.push_back({job.name + (number.empty() ? "" : ", tile " + number) + ": has no " +
+                                  std::string(role_name(use.role)) + " map; expected a tile " +
+                                  shown(map.path.filename()),
+                              true});
+    return false;
+  }
+  job.request.parameters[parameter].source = MapName{root_ / *file, channel_names(use.channels)};
+  if (parameter == Parameter::kWidth && options_.encoding.empty() && convention_of(use.role))
+    job.request.convention = convention_of(use.role);
+  return true;
+}
+
+void TreeJobs::add_tile(const FoundSet& set, int tile) {
+  const std::string number = tile == 0 ? "" : std::to_string(tile);
+  ConversionJob job{place(set),
+                    number,
+                    stand_ins_,
+                    fs::path(options_.output) / set.folder,
+                    {set.name + "_", tile == 0 ? "" : "." + number},
+                    {}};
+  for (const Parameter parameter : workflow_.sources())
+    if (!find_source(set, parameter, number, tile, job)) return;
+  if (choice_.layout != Layout::kAsInputs) carry(set, tile, job.request);
+  if (options_.copy_others) copy_others(set, tile, job);
+  jobs_.jobs.push_back(std::move(job));
+}
+
+// What a layout has a place for, from the maps that are not converted.
+void TreeJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
+  for (const std::vector<FoundMap>* maps : {&set.maps, &set.bystanders})
+    for (const FoundMap& map : *maps)
+      for (const ChannelMeaning& entry : map.meaning) {
+        const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();
+        if (entry.role != Role::kOcclusion && !carries_metallic) continue;
+        const std::string name(role_name(entry.role));
+        const std::optional<fs::path> file = file_of(map, tile);
+        const bool is_named =
+            std::any_of(request.carried.begin(), request.carried.end(),
+                        [&](const CarriedRequest& carried) { return carried.name == name; });
+        if (file && !is_named)
+          request.carried.push_back(
+              {name, {MapName{root_ / *file, channel_names(entry.channels)}, {}, Transfer::kLinear}});
+      }
+}
+
+// The files that the conversion does not read. A map without tiles goes with the first tile of the set.
+void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) const {
+  const std::vector<fs::path*> read = files_of(job);
+  const bool is_first = tile == tiles_of(set).front();
+  for (const std::vector<FoundMap>* maps : {&set.maps, &set.bystanders})
+    for (const FoundMap& map : *maps) {
+      const std::optional<fs::path> file = file_of(map, tile);
+      if (!file || (map.tiles.empty() && !is_first)) continue;
+      const fs::path source = root_ / *file;
+      if (std::none_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
+        job.copies.push_back({source, ""});
+    }
+}
+
+// The files that the conversion of a set writes, with one map that each is made from: of all tiles as one.
+std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set) const {
+  const FoundMap& first = set.width ? map_of(set, *set.width) : set.maps.front();
+  const ResultNames names = {set.name + "_", tiles_of(set).front() == 0 ? "" : ".<UDIM>"};
+  const std::string extension =
+      choice_.extension.empty() ? first.path.extension().string() : "." + choice_.extension;
+  std::map<fs::path, fs::path> sources;
+  for (const Parameter parameter : choice_.parameters) {
+    const std::vector<MapUse> found = uses_of(set, parameter);
+    const fs::path& source = (found.empty() ? first : map_of(set, found.front())).path;
+    fs::path path = set.folder / set_file_name(file_name(parameter, choice_) + extension, names);
+    if (choice_.layout == Layout::kAsInputs && !found.empty()) {
+      path = source;
+      if (!choice_.extension.empty()) path.replace_extension(choice_.extension);
+    }
+    sources.emplace(path, source);
+  }
+  if (choice_.mask) sources.emplace(set.folder / set_file_name(*choice_.mask, names), first.path);
+  for (const MeasureMap& map : choice_.measures)
+    sources.emplace(set.folder / set_file_name(map.name, names), first.path);
+  std::vector<PlannedOutput> planned;
+  for (const auto& [path, source] : sources) planned.push_back({path, source});
+  return planned;
+}
+
+void TreeJobs::require_no_collisions() const {
+  const std::vector<OutputCollision> collisions =
+      output_collisions(converted_, [&](const FoundSet& set) { return outputs(set); });
+  if (collisions.empty()) return;
+  const OutputCollision& first = collisions.front();
+  throw Error(ErrorKind::kUsage, shown(fs::path(options_.output) / first.path) +
+                                     ": would be made from both " + shown(root_ / first.first_source) +
+                                     " and " + shown(root_ / first.second_source) +
+                                     "; expected names of their own");
+}
+
+// A file name that stands for tiles.
+struct TiledFile {
+  std::size_t index = 0;  // among the files of the job
+  fs::path file;
+  TilePattern pattern;
+
+  fs::path tile(int number) const { return file.parent_path() / tile_name(pattern, number); }
+  // As the name has it: 0012 for a frame.
+  std::string number_text(int number) const {
+    const std::string name = tile_name(pattern, number);
+    return name.substr(pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
+  }
+};
+
+std::vector<TiledFile> tiled_files(ConversionJob& job) {
+  std::vector<TiledFile> tiled;
+  const std::vector<fs::path*> files = files_of(job);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::error_code ignored;
+    if (fs::exists(*files[i], ignored)) continue;
+    if (const auto pattern = tile_pattern(files[i]->filename().string()))
+      tiled.push_back({i, *files[i], *pattern});
+  }
+  return tiled;
+}
+
+// The tiles that any of the maps has; one that another map lacks is left out, with a message.
+JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& tiled) {
+  JobList list;
+  list.is_tree = true;
+  if (tiled.front().pattern.style == TileStyle::kFrame) list.tile_noun = "frame";
+  std::map<int, std::set<std::size_t>> tiles;  // which of `tiled` have the tile of that number
+  for (std::size_t i = 0; i < tiled.size(); ++i) {
+    const std::vector<Tile> own = existing_tiles(tiled[i].file);
+    if (own.empty())
+      throw Error(ErrorKind::kInput,
+                  tiled[i].file.string() + ": has no " + list.tile_noun + "; expected at least one file");
+    for (const Tile& tile : own) tiles[tile.number].insert(i);
+  }
+  for (const auto& [number, present] : tiles) {
+    ConversionJob job = whole_set;
+    job.name = shown(tiled.front().file);
+    job.tile = std::to_string(number);
+    job.names.after = "." + tiled.front().number_text(number);
+    const std::vector<fs::path*> files = files_of(job);
+    for (std::size_t i = 0; i < tiled.size(); ++i) {
+      *files[tiled[i].index] = tiled[i].tile(number);
+      if (!present.contains(i))
+        list.left_out.push_back({tiled[i].tile(number).string() + ": is missing; expected every " +
+                                     list.tile_noun + " of the set",
+                                 true});
+    }
+    if (present.size() == tiled.size()) list.jobs.push_back(std::move(job));
+  }
+  return list;
+}
+
+}  // namespace
+
+JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
+                        const TextureSetRequest& request) {
+  if (!options.folder.empty()) return TreeJobs(options, workflow, request).list();
+  ConversionJob job{"", "", request, options.output, {}, copied_files(options, workflow)};
+  if (const std::vector<TiledFile> tiled = tiled_files(job); !tiled.empty()) return tile_jobs(job, tiled);
+  JobList list;
+  list.jobs.push_back(std::move(job));
+  return list;
+}
+
+}  // namespace remap

@@ -1,0 +1,226 @@
+// `texremap convert`: texture sets through one converter, or through a path of them. Checks everything that
+// can be checked before the first texel is read.
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "command_line/run_app.hpp"
+#include "convert/chained_converter.hpp"
+#include "fit_file/fit_json.hpp"
+#include "remap/error.hpp"
+#include "texremap/commands.hpp"
+#include "texremap/conversion_request.hpp"
+#include "texremap/convert_options.hpp"
+#include "texremap/convert_report.hpp"
+#include "texremap/converter_text.hpp"
+#include "texremap/job_run.hpp"
+#include "texremap/workflow_choice.hpp"
+
+namespace remap {
+namespace {
+
+constexpr const char* kProgram = "texremap";
+
+void require_agreement(const std::string& option, const std::string& asked, const std::string& file,
+                       const std::string& found) {
+  if (asked.empty() || asked == found) return;
+  throw Error(ErrorKind::kUsage, file + ": is a fit of " + found + "; expected " + asked + " of " + option);
+}
+
+void warn(const ConvertOptions& options, const std::string& message) {
+  if (!options.quiet) print_message(kProgram, "warning: " + message);
+}
+
+// A fit that cannot be lowered is still converted: as it is, slowly.
+std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const WorkflowChoice& workflow,
+                                            Fit fit, InstructionSet set) {
+  require_agreement("--from", workflow.source_brdf, options.fit, fit.source.model);
+  require_agreement("--to", workflow.target_brdf, options.fit, fit.target.model);
+  try {
+    return make_lowered_converter(fit, set);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kNumeric) throw;
+    warn(options, options.fit + ": is evaluated by the interpreter, which is slow; " + error.what());
+  }
+  return make_interpreted_converter(std::move(fit));
+}
+
+// What --fit names.
+using GivenFit = std::optional<AnyFit>;
+
+const WarpMapFit* warp_in(const GivenFit& fit) { return fit ? std::get_if<WarpMapFit>(&*fit) : nullptr; }
+
+// The converter of width and specular; none where both workflows stand on one BRDF.
+void choose_brdf(const ConvertOptions& options, const GivenFit& fit, InstructionSet set,
+                 ChosenConverter& chosen) {
+  const WorkflowChoice& workflow = chosen.workflow;
+  if (fit) {
+    chosen.owned = converter_of_fit(options, workflow,
+                                    require_width_and_specular(*fit, ErrorKind::kInput, options.fit), set);
+    chosen.path = {{chosen.owned.get()}, expected_error(chosen.owned->info())};
+  } else {
+    if (options.from.empty() || options.to.empty())
+      throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") +
+                                         ": is missing; expected --from and --to, or --fit");
+    if (workflow.is_material() && workflow.source_brdf == workflow.target_brdf && options.via.empty()) return;
+    chosen.path =
+        compiled_graph(set).find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
+    if (chosen.path.steps.size() > 1) chosen.owned = make_chained_converter(chosen.path.steps);
+  }
+  chosen.brdf = chosen.owned ? chosen.owned.get() : chosen.path.steps.front();
+  if (!chosen.brdf->self_test())
+    throw Error(ErrorKind::kNumeric,
+                chosen.brdf->info().id + ": fails its self-test; expected the values it was made with");
+}
+
+ChosenConverter choose_converter(const ConvertOptions& options, const GivenFit& fit,
+                                 WorkflowChoice workflow) {
+  ChosenConverter chosen;
+  const InstructionSet set = chosen_instructions(options);
+  chosen.workflow = std::move(workflow);
+  if (const WarpMapFit* warp = warp_in(fit)) {
+    chosen.material = make_warp_converter(*warp, *chosen.workflow.source, set);
+    return chosen;
+  }
+  choose_brdf(options, fit, set, chosen);
+  chosen.material = chosen.workflow.is_material() ? make_workflow_converter(stages_of(chosen), set)
+                                                  : make_material_converter(*chosen.brdf);
+  return chosen;
+}
+
+bool are_constants(const TextureSetRequest& request) {
+  return std::all_of(request.parameters.begin(), request.parameters.end(), [](const auto& entry) {
+    return std::holds_alternative<ConstantValues>(entry.second.source);
+  });
+}
+
+// The name of a target: widths by what they hold.
+std::string name_of_target(const ChosenConverter& chosen, Parameter parameter, RoughnessConvention width) {
+  if (parameter == Parameter::kWidth) return std::string(convention_name(width));
+  if (!chosen.workflow.is_material()) return chosen.info().target.specular;
+  return std::string(parameter_name(parameter));
+}
+
+// Numbers alone: no map is read or written.
+void convert_values(const ConvertOptions& options, const ChosenConverter& chosen,
+                    const TextureSetRequest& request) {
+  const PassOptions pass = pass_options(options);
+  const ConverterInfo& info = chosen.info();
+  MapConversion maps;
+  maps.width = maps.height = 1;
+  for (const auto& [parameter, asked] : request.parameters) {
+    SourceParameter& source = maps.sources[parameter];
+    source.constants = std::get<ConstantValues>(asked.source);
+    source.factors = asked.factors;
+    source.name = parameter_option(parameter);
+  }
+  maps.source_convention = request.convention;
+  maps.target_convention = pass.target_convention;
+  if (!maps.target_convention && chosen.workflow.is_material())
+    maps.target_convention = width_of(*chosen.workflow.target);
+  maps.bad_texels = pass.bad_texels;
+  const RoughnessConvention width = maps.target_convention.value_or(info.target.roughness);
+  const auto specular = maps.sources.find(Parameter::kSpecular);
+  ConvertedValues values;
+  for (const Parameter parameter : chosen.material->targets()) {
+    if (parameter == Parameter::kDoubts) continue;
+    const std::size_t channels = chosen.material->target_channels(
+        parameter, specular == maps.sources.end() ? 3 : specular->second.constants.size());
+    values.values.push_back(
+        {name_of_target(chosen, parameter, width), std::vector<float>(channels), !is_color(parameter)});
+    for (float& value : values.values.back().channels)
+      maps.targets[parameter].channels.push_back(float_channel(&value, 1));
+  }
+  values.in_domain = convert_maps(*chosen.material, maps).out_of_domain_count == 0;
+  if (!values.in_domain) warn(options, "the values are outside " + domain_text(chosen.domain()));
+  print_values(chosen, values, options.json);
+}
+
+// What a folder's roughness maps are taken for, where that is not what most tools write.
+void warn_of_encoding(const ConvertOptions& options, const JobList& list, const ModelSide& source) {
+  if (options.folder.empty() || !options.encoding.empty() ||
+      source.roughness == RoughnessConvention::kRoughness)
+    return;
+  const bool matters = std::any_of(list.jobs.begin(), list.jobs.end(),
+                                   [](const ConversionJob& job) { return !job.request.convention; });
+  if (matters)
+    warn(options, "roughness maps are read as " + std::string(convention_name(source.roughness)) + ", as " +
+                      source.model +
+                      " has it; --roughness-encoding roughness where they hold its square root");
+}
+
+void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chosen,
+                     const TextureSetRequest& request) {
+  const auto start = std::chrono::steady_clock::now();
+  if (options.output.empty())
+    throw Error(ErrorKind::kUsage, "--output: is missing; expected a folder for the results");
+  const JobList list = conversion_jobs(options, chosen.workflow, request);
+  warn_of_encoding(options, list, chosen.info().source);
+  Outcome outcome{chosen, list, run_jobs(list, chosen, options), options.dry_run, 0.0, {}};
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.used = resource_use();
+  if (!list.is_tree) outcome.reports.front().seconds = outcome.seconds;
+  if (!options.quiet) {
+    for (const JobReport& report : outcome.reports) print_job(kProgram, outcome, report);
+    print_summary(kProgram, outcome);
+  }
+  if (options.json) print_json(outcome);
+  if (const std::size_t failed = outcome.failed_count(); failed > 0)
+    throw Error(ErrorKind::kInput, std::to_string(failed) + " of " +
+                                       std::to_string(outcome.reports.size() + list.left_out.size()) +
+                                       " sets failed; expected none");
+}
+
+void convert(const ConvertOptions& options) {
+  const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_any_fit(options.fit));
+  const WarpMapFit* warp = warp_in(fit);
+  WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
+  (void)pass_options(options);  // wrong words before anything is looked at
+  (void)target_choice(options, workflow);
+  const TextureSetRequest request = set_request(options, workflow);
+  const ChosenConverter chosen = choose_converter(options, fit, std::move(workflow));
+  for (const std::string& assumption : chosen.workflow.assumptions) warn(options, assumption);
+  if (options.folder.empty() && are_constants(request))
+    convert_values(options, chosen, request);
+  else
+    convert_maps_of(options, chosen, request);
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+  auto options = std::make_shared<ConvertOptions>();
+  CLI::App* command = app.add_subcommand(
+      "convert", "Convert the maps of a material: width and specular, or all of a workflow");
+  add_convert_options(*command, *options);
+  command->footer(
+      "Results have the names of the inputs. A packed map keeps its other channels bit for bit. <UDIM>, "
+      "%(UDIM)d,\n"
+      "<UVTILE>, %04d and #### in the names of maps stand for all tiles or frames. Two numbers instead of "
+      "maps are\n"
+      "converted and printed. With DIR, every set whose maps are named as Substance Painter, Poly Haven,\n"
+      "ambientCG, Quixel Megascans, glTF exporters or Mari name them is converted; one that fails does not "
+      "stop\n"
+      "the others, and makes the exit code 1.\n\n"
+      "Example:\n"
+      "  texremap convert --from mitsuba/ward --to mitsuba/as --roughness r.exr --specular s.exr -o out\n"
+      "  texremap convert --from mitsuba/ggx --to mitsuba/ward --roughness orm.png:G --roughness-encoding "
+      "\\\n"
+      "    roughness --specular 0.04 --only roughness -o out\n"
+      "  texremap convert assets --recursive --from mitsuba/ward --to mitsuba/ggx --specular 0.04 -o "
+      "converted\n"
+      "  texremap convert --from mitsuba/ward --to mitsuba/ggx --roughness 0.3 --specular 0.04\n"
+      "  texremap convert --from gltf-specgloss --to gltf --diffuse d.png --specular sg.png --glossiness "
+      "sg.png:A "
+      "\\\n"
+      "    --layout orm -o out");
+  command->callback([options] { convert(*options); });
+}
+
+}  // namespace remap

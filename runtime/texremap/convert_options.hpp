@@ -1,0 +1,69 @@
+// The words of `texremap convert` and what they ask for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace remap {
+
+struct ConvertOptions {
+  std::string folder;  // of sets; empty: the set that the options name
+  std::string names;
+  bool recursive = false;
+  bool dry_run = false;
+  bool resume = false;
+  bool copy_others = false;
+  bool resample = false;
+  std::string from;
+  std::string to;
+  std::string from_workflow;
+  std::string to_workflow;
+  std::string dielectric_f0;
+  std::string diffuse_convention;
+  std::string formula;
+  std::string prior;
+  std::vector<std::string> via;
+  std::string fit;
+  std::string roughness;
+  std::string glossiness;
+  std::string specular;
+  std::string occlusion;
+  std::string metallic;
+  std::string diffuse;
+  std::string base_color;
+  std::string metal_mask;
+  std::string layout;
+  std::string roughness_factor;
+  std::string specular_factor;
+  std::string encoding;
+  std::string output_encoding;
+  std::string color_space;
+  std::string only;
+  std::string bad_texels = "keep";
+  std::string mask;
+  std::string residual;
+  std::string metallic_width;
+  std::string doubts;
+  std::string output;
+  std::string format;
+  std::string type;
+  std::string instructions;
+  int thread_count = 0;
+  bool dither = false;
+  bool smooth_metallic = false;
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+void add_convert_options(CLI::App& command, ConvertOptions& options);
+
+// Throws kUsage for a word that `option` does not know.
+[[noreturn]] void fail_unknown(const std::string& option, const std::string& word,
+                               const std::vector<std::string>& known);
+
+}  // namespace remap

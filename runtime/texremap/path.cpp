@@ -1,0 +1,157 @@
+// `texremap path`: which converters `convert` takes from one model to another, what to expect of them, and
+// why these.
+#include "convert/path.hpp"
+
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "convert/chained_converter.hpp"
+#include "texremap/commands.hpp"
+#include "texremap/converter_text.hpp"
+#include "texremap/workflow_choice.hpp"
+
+namespace remap {
+namespace {
+
+// The path itself and the next best two.
+constexpr std::size_t kPathsShown = 3;
+
+struct PathOptions {
+  PathRequest request;
+  bool json = false;
+};
+
+// Why the first of `paths` is the one.
+std::string reason(const std::vector<ConverterPath>& paths) {
+  if (paths.size() == 1) return "it is the only path";
+  const ConverterPath &best = paths[0], &next = paths[1];
+  if (best.expected_error < next.expected_error) return "its expected error is the least";
+  if (best.steps.size() < next.steps.size())
+    return "no path has a smaller expected error, and of those that have the same it has the fewest steps";
+  return "no path has a smaller expected error or, with the same, fewer steps; it is the first by its ids";
+}
+
+void print_step(std::size_t number, const ConverterInfo& info) {
+  std::cout << "  " << number << "  " << info.id << '\n'
+            << "     errors   " << errors_text(info) << '\n'
+            << "     covers   " << domain_text(info) << '\n'
+            << "     expected error " << expected_text(expected_error(info));
+  if (!info.image_rms_error)
+    std::cout << ", with " << figure_text(kAssumedImageError) << " for the image error that is unknown";
+  std::cout << '\n';
+}
+
+void print_text(const std::vector<ConverterPath>& paths, const ConverterInfo& whole) {
+  const ConverterPath& path = paths.front();
+  std::cout << models_text(path) << '\n';
+  for (std::size_t i = 0; i < path.steps.size(); ++i) print_step(i + 1, path.steps[i]->info());
+  std::cout << "expected error " << expected_text(path.expected_error)
+            << (path.steps.size() > 1 ? ", the sum of the steps'" : "") << '\n'
+            << "covers " << domain_text(whole) << '\n'
+            << "chosen because " << reason(paths) << '\n';
+  for (std::size_t i = 1; i < paths.size(); ++i) {
+    std::cout << (i == 1 ? "next best: " : "           ") << models_text(paths[i]) << ", expected error "
+              << expected_text(paths[i].expected_error) << " (";
+    for (std::size_t k = 0; k < paths[i].steps.size(); ++k)
+      std::cout << (k == 0 ? "" : ", ") << paths[i].steps[k]->info().id;
+    std::cout << ")\n";
+  }
+}
+
+Json step_json(const ConverterInfo& info) {
+  return {{"id", info.id},
+          {"source", side_json(info.source)},
+          {"target", side_json(info.target)},
+          {"domain", domain_json(info)},
+          {"rms_error", errors_json(info)},
+          {"expected_error", expected_error(info)}};
+}
+
+void print_json(const std::vector<ConverterPath>& paths, const ConverterInfo& whole,
+                const std::vector<std::string>& stages) {
+  Json steps = Json::array(), alternatives = Json::array();
+  for (const Converter* step : paths.front().steps) steps.push_back(step_json(step->info()));
+  for (std::size_t i = 1; i < paths.size(); ++i)
+    alternatives.push_back({{"models", path_models(paths[i])},
+                            {"path", path_json(paths[i])},
+                            {"expected_error", paths[i].expected_error}});
+  Json result = {{"models", path_models(paths.front())},
+                 {"path", path_json(paths.front())},
+                 {"expected_error", paths.front().expected_error},
+                 {"assumed_image_error", kAssumedImageError},
+                 {"domain", domain_json(whole)},
+                 {"steps", steps},
+                 {"reason", reason(paths)},
+                 {"alternatives", alternatives}};
+  if (!stages.empty()) result["stages"] = stages;
+  std::cout << result.dump(2) << '\n';
+}
+
+std::string end_text(const WorkflowEnd& end, const std::string& brdf) {
+  return model_of(end) + ": " + std::string(workflow_kind_name(kind_of(end))) + " over " + brdf +
+         ", diffuse " + std::string(diffuse_convention_name(diffuse_of(end)));
+}
+
+// What becomes of a material, before and after the converters of width and specular.
+std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
+  std::vector<std::string> stages = {end_text(*choice.source, choice.source_brdf)};
+  const bool from_metallic = kind_of(*choice.source) == WorkflowKind::kMetallic;
+  if (from_metallic && (choice.source_brdf != choice.target_brdf || !choice.is_to_metallic()))
+    stages.push_back("to diffuse and specular by equation (2), exact");
+  if (choice.source_brdf != choice.target_brdf)
+    stages.push_back("width and specular from " + choice.source_brdf + " to " + choice.target_brdf);
+  if (choice.is_to_metallic())
+    stages.push_back("to base color and metallic by " + std::string(formula_name(choice.formula)));
+  stages.push_back(end_text(*choice.target, choice.target_brdf));
+  return stages;
+}
+
+void explain(const PathOptions& asked) {
+  PathOptions options = asked;
+  const WorkflowChoice choice = workflow_between(asked.request.source, asked.request.target);
+  options.request.source = choice.source_brdf;
+  options.request.target = choice.target_brdf;
+  const bool has_path =
+      !choice.is_material() || choice.source_brdf != choice.target_brdf || !asked.request.via.empty();
+  const std::vector<std::string> stages =
+      choice.is_material() ? stage_texts(choice) : std::vector<std::string>{};
+  if (!options.json)
+    for (const std::string& stage : stages) std::cout << stage << '\n';
+  if (!has_path) {
+    if (options.json)
+      std::cout << Json{{"stages", stages}, {"path", Json::array()}, {"expected_error", 0.0}}.dump(2) << '\n';
+    return;
+  }
+  const ConverterGraph graph = compiled_graph();
+  const std::vector<ConverterPath> paths = graph.find_paths(options.request, kPathsShown);
+  const ConverterInfo whole = make_chained_converter(paths.front().steps)->info();
+  if (options.json)
+    print_json(paths, whole, stages);
+  else
+    print_text(paths, whole);
+}
+
+}  // namespace
+
+void add_path_command(CLI::App& app) {
+  auto options = std::make_shared<PathOptions>();
+  CLI::App* command =
+      app.add_subcommand("path", "Explain which converters lead from one model to another, and why these");
+  command->add_option("--from", options->request.source, "Source model, e.g. mitsuba/ward")->required();
+  command->add_option("--to", options->request.target, "Target model, e.g. mitsuba/as")->required();
+  command
+      ->add_option("--via", options->request.via,
+                   "Model that the path must go through; give it again for more, in their order")
+      ->allow_extra_args(false);
+  command->add_flag("--json", options->json, "Machine-readable result on standard output");
+  command->footer(
+      "Example:\n  texremap path --from mitsuba/ward --to mitsuba/as\n"
+      "  texremap path --from mitsuba/ward --to gltf");
+  command->callback([options] { explain(*options); });
+}
+
+}  // namespace remap

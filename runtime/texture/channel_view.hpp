@@ -1,0 +1,34 @@
+// Channels of maps in memory.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+#include "texture/pixel_type.hpp"
+
+namespace remap {
+
+// One channel of a map in memory. The value of texel (x, y) lies at first + y row_stride + x texel_stride and
+// need not be aligned. Strides are in bytes; a negative row stride is an image that begins at its bottom.
+template <typename Byte>
+struct BasicChannelView {
+  Byte* first = nullptr;
+  PixelType type = PixelType::kFloat;
+  std::ptrdiff_t texel_stride = 0;
+  std::ptrdiff_t row_stride = 0;
+
+  operator BasicChannelView<const Byte>() const noexcept  // what can be written can be read
+      requires(!std::is_const_v<Byte>) {
+    return {first, type, texel_stride, row_stride};
+  }
+};
+using ChannelView = BasicChannelView<std::byte>;
+using ConstChannelView = BasicChannelView<const std::byte>;
+
+// A channel of packed rows of `width` texels of floats with `values_a_texel` values each, `first` being its
+// value in the first texel.
+ChannelView float_channel(float* first, std::size_t width, std::size_t values_a_texel = 1) noexcept;
+ConstChannelView float_channel(const float* first, std::size_t width,
+                               std::size_t values_a_texel = 1) noexcept;
+
+}  // namespace remap

@@ -1,0 +1,92 @@
+// ImageSimilarity of pictures against scikit-image and closed forms.
+#include "renderer/image_similarity.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "remap/error.hpp"
+
+using namespace remapc;
+
+namespace {
+
+constexpr int kWidth = 32, kHeight = 24;
+
+template <typename Function>
+std::vector<float> picture(const Function& value) {
+  std::vector<float> values;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) values.push_back(static_cast<float>(value(x, y)));
+  return values;
+}
+
+std::vector<float> waves() {
+  return picture([](int x, int y) { return 0.5 + 0.5 * std::sin(0.3 * x + 0.1 * y); });
+}
+std::vector<float> other_waves() {
+  return picture([](int x, int y) { return 0.5 + 0.45 * std::sin(0.32 * x + 0.08 * y + 0.2); });
+}
+std::vector<float> grain() {
+  return picture([](int x, int y) { return (x * 7 + y * 13) % 11 / 10.0; });
+}
+
+// What scikit-image 0.26 gives for these pictures: structural_similarity(a, b, data_range=1, full=True,
+// gaussian_weights=True, sigma=1.5, use_sample_covariance=False).
+struct Golden {
+  double mean, top_left, middle, bottom_right, top_right;
+};
+constexpr Golden kWavesToWaves{0.8578487598560238, 0.9739736505735671, 0.9529733519945758, 0.3553416569450315,
+                               0.7427819415943472};
+constexpr Golden kWavesToGrain{0.005531302647734717, 0.3092004203144719, -0.05540938492897119,
+                               0.017968541818760352, -0.17206992398494383};
+
+// Sines of two libraries may differ in the last digit of a float; the map is kept in floats.
+constexpr double kTolerance = 2e-6;
+
+void check_golden(const std::vector<float>& a, const std::vector<float>& b, const Golden& golden) {
+  CHECK(structural_similarity(a, b, kWidth, kHeight) == Approx(golden.mean).margin(kTolerance));
+  const std::vector<float> map = similarity_map(a, b, kWidth, kHeight);
+  CHECK(map.front() == Approx(golden.top_left).margin(kTolerance));
+  CHECK(map[12 * kWidth + 16] == Approx(golden.middle).margin(kTolerance));
+  CHECK(map.back() == Approx(golden.bottom_right).margin(kTolerance));
+  CHECK(map[kWidth - 1] == Approx(golden.top_right).margin(kTolerance));
+}
+
+}  // namespace
+
+TEST_CASE("likeness: structural similarity is that of scikit-image") {
+  check_golden(waves(), other_waves(), kWavesToWaves);
+  check_golden(waves(), grain(), kWavesToGrain);
+}
+
+TEST_CASE("likeness: a picture is as similar to another as the other to it, and wholly to itself") {
+  CHECK(structural_similarity(waves(), waves(), kWidth, kHeight) == Approx(1.0).epsilon(1e-12));
+  CHECK(structural_similarity(waves(), grain(), kWidth, kHeight) ==
+        structural_similarity(grain(), waves(), kWidth, kHeight));
+}
+
+TEST_CASE("likeness: constant pictures differ by their means alone") {
+  // (2 a b + C1) / (a^2 + b^2 + C1), Wang et al. 2004, equation (13) without variance.
+  const std::vector<float> a(16, 0.25f), b(16, 0.75f);
+  CHECK(structural_similarity(a, b, 4, 4) == Approx((0.375 + 1e-4) / (0.625 + 1e-4)).epsilon(1e-6));
+  CHECK(rms_difference(a, b) == Approx(0.5).epsilon(1e-12));
+}
+
+TEST_CASE("likeness: display values are sRGB, held in its range") {
+  CHECK(display_value(0.5) == Approx(0.7353569830524495).epsilon(1e-6));
+  CHECK(display_value(0.002) == Approx(0.02584).epsilon(1e-6));
+  CHECK(display_value(1.0) == 1.0f);
+  CHECK(display_value(1e30) == 1.0f);
+  CHECK(display_value(std::numeric_limits<double>::infinity()) == 1.0f);
+  CHECK(display_value(-1.0) == 0.0f);
+  CHECK(display_value(std::nan("")) == 0.0f);
+}
+
+TEST_CASE("likeness: pictures of different sizes are refused") {
+  const std::vector<float> a(16), b(12);
+  CHECK_THROWS_WITH(structural_similarity(a, b, 4, 4), Catch::Contains("expected 16 each"));
+  CHECK_THROWS_AS(rms_difference(a, b), remap::Error);
+}
