@@ -208,7 +208,7 @@ TEST_CASE("remapc render: wrong parameters, files and folders are named") {
   check_failure(render({"--set", "alpha=0.3", "--set", "f0=x"}, "s.exr"), 2, "\"x\" is no number");
   check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5", "--set", "alhpa=1"}, "s.exr"), 2,
                 "did you mean alpha?");
-  check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5"}, "s.png"), 2, "expected an OpenEXR file");
+  check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5"}, "s.png"), 2, "the extension must be .exr");
   session.write("file", "x");
   check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5"}, "file/s.exr"), 1, "folder");
   CHECK(session.file_count() == 1);

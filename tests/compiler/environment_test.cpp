@@ -240,7 +240,7 @@ TEST_CASE("environment: files that are no map are refused with what was expected
   };
   CHECK_THROWS_WITH(load_environment(folder.path() / "none.exr"),
                     Catch::Contains("none.exr: cannot be read"));
-  CHECK_THROWS_WITH(load_environment(folder.path()), Catch::Contains("is no file"));
+  CHECK_THROWS_WITH(load_environment(folder.path()), Catch::Contains("not a file"));
   CHECK_THROWS_WITH(load_environment(written({4, 4, 1, std::vector<float>(16, 1.0f)})),
                     Catch::Contains("is 4 x 4; expected a map in latitude and longitude"));
   CHECK_THROWS_WITH(load_environment(written({4, 2, 1, std::vector<float>(8, 0.0f)})),

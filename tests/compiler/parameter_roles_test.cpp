@@ -133,7 +133,7 @@ TEST_CASE("roles: what cannot be cast is refused by its parameter") {
   roles.fixed = {{"metallic", 0.5}, {"base_color", 0.5}};
   refused(roles, "metallic is fixed, but is the specular of this remap");
   roles.fixed = {{"base_color", 1.5}};
-  refused(roles, "base_color = 1.5; expected 0 to 1");
+  refused(roles, "base_color = 1.5 is out of range (0 to 1)");
   roles = {};
   roles.roughness = "base_color";
   roles.fixed = {{"roughness", 0.5}};
