@@ -129,14 +129,14 @@ TEST_CASE("roles: what cannot be cast is refused by its parameter") {
   roles.specular = "metalic";
   refused(roles, "has no parameter metalic; did you mean metallic?");
   roles.specular = "metallic";
-  refused(roles, "base_color has lost its role and has no value; expected it fixed, base_color=VALUE");
+  refused(roles, "base_color no longer has a role and needs a value (add base_color=VALUE");
   roles.fixed = {{"metallic", 0.5}, {"base_color", 0.5}};
-  refused(roles, "metallic is fixed, but is the specular of this remap");
+  refused(roles, "metallic is the specular of this sweep and cannot be fixed");
   roles.fixed = {{"base_color", 1.5}};
   refused(roles, "base_color = 1.5 is out of range (0 to 1)");
   roles = {};
   roles.roughness = "base_color";
   roles.fixed = {{"roughness", 0.5}};
   refused(roles, "has no parameter for specular");
-  CHECK_THROWS_WITH(cast_roughness("roughness:rough", &roles), Contains("rough is no convention"));
+  CHECK_THROWS_WITH(cast_roughness("roughness:rough", &roles), Contains("unknown convention rough"));
 }
