@@ -114,12 +114,12 @@ TEST_CASE("random sweep: what cannot vary is refused by its parameter") {
   options.varied = {"metalic"};
   refused(options, "has no parameter metalic; did you mean metallic?");
   options.varied = {"base_color"};
-  refused(options, "base_color is the specular, which varies anyway");
+  refused(options, "base_color is the specular and varies anyway");
   options.varied = {};
   options.ranges["metallic"] = {0.0, 0.5};
   refused(options, "metallic has a range but does not vary");
   options.ranges = {{"base_color", {0.5, 1.5}}};
-  refused(options, "base_color 0.5 to 1.5; expected a range within 0 to 1");
+  refused(options, "base_color: the range 0.5 to 1.5 is not within 0 to 1");
   options.ranges = {};
   options.searched = {"f0"};
   refused(options, "f0 is the specular");
