@@ -64,8 +64,9 @@ TEST_CASE("named table: complaints name the place") {
 TEST_CASE("named table: who needs width and specular refuses it in words") {
   CHECK_THROWS_WITH(
       parse_table(material_table_text(material_table(2)), "n.csv"),
-      Contains("n.csv:5:1: is a table of named parameters (metallic1,roughness1), which this "
-               "command cannot use; expected the columns alpha1, specular1, alpha2, specular2"));
+      Contains(
+          "n.csv:5:1: this command needs the columns alpha1, specular1, alpha2, specular2 of remapc sweep; "
+          "the table has named parameters (metallic1,roughness1)"));
   CHECK_FALSE(is_material_table("alpha1,specular1,alpha2,specular2\n1,2,3,4\n", "t.csv"));
 }
 
