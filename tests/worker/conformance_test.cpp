@@ -40,11 +40,11 @@ TEST_CASE("worker check: a good worker passes every check") {
 
 TEST_CASE("worker check: each fault is named in words") {
   const std::vector<std::pair<std::string, std::string>> faults = {
-      {"bright", "light scale: diffuse light is 3.142 times as strong as expected, which is pi"},
+      {"bright", "light scale: diffuse light is 3.142 times as strong as it should be (pi)"},
       {"no-square", "inverse square: a light twice as far is 1 times as bright"},
       {"gamma", "linearity: half the diffuse gives 0.73"},
-      {"eight-bit", "precision: values are of 8 bits"},
-      {"grey-background", "background: pixels beside the sphere are up to 0.0"},
+      {"eight-bit", "precision: values have 8 bits"},
+      {"grey-background", "background: pixels outside the sphere are up to 0.0"},
       {"mirrored", "orientation: a light at +60 degrees lights the left of the picture"},
       {"transposed", "rows and columns are exchanged"},
       {"shifted", "symmetry: under a headlight the upper and lower halves differ"},
