@@ -29,16 +29,11 @@ SpecularResponse specular_response(const Renderer& renderer, const ModelDescript
 // Returns the canonical speculars that `model` accepts, by the same law.
 remap::Range canonical_speculars(const Renderer& renderer, const ModelDescription& model);
 
-// Returns the alpha below which the highlight of a headlight has a radius of less than one pixel sample, so
-// that the picture no longer resolves it.
-double subpixel_alpha(int resolution, int samples_per_axis);
-
-// Matches every sample. Stages 2: width and specular from pictures without diffuse, then diffuse by itself.
-// Stages 1: width, specular and diffuse at once from kFixedGuess (joint_match.hpp). Stages 3: the same from
-// the result of
-// 2. If the two models' light differs by a factor, the source's pictures are multiplied by it first (section
-// 4). The table does not depend on the number of jobs. Throws kUsage for unknown models and samples out of
-// range, kNumeric if a search fails, and what the renderer throws.
+// Matches every sample. With two stages, width and specular come from pictures without diffuse, then diffuse
+// by itself. With one stage, all three come at once from kFixedGuess (joint_match.hpp); with three, at once
+// from the result of two stages. If the two models' light differs by a factor, the source's pictures are
+// multiplied by it first (section 4). The table does not depend on the number of jobs. Throws kUsage for
+// unknown models and samples out of range, kNumeric if a search fails, and what the renderer throws.
 Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution);
 
 }  // namespace remapc
