@@ -19,18 +19,20 @@ using remap::Fit;
 
 constexpr const char* kMark = " **(!)**";
 
+// Pairs with a smaller image error in both directions are listed without their SSIM.
+constexpr double kSmallError = 0.01;
+
 constexpr const char* kFigures = R"(
 *Image error*: the RMS difference between the pictures of the two models at the best parameters, as a share of the source's
-picture. It is a property of the two models, so no converter between them can do better. *SSIM*: the mean structural
-similarity of their spheres as a display shows them (1: equal). Outside its domain (CSV: alpha and specular), a converter
-clamps alpha, scales specular in proportion and counts the texels.
+picture. It is a property of the models, so no converter between them can do better. *SSIM*: the mean structural similarity
+of their spheres as a display shows them (1: equal). Outside its domain (CSV: alpha and specular), a converter clamps alpha,
+scales specular in proportion and counts the texels.
 )";
 
 constexpr const char* kWorkflowIntroduction = R"(
 ## Between workflows
 
-Whole materials: diffuse and specular color to base color and metallic, and back. Metallic cannot represent every specular
-material; the residual depends on the texel, and texremap reports it.
+Metallic cannot represent every specular material; what remains depends on the texel, and texremap reports it.
 
 )";
 
@@ -42,23 +44,33 @@ texels, as a share of their spread.
 
 )";
 
-std::string percent_text(double value) { return fixed(100.0 * value, value < 0.00995 ? 2 : 1) + " %"; }
+std::string percent_text(double value) {
+  if (value < 0.00005) return "< 0.01 %";
+  return fixed(100.0 * value, value < 0.00995 ? 2 : 1) + " %";
+}
 
 std::string link(const std::string& text, const std::string& id) { return "[" + text + "](" + id + ".json)"; }
 
-// The converters between two models, both ways, of which pictures were compared or of which none were.
+// The compared converters between two models, both ways.
 struct ModelPair {
-  std::string first, second;  // first by name
+  std::string first, second;  // by name
   std::vector<const Fit*> there, back;
 };
 
+bool is_small(const ModelPair& pair) {
+  const auto small = [](const Fit* fit) { return image_error(*fit) < kSmallError; };
+  return std::all_of(pair.there.begin(), pair.there.end(), small) &&
+         std::all_of(pair.back.begin(), pair.back.end(), small);
+}
+
 // By the image error of the better direction, the best pair first.
-std::vector<ModelPair> model_pairs(const std::vector<Fit>& fits) {
+std::vector<ModelPair> compared_pairs(const std::vector<Fit>& fits) {
   std::vector<ModelPair> pairs;
-  std::map<std::pair<std::pair<std::string, std::string>, bool>, std::size_t> known;
+  std::map<std::pair<std::string, std::string>, std::size_t> known;
   for (const Fit* fit : by_trust(fits)) {
-    const auto names = std::minmax(fit->source.model, fit->target.model);
-    const auto [place, is_new] = known.try_emplace({names, fit->image_similarity.has_value()}, pairs.size());
+    if (!fit->image_similarity) continue;
+    const std::pair<std::string, std::string> names = std::minmax(fit->source.model, fit->target.model);
+    const auto [place, is_new] = known.try_emplace(names, pairs.size());
     if (is_new) pairs.push_back({names.first, names.second, {}, {}});
     ModelPair& pair = pairs[place->second];
     (fit->source.model == pair.first ? pair.there : pair.back).push_back(fit);
@@ -66,27 +78,45 @@ std::vector<ModelPair> model_pairs(const std::vector<Fit>& fits) {
   return pairs;
 }
 
-std::string converter_text(const Fit& fit) {
-  if (!fit.image_similarity) return link("not compared", fit.id) + kMark;
-  return link(percent_text(image_error(fit)), fit.id) +
-         (is_measured(fit) ? ", " + fixed(mean_ssim(fit), 3) : "") +
-         (trust_warning(fit).empty() ? "" : kMark);
-}
-
-std::string converters_text(const std::vector<const Fit*>& fits) {
+std::string converters_text(const std::vector<const Fit*>& fits, bool with_similarity) {
   std::string text;
-  for (const Fit* fit : fits) text += (text.empty() ? "" : "; ") + converter_text(*fit);
+  for (const Fit* fit : fits) {
+    text += (text.empty() ? "" : ", ") + link(percent_text(image_error(*fit)), fit->id);
+    if (with_similarity && is_measured(*fit)) text += ", " + fixed(mean_ssim(*fit), 3);
+    if (!trust_warning(*fit).empty()) text += kMark;
+  }
   return text;
 }
 
 std::string pair_lines(const std::vector<Fit>& fits) {
-  std::string text =
-      "\n## Between models\n\n"
-      "| A, B | A to B: image error, SSIM | B to A: image error, SSIM |\n|---|---|---|\n";
-  for (const ModelPair& pair : model_pairs(fits))
-    text += "| " + pair.first + ", " + pair.second + " | " + converters_text(pair.there) + " | " +
-            converters_text(pair.back) + " |\n";
+  std::string small, others;
+  for (const ModelPair& pair : compared_pairs(fits)) {
+    const std::string names = pair.first + ", " + pair.second;
+    if (is_small(pair))
+      small += (small.empty() ? "" : "; ") + names + " (" + converters_text(pair.there, false) +
+               (pair.there.empty() || pair.back.empty() ? "" : ", ") + converters_text(pair.back, false) +
+               ")";
+    else
+      others += "| " + names + " | " + converters_text(pair.there, true) + " | " +
+                converters_text(pair.back, true) + " |\n";
+  }
+  std::string text;
+  if (!small.empty())
+    text += "\n## Image error below " + percent(kSmallError) + " both ways\n\n" + small + ".\n";
+  if (!others.empty())
+    text +=
+        "\n## Other pairs of models\n\n"
+        "| A, B | A to B: image error, SSIM | B to A: image error, SSIM |\n|---|---|---|\n" +
+        others;
   return text;
+}
+
+std::string uncompared_lines(const std::vector<Fit>& fits) {
+  std::string text;
+  for (const Fit& fit : fits)
+    if (!fit.image_similarity)
+      text += (text.empty() ? "" : "; ") + link(fit.source.model + " to " + fit.target.model, fit.id);
+  return text.empty() ? "" : std::string("\n## Never compared") + kMark + "\n\n" + text + ".\n";
 }
 
 std::string mark_text(const FitFolder& folder) {
@@ -108,7 +138,7 @@ std::string small_errors_text(const std::vector<Fit>& fits, const Lock& lock) {
       bound = std::max(bound, locked->second.alpha_bound);
   }
   if (fit_error == 0.0) return "";
-  return "\nThe other errors are small: converters follow the measured target alpha to " +
+  return "The other errors are small: converters follow the measured target alpha to " +
          error_text(fit_error) + " (RMS, unseen rows) or better,\nand headers follow their fit to " +
          error_text(bound) + " in alpha (proven) or better.\n";
 }
@@ -139,13 +169,13 @@ std::string page(const FitFolder& folder, const Lock& lock) {
   std::string text =
       std::string("# Converters: which to trust\n\nBest first. All figures of every converter: [") +
       kFiguresName + "](" + kFiguresName +
-      "); `remapc show ID` prints the card of one. `remapc build`\nwrites this page.\n";
+      "); the card of one: `remapc show ID`.\n`remapc build` writes this page.\n";
   text += mark_text(folder) + kFigures + small_errors_text(folder.fits, lock);
-  if (!folder.fits.empty()) text += pair_lines(folder.fits);
+  text += pair_lines(folder.fits) + uncompared_lines(folder.fits);
   if (!folder.analytic.empty()) text += kWorkflowIntroduction + workflow_lines(folder.analytic);
   if (!folder.warps.empty()) text += kWarpIntroduction + warp_lines(folder.warps);
   text +=
-      std::string("\n## Curves\n\n![A panel for each measured pair](") + kPlotName +
+      std::string("\n![A panel for each compared pair](") + kPlotName +
       ")\n\nBlue: target alpha over source alpha, 0 to 1. Orange: target specular / source specular, 0 to 2. "
       "Grey: the identity.\n";
   return text;

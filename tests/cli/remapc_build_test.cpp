@@ -61,11 +61,10 @@ TEST_CASE("remapc build: makes the items of the manifest, and none twice") {
       "emit", "--all", "--check", "--fits", session.path("fits"), "-o", session.path("generated")};
   CHECK(session.remapc(emit).exit_code == 0);
   const std::string report = read_file(session.path("fits/README.md"));
-  // The measured pair comes before the published one, which carries the mark.
+  // The compared pair comes before the published one, whose heading carries the mark.
   const std::size_t measured = report.find("| mitsuba/ward, mitsuba/ward-duer | [");
-  const std::size_t published = report.find(
-      "| a/b, mitsuba/ward | [not compared](a_b_to_mitsuba_ward.json) **(!)** | "
-      "[not compared](mitsuba_ward_to_a_b.json) **(!)** |");
+  const std::size_t published = report.find("[a/b to mitsuba/ward](a_b_to_mitsuba_ward.json)");
+  CHECK(report.find("## Never compared **(!)**") < published);
   CHECK(measured < published);
   CHECK(published != std::string::npos);
   CHECK(report.find("marks 3 of 5 converters") != std::string::npos);
