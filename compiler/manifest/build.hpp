@@ -3,21 +3,16 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "lower/lower.hpp"
+#include "manifest/freshness.hpp"
 #include "manifest/manifest.hpp"
+#include "model/fit.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remapc {
-
-struct BuildFolders {
-  std::filesystem::path fits = "fits";  // fits, with tables/ in it; the report is its README.md
-  std::filesystem::path generated = "generated";
-};
 
 // How a build runs. None of this changes its results.
 struct BuildExecution {

@@ -146,8 +146,6 @@ void require_unique(const std::vector<ManifestItem>& items, const std::string& p
           place + ": id \"" + id + "\" is not a C++ identifier without leading or doubled underscore");
 }
 
-}  // namespace
-
 Manifest manifest_from_json(std::string_view text, const std::string& place) {
   const nlohmann::ordered_json json = remap::parse_json(text, place);
   const Field root(json, place);
@@ -181,6 +179,8 @@ Manifest manifest_from_json(std::string_view text, const std::string& place) {
   require_unique(items, place);
   return manifest;
 }
+
+}  // namespace
 
 Manifest load_manifest(const std::filesystem::path& fit_folder) {
   const std::filesystem::path path = fit_folder / kManifestName;

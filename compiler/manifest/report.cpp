@@ -125,8 +125,9 @@ std::string mark_text(const FitFolder& folder) {
                                     [](const Fit& fit) { return !trust_warning(fit).empty(); });
   return "\n**(!)** marks " + std::to_string(marked) + " of " + std::to_string(all) +
          " converters: an image error above " + percent(kLargestTrustedError) +
-         ", or pictures that were never compared\n(published formulas, and what is derived from them). Check "
-         "these with `remapc preview` before use.\n";
+         ", or pictures that were never compared\n(published formulas, and what is derived from them). "
+         "Compare "
+         "pictures before you use one of them.\n";
 }
 
 // The errors that the table of pairs leaves out.

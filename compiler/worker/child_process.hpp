@@ -51,8 +51,6 @@ class ChildProcess {
   // Kills the group immediately.
   void kill();
 
-  pid_t id() const { return id_; }
-
   static constexpr std::chrono::milliseconds kGrace{2000};
 
  private:

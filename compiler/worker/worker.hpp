@@ -43,8 +43,6 @@ class Worker {
   Image render(const PictureRequest& request);
   bool is_usable() const { return usable_; }
 
-  pid_t process_id() const { return process_->id(); }
-
  private:
   std::string place(const std::string& shown) const;
   // Sends a line and waits for the answer to it.

@@ -9,6 +9,7 @@
 #include "fit/fit_table.hpp"
 #include "manifest/build.hpp"
 #include "manifest/fit_folder.hpp"
+#include "manifest/report.hpp"
 #include "manifest/trust.hpp"
 #include "model/chain.hpp"
 #include "model/interpreter.hpp"
