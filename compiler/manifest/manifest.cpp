@@ -1,6 +1,7 @@
 #include "manifest/manifest.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "fit_file/fit_fields.hpp"
 #include "fit_file/workflow_fields.hpp"
