@@ -53,7 +53,7 @@ MaterialTable parse_material_table(std::string_view text, const std::string& nam
   for (const char* key : {kSourceColumnsComment, kTargetColumnsComment})
     if (csv.comment(key).empty())
       csv.fail(csv.header.number, 1,
-               std::string("has no comment ") + key + "; expected the names of columns");
+               std::string("has no comment ") + key + " (it must list the names of columns)");
   table.source_columns = split_names(csv.comment(kSourceColumnsComment));
   table.target_columns = split_names(csv.comment(kTargetColumnsComment));
   const auto sources = places_of(csv, table.source_columns), targets = places_of(csv, table.target_columns);

@@ -164,5 +164,5 @@ TEST_CASE("remapc list: a folder without fits says so, and one that is none is a
   const ProcessResult result = session.remapc({"list", "--fits", session.path("empty")});
   CHECK(result.exit_code == 0);
   CHECK(result.errors.find("holds no fits") != std::string::npos);
-  check_failure(session.remapc({"list", "--fits", session.path("none")}), 1, "none: is no folder");
+  check_failure(session.remapc({"list", "--fits", session.path("none")}), 1, "none: not a folder");
 }

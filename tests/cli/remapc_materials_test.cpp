@@ -58,7 +58,7 @@ TEST_CASE("remapc sweep: wrong stages, diffuse and conductors are exit code 2") 
   check_failure(session.remapc(arguments), 2, "--stages: Value 4 not in range 1 to 3");
   arguments = session.sweep("t.csv");
   arguments.insert(arguments.end(), {"--diffuse", "2"});
-  check_failure(session.remapc(arguments), 2, "diffuse 2; expected 0 to 1");
+  check_failure(session.remapc(arguments), 2, "diffuse 2 is out of range (0 to 1)");
   arguments = session.sweep("t.csv");
   arguments[2] = "mitsuba/as-conductor";
   check_failure(session.remapc(arguments), 2, "has no parameter for specular");

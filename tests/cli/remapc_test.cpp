@@ -67,7 +67,7 @@ TEST_CASE("remapc: wrong usage is exit code 2 and names the nearest") {
   check_failure(session.remapc(sweep), 2, "--specular-samples: Value -1 not in range 1 to 4096");
   sweep = session.sweep("t.csv");
   sweep.insert(sweep.end(), {"--roughness-range", "0.5,2"});
-  check_failure(session.remapc(sweep), 2, "out of range; expected alpha");
+  check_failure(session.remapc(sweep), 2, "is out of range (");
   check_failure(session.remapc({"show", "nix", "--fits", session.path("")}), 2, "neither a file nor a fit");
   CHECK(session.file_count() == 0);
 }
@@ -208,7 +208,7 @@ TEST_CASE("remapc render: wrong parameters, files and folders are named") {
   check_failure(render({"--set", "alpha=0.3", "--set", "f0=x"}, "s.exr"), 2, "\"x\" is no number");
   check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5", "--set", "alhpa=1"}, "s.exr"), 2,
                 "did you mean alpha?");
-  check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5"}, "s.png"), 2, "expected an OpenEXR file");
+  check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5"}, "s.png"), 2, "the extension must be .exr");
   session.write("file", "x");
   check_failure(render({"--set", "alpha=0.3", "--set", "f0=0.5"}, "file/s.exr"), 1, "folder");
   CHECK(session.file_count() == 1);

@@ -70,7 +70,7 @@ TEST_CASE("remapc warp: a fit becomes a header, alone and with the registry of i
   session.write("generated/stony.hpp", "");
   const ProcessResult stale = run_with({"build", "--check"});
   CHECK(stale.exit_code == 1);
-  CHECK((stale.output + stale.errors).find("stony.hpp is not what its fit gives") != std::string::npos);
+  CHECK((stale.output + stale.errors).find("stony.hpp is out of date with its fit") != std::string::npos);
   CHECK(session.remapc({"list", "--fits", session.path("fits")}).output.find("from an exact copy") !=
         std::string::npos);
 }

@@ -14,7 +14,7 @@
 
 using namespace remapc;
 
-TEST_CASE("template: holes are filled, lines of a value keep the indentation, empty lines vanish") {
+TEST_CASE("template: holes are filled, lines of a value keep the indentation, empty lines are removed") {
   CHECK(fill_template("a @x@ b\n", {{"x", "1"}}) == "a 1 b\n");
   CHECK(fill_template("{\n  @x@\n}\n", {{"x", "one\ntwo\n"}}) == "{\n  one\n  two\n}\n");
   CHECK(fill_template("{\n  @x@\n}\n", {{"x", ""}}) == "{\n}\n");
@@ -27,7 +27,7 @@ TEST_CASE("template: a hole without value and a value without hole are bugs") {
   CHECK_THROWS_AS(fill_template("@x\n", {{"x", "1"}}), std::logic_error);
 }
 
-TEST_CASE("emit: the same fit gives the same bytes, and the committed header is what its fit gives") {
+TEST_CASE("emit: the same fit gives the same bytes, and the committed header is up to date") {
   const std::string root = REMAP_SOURCE_DIR;
   const remap::Fit fit = remap::load_fit(root + "/fits/mitsuba_ward_to_mitsuba_as.json");
   CHECK(emit_header(fit) == emit_header(fit));
@@ -47,14 +47,14 @@ TEST_CASE("emit: the header names models, table, errors and licence, and defines
   CHECK(defines == 1);
 }
 
-TEST_CASE("emit: a coefficient that is no finite float is refused") {
+TEST_CASE("emit: a coefficient that is not a finite float is refused") {
   remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
   std::get<remap::Parametric>(fit.mapping).roughness[0][2] = 1e300;
   CHECK_THROWS_WITH(emit_header(fit, {true, {}}), Catch::Contains("not finite"));
   CHECK_THROWS_AS(emit_header(fit), remap::Error);
 }
 
-TEST_CASE("emit: a parameter named as a variable of the header is refused") {
+TEST_CASE("emit: a parameter with the name of a variable of the header is refused") {
   remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
   fit.target.specular = "count";
   CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("called count"));

@@ -123,7 +123,7 @@ TEST_CASE("network batch: outputs are those of the interpreter's formula") {
       const VectorXd column = inputs.col(n);
       const auto expected =
           remap::network_outputs(network, std::vector<double>(column.begin(), column.end()));
-      // Sums of at most 9 products, in another order.
+      // The margin covers sums of at most 9 products in another order.
       for (Index k = 0; k < 4; ++k)
         CHECK(outputs(k, n) == Approx(expected[static_cast<std::size_t>(k)]).margin(1e-12));
     }
@@ -153,7 +153,7 @@ TEST_CASE("network training: reported errors are those of the stored network") {
   }
 }
 
-TEST_CASE("network training: six inputs and four outputs are learned, by either way of training") {
+TEST_CASE("network training: six inputs and four outputs are learned by both optimisers") {
   const Samples seen = metallic_samples(kSlowBuild ? 400 : 1500, 1), unseen = metallic_samples(500, 2);
   for (const std::size_t units : {std::size_t{12}, std::size_t{60}}) {
     if (kSlowBuild && units > 12) {
@@ -172,7 +172,7 @@ TEST_CASE("network training: six inputs and four outputs are learned, by either 
   }
 }
 
-TEST_CASE("network training: large networks do not depend on the number of threads either") {
+TEST_CASE("network training: large networks do not depend on the number of threads") {
   const Samples samples = metallic_samples(40, 1);
   TrainingOptions options;
   options.hidden = {60};

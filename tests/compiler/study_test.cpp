@@ -1,4 +1,4 @@
-// The studies of measured materials: the list against the database, and small studies against what must hold.
+// The studies of measured materials: the list against the database, and properties of small studies.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -57,7 +57,7 @@ TEST_CASE("materials: at least thirty, named once, with a source, and physical")
   CHECK(names.size() >= 30);
 }
 
-TEST_CASE("materials: values are those of the database") {
+TEST_CASE("materials: values equal those of the database") {
   const auto path = remap::shared_data("materials/physicallybased.json");
   if (path.empty()) return;
   const nlohmann::json database = nlohmann::json::parse(remap::read_file(path));

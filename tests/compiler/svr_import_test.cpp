@@ -1,4 +1,4 @@
-// Model files of libsvm: read as libsvm reads them, and refused with the line that is wrong.
+// Model files of libsvm: they are read as libsvm reads them, and faults are reported with their line.
 #include "fit/svr/svr_import.hpp"
 
 #include <cmath>
@@ -113,7 +113,7 @@ TEST_CASE("model file: an index that a vector leaves out is 0") {
   CHECK(expansion_from_svm_model(windows, 2, "m") == expansion);
 }
 
-TEST_CASE("model file: what is wrong is refused with its line") {
+TEST_CASE("model file: faults are reported with their line") {
   const std::string good = kHeader + kVectors;
   const auto refusal = [](const std::string& text) {
     try {
@@ -146,7 +146,7 @@ TEST_CASE("model file: what is wrong is refused with its line") {
   CHECK_THAT(refusal(with(good, "2:0.75", "2")), StartsWith("m:8: \"2\"; expected index:value"));
   CHECK_THAT(refusal(with(good, "1.5 1", "inf 1")), StartsWith("m:8: the weight is \"inf\""));
   CHECK_THAT(refusal(with(good, "-1.5 2:0.5 \n", "\n")), StartsWith("m:9: the weight is \"\""));
-  // Cut anywhere, it is refused: none of the shorter texts is a model.
+  // A truncated file is always refused.
   for (std::size_t length = 0; length < good.size(); ++length)
     CHECK(refusal(good.substr(0, length)) != "none");
 }
@@ -173,7 +173,7 @@ TEST_CASE("import: a description and two model files give what libsvm predicts b
   }
 }
 
-TEST_CASE("import: a wrong description is refused with the place in it") {
+TEST_CASE("import: faults of a description are reported with their place") {
   const remap::TemporaryFolder folder;
   for (const char* name : {"a.model", "s.model"}) remap::write_file(folder.path() / name, kHeader + kVectors);
   const auto refusal = [&](const std::string& text) {

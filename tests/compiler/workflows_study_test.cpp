@@ -1,5 +1,5 @@
-// The study of workflows on small pictures: the floor is below every method, the projection next to it, exact
-// where metallic can say the material; measured materials where they lie beside the repository.
+// The study of workflows on small pictures: the least error is below every method, the projection next to it,
+// and exact for materials that metallic can represent; measured materials if their files are available.
 #include <algorithm>
 #include <cmath>
 
@@ -81,7 +81,7 @@ TEST_CASE("study workflows: metallic materials come back, and their pictures are
       CHECK(pictures.rmse[light] < 0.02);
       CHECK(pictures.ssim[light] > 0.9999);
     }
-  // The floor finds them by pictures alone, or takes the projection's.
+  // The least error finds them by pictures, or starts from the projection.
   for (std::size_t i = 0; i < best.size(); ++i)
     CHECK(best[i].surface.metallic == Approx(projected[i].surface.metallic).margin(0.02));
 }
@@ -98,12 +98,14 @@ TEST_CASE("study workflows: a picture is its reflectances times the basis") {
   REQUIRE(expected.size() == combined.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
     CHECK(combined[i] == Approx(expected[i]).epsilon(1e-4).margin(1e-6));
-  // White diffuse at the nearest point, by the light at the camera: white.
+  // White diffuse is white at the nearest point under a headlight.
   const std::vector<float>& white = lit.basis(0, lit.headlight()).diffuse;
   CHECK(*std::max_element(white.begin(), white.end()) == Approx(1.0).epsilon(0.01));
 }
 
-TEST_CASE("study workflows: on the family the projection is exact, the others as far off as they are") {
+TEST_CASE(
+    "study workflows: on materials of the family the projection is exact, and the others have their known "
+    "errors") {
   const std::vector<FamilyLine> lines = study_family({}, 4000, 1, 0);
   const auto line = [&](const std::string& method) {
     const auto found = std::find_if(lines.begin(), lines.end(),
@@ -144,7 +146,7 @@ TEST_CASE("study workflows: tables, sheets and the same figures for any number o
   CHECK(workflow_materials_csv(options, study_workflows(options)) == csv);
 }
 
-TEST_CASE("study workflows: what makes no sense is refused") {
+TEST_CASE("study workflows: invalid options are refused") {
   WorkflowsOptions options = small_study(1);
   options.alphas.pop_back();
   options.materials.front().alpha = 1;

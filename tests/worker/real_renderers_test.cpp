@@ -1,5 +1,5 @@
-// The proof: real renderers against the built-in hub. Skipped, with a message, where one is not installed
-// (scripts/renderers). REMAP_REQUIRE_RENDERERS names those whose absence is a failure.
+// Real renderers against the built-in hub. Tests of renderers that are not installed (scripts/renderers) are
+// skipped with a message. REMAP_REQUIRE_RENDERERS names those whose absence is a failure.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,7 @@ bool is_required(const std::string& name) {
   return required != nullptr && std::string(required).find(name) != std::string::npos;
 }
 
-// Where a model of the worker `name` can be rendered. Else says so, once a test.
+// Whether a model of the worker `name` can be rendered; prints the reason if not.
 bool is_here(const RendererSet& renderers, const std::string& name, const std::string& model) {
   try {
     find_model(renderers, name + "/" + model);
@@ -41,14 +41,14 @@ bool is_here(const RendererSet& renderers, const std::string& name, const std::s
   }
 }
 
-// Of two pictures, relative to the brightest pixel of `b`.
+// Differences of two pictures, relative to the brightest pixel of `b`.
 struct Disagreement {
   double rms = 0.0;      // over the whole picture
   double inside = 0.0;   // largest, where the view is not grazing
   double largest = 0.0;  // anywhere
 };
 
-// At the silhouette a cosine of 1e-3 comes out of floats with an error of 1e-4 of itself.
+// At the silhouette, floats compute a cosine of 1e-3 with a relative error of 1e-4.
 constexpr float kGrazing = 0.1f;
 
 Disagreement disagreement(const Renderer& renderers, const Material& found, const Material& expected,
@@ -80,7 +80,7 @@ Table small_sweep(const Renderer& renderers, const std::string& source, const st
   return run_sweep(renderers, options, {});
 }
 
-// Largest change of alpha, and of specular relative to it, over rows that end within the target's range.
+// Checks the largest change of alpha, and the relative one of specular, over rows within the target's range.
 void check_identity(const Table& table, double alpha_tolerance, double specular_tolerance) {
   for (const TableRow& row : table.rows) {
     INFO("alpha " << row.alpha1 << " specular " << row.specular1);
@@ -133,7 +133,7 @@ TEST_CASE("real renderers: Mitsuba 3 shows the torus, from its mesh, as the hub 
   };
   for (const double angle : {0.0, 60.0}) {
     const Scene scene{128, 1, {angle, 3.0}, 0, Shape::kTorus};
-    // Facets of 1e-4, and pixels at edges of the shape and of its shadow that fall to the other side.
+    // The margin covers facets (1e-4), and pixels at the edges of the shape and of its shadow.
     CHECK(disagreement(renderers, material("mitsuba3/ggx"), material("mitsuba/ggx-plain"), scene).rms < 5e-3);
   }
 }
@@ -146,14 +146,14 @@ TEST_CASE("real renderers: hub to Mitsuba 3 is the identity") {
                  1e-4);
 }
 
-TEST_CASE("real renderers: Radiance's plastic is the hub's balanced Ward") {
+TEST_CASE("real renderers: Radiance's plastic equals the hub's balanced Ward") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "radiance", "plastic")) return;
   check_identity(small_sweep(renderers, "radiance/plastic", "mitsuba/ward-balanced", {0.03, 0.9}), 1e-5,
                  1e-5);
 }
 
-TEST_CASE("real renderers: Cycles 3.4's GGX is the hub's") {
+TEST_CASE("real renderers: Cycles 3.4's GGX equals the hub's") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "cycles-3.4", "ggx")) return;
   check_identity(small_sweep(renderers, "cycles-3.4/ggx", "mitsuba/ggx-plain", {0.03, 0.9}), 1e-4, 1e-3);
