@@ -27,7 +27,7 @@ bool has_gnuplot() {
   }
 }
 
-// A block of data for each curve; gnuplot refuses empty ones.
+// Writes one data block for each curve.
 void write_data(const StudyPlot& plot, std::size_t panel, std::ostringstream& out) {
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {
     out << "$data" << panel << "_" << c << " << EOD\n";
@@ -36,7 +36,8 @@ void write_data(const StudyPlot& plot, std::size_t panel, std::ostringstream& ou
   }
 }
 
-// A flagged curve has the color of the one before it, whose continuation it is.
+// A flagged curve has the color of the curve before it, because it continues that curve. gnuplot rejects
+// empty curves.
 void write_curves(const StudyPlot& plot, std::size_t panel, std::ostringstream& out) {
   out << "set title \"" << plot.title << "\" noenhanced\nset xlabel \"" << plot.x_label
       << "\" noenhanced\nset ylabel \"" << plot.y_label << "\" noenhanced\nplot ";

@@ -82,7 +82,7 @@ remap::WarpTexel wood_template(const std::array<double, 3>& l) {
                   0.12 + 0.3 * l[1] + 0.08 * l[0] * l[1]);
 }
 
-// The material at `latents` with texel noise of 1 %.
+// Evaluates the material at `latents` and adds texel noise of 1 %.
 std::vector<remap::WarpTexel> material_of(Law law, const Latents& latents, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<remap::WarpTexel> texels;
@@ -110,7 +110,7 @@ Latents leaf_latents(std::size_t size, std::uint32_t seed, double power) {
   const auto age = ranked_noise(size, 1.4, seed), vein = ranked_noise(size, 2.0, seed + 1);
   Latents latents(age.size());
   for (std::size_t i = 0; i < age.size(); ++i) {
-    const double distance = std::abs(vein[i] - 0.5);  // stems follow a level of smooth noise
+    const double distance = std::abs(vein[i] - 0.5);  // stems follow an isoline of smooth noise
     latents[i] = {std::pow(age[i], power), 1.0 - smooth_step(distance, 0.02, 0.09), 0.0};
   }
   return latents;
@@ -125,7 +125,7 @@ Latents rust_latents(std::size_t size, std::uint32_t seed, double power) {
   return latents;
 }
 
-// Grain runs along rows.
+// The grain is stretched along rows.
 Latents wood_latents(std::size_t size, std::uint32_t seed, double power) {
   const auto grain = ranked_noise(size, 1.3, seed, 8), wear = ranked_noise(size, 1.7, seed + 1);
   Latents latents(grain.size());

@@ -68,13 +68,13 @@ std::string cost_cells(const std::optional<WarpCost>& cost) {
 }
 
 std::string comments_of(const WarpsOptions& options) {
-  return comment_lines({{"tool", std::string("remapc ") + remap::kVersion},
+  return comment_lines({{"tool", std::string("remap-study ") + remap::kVersion},
                         {"size", size_text(options)},
                         {"sets", set_names(options)},
-                        {"unit", "percent of the template's spread unless said otherwise"}});
+                        {"unit", "percent of the template's spread unless stated otherwise"}});
 }
 
-// Mean errors of all sets, a line a variant of the groups.
+// Writes the mean error of each set, one line for each variant.
 void write_bars(const WarpsOptions& options, const WarpsResult& result, std::ostringstream& out) {
   out << "$bars << EOD\n";
   for (std::size_t v = 0; v < result.variants.size(); ++v) {
@@ -88,7 +88,7 @@ void write_bars(const WarpsOptions& options, const WarpsResult& result, std::ost
   out << "EOD\n";
 }
 
-// `x` of each variant of the group against a value for each set.
+// Writes `x` and one value for each set, one line for each variant of the group.
 template <typename Abscissa, typename Value>
 void write_curves(const WarpsOptions& options, const WarpsResult& result, WarpGroup group, const char* name,
                   const Abscissa& x, const Value& value, std::ostringstream& out) {
@@ -104,7 +104,7 @@ void write_curves(const WarpsOptions& options, const WarpsResult& result, WarpGr
 }
 
 std::string plots_of(const WarpsOptions& options, const char* data, const char* first, const char* style) {
-  // Colors that differ for color-blind eyes too (Okabe and Ito 2008), again from the first.
+  // Colors that color-blind readers can distinguish (Okabe and Ito 2008).
   static constexpr std::array<const char*, 6> kColors = {"#009E73", "#E69F00", "#0072B2",
                                                          "#D55E00", "#CC79A7", "#56B4E9"};
   std::string text = "plot ";
@@ -122,16 +122,15 @@ std::string warps_text(const WarpsOptions& options, const WarpsResult& result) {
   std::string text =
       "Sets " + set_names(options) + ", " + size_text(options) + " texels, " + std::to_string(stroke_sets) +
       (stroke_sets == 1 ? " set" : " sets") +
-      " of strokes each. Distances of appearance in % of the template's spread;\n"
-      "two unrelated texels are 141 apart (rms).\n"
-      "  error, rms, median, p95  to the right answer; `truth` is the template's texel nearest to that\n"
-      "  strokes                  of results on source strokes to the template's stroke\n"
-      "  used, tears, folds       %: of the template's bins; of neighbours that land 25 apart; of texels "
-      "turned "
-      "inside out\n"
-      "  variation                between texels side by side, over the truth's\n"
-      "  change                   between results of two sets of strokes\n"
-      "  compiled, table, kB, ms  error of the converter; the converter to the exact copy; its size; "
+      " of strokes each. Appearance distances are in % of the template's spread;\n"
+      "two unrelated texels are 141 % apart (rms).\n"
+      "  error, rms, median, p95  distance to the correct result; `truth` copies the nearest texel to it\n"
+      "  strokes                  distance of results on source strokes to the template's stroke\n"
+      "  used, tears, folds       %: of the template's bins; of neighbors whose results are 25 apart; of "
+      "texels where the warp folds\n"
+      "  variation                between adjacent texels, relative to the truth\n"
+      "  change                   distance between the results of two sets of strokes\n"
+      "  compiled, table, kB, ms  error of the converter; its distance to the exact copy; its size; "
       "processor time of the fit\n"
       "  last columns             error of each set\n\n";
   const std::string head =
@@ -148,9 +147,9 @@ std::string warps_text(const WarpsOptions& options, const WarpsResult& result) {
   const auto error = [&](const char* name) {
     return fixed(summary_of(result, variant_named(result, WarpGroup::kMethod, name)).figures.mean, 1);
   };
-  return text + "\nThe registration is " + error("registration") + " % off, the paper's way " +
-         error("paper") + ", histogram matching " + error("histogram") + ", a copy without a warp " +
-         error("nearest") + ".\n";
+  return text + "\nMean error: registration " + error("registration") + " %, paper " + error("paper") +
+         " %, histogram " + error("histogram") + " %, nearest texel without a warp " + error("nearest") +
+         " %.\n";
 }
 
 std::string warps_csv(const WarpsOptions& options, const WarpsResult& result) {
@@ -192,8 +191,7 @@ std::string warps_plot_script(const WarpsOptions& options, const WarpsResult& re
       options, result, WarpGroup::kNodes, "nodes", [](const WarpVariant& variant) { return variant.nodes; },
       [](const WarpSummary& summary) { return summary.cost->compiled.difference; }, out);
   out << "set terminal svg size 1500,520 enhanced font 'Helvetica,13' background rgb 'white'\n"
-      << "set multiplot title 'Appearance warps against a known answer, " << size_text(options)
-      << " texels' font ',16'\n"
+      << "set multiplot title 'Error of appearance warps, " << size_text(options) << " texels' font ',16'\n"
       << "set grid ytics linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
       << "set tics textcolor rgb 'black'\nset yrange [0:*]\n"
       << "set origin 0,0\nset size 0.5,0.94\nset style data histograms\nset style histogram clustered gap 1\n"

@@ -13,8 +13,8 @@ constexpr std::size_t kPixelStep = 4;
 constexpr std::size_t kGrid = 33;
 constexpr int kSections = 14, kNewtonSteps = 4;
 
-// The transfer function of the display with its slope, from a table: straight lines between 2^16 values,
-// nowhere further off than 1e-7.
+// The display transfer function and its slope, by linear interpolation in a table of 2^16 values. The error
+// is below 1e-7.
 class DisplayCurve {
  public:
   DisplayCurve() {
@@ -45,7 +45,7 @@ const DisplayCurve& display_curve() {
   return curve;
 }
 
-// Pictures of one channel under one light, at the pixels that are compared.
+// Pictures of one channel under one light, at the compared pixels.
 struct Strip {
   std::vector<float> diffuse, dark, slope, source;
 };
@@ -96,7 +96,7 @@ class Search {
   }
 
  private:
-  // Sums over the pixels of a strip of the squared error, and of what Newton's method takes of it.
+  // Sums over the pixels of a strip: the squared error and its derivatives for Newton's method.
   struct Sums {
     double square = 0.0, slope = 0.0, bend = 0.0;
   };
@@ -119,8 +119,8 @@ class Search {
     return sums;
   }
 
-  // The least mean RMSE at one metallic, and its surface in `best` where that is the least so far. Each step
-  // of Newton's method weighs a light by the inverse of its RMSE, since the mean of roots is what counts.
+  // Returns the least mean RMSE at one metallic, and sets `best` if it is the least so far. Each step of
+  // Newton's method weights a light by the inverse of its RMSE, because the objective is a mean of roots.
   double error_at(double metallic, const Rgb& start, MetallicSurface* best) {
     Rgb albedo = start;
     double least = 1e300;
@@ -156,7 +156,7 @@ class Search {
 
   MetallicReflection reflection_;
   Rgb guess_;
-  std::vector<Strip> strips_;  // three channels a light
+  std::vector<Strip> strips_;  // three channels for each light
   double least_ = 1e300;
 };
 
