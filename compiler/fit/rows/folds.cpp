@@ -10,7 +10,7 @@
 namespace remapc {
 namespace {
 
-// Fisher and Yates by hand: std::shuffle is not the same in every standard library.
+// A Fisher-Yates shuffle, because std::shuffle differs between standard libraries.
 std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
