@@ -30,7 +30,7 @@ constexpr std::size_t kCurves = 5;  // alphas whose specular is drawn
 constexpr std::array<const char*, 6> kColors = {"#0072B2", "#D55E00", "#009E73",
                                                 "#CC79A7", "#E69F00", "#56B4E9"};
 
-// A name inside a double-quoted string of gnuplot, without its markup.
+// Quotes a text for gnuplot.
 std::string quoted(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -41,12 +41,12 @@ std::string quoted(const std::string& text) {
   return '"' + escaped + '"';
 }
 
-// The least error that is drawn: below it rounding is all that is left.
+// The least error that is drawn. Smaller errors are rounding.
 constexpr double kLeastError = 1e-8;
 
 std::string shown_error(double error) { return number_text(std::max(std::fabs(error), kLeastError)); }
 
-// `count` of the values, from the least to the largest, evenly by position.
+// Chooses `count` values, evenly by rank, including the least and the largest.
 std::vector<double> spread(const std::set<double>& values, std::size_t count) {
   const std::vector<double> sorted(values.begin(), values.end());
   std::vector<double> chosen;
@@ -143,9 +143,9 @@ class Plot {
          << " noenhanced\nset ylabel " << quoted(y) << " noenhanced\n";
   }
 
-  // The first line is the widest, so that lines on top of each other can all be seen; the rows come last.
+  // The first line is the widest, so that overlapping lines stay visible. The rows are drawn last.
   void plot_curves(const std::string& block, const std::string& rows) {
-    // At least so high: gnuplot wants a range where all is 0.
+    // gnuplot requires a range even if all values are 0.
     out_ << "set yrange [0:1e-3<*]\nset key left top Left reverse\nplot ";
     for (std::size_t f = 0; f < fits_.size(); ++f)
       out_ << "$" << block << f << " using 1:2 with lines linewidth "
@@ -171,7 +171,7 @@ class Plot {
     plot_curves("specular", "$shown using 1:2");
   }
 
-  // Logarithmic: the errors of the kinds differ by powers of ten.
+  // The axis is logarithmic, because the errors of the kinds differ by powers of ten.
   void residual_panel(const std::string& output, int column) {
     axes("Error of each fit in " + output, "alpha of " + fit_.source.model, "|fit - row|, " + output);
     out_ << "set logscale y\nset yrange [*:1e-6<*]\nset format y '10^{%T}'\n"
@@ -188,7 +188,7 @@ class Plot {
   }
 
   const std::vector<Fit>& fits_;
-  const Fit& fit_;  // any of them: models, table and domain are the same
+  const Fit& fit_;  // the first one; models, table and domain are the same for all
   std::vector<TableRow> rows_;
   std::set<double> alphas_, speculars_;
   std::vector<double> shown_;  // alphas of the second panel
@@ -199,7 +199,7 @@ class Plot {
 
 void require_plot(const std::filesystem::path& path) {
   if (path.extension() != ".svg")
-    throw Error(ErrorKind::kUsage, "plot: " + path.string() + "; expected a file name that ends with .svg");
+    throw Error(ErrorKind::kUsage, "plot: " + path.string() + ": the file name must end with .svg");
   require_gnuplot();
   remap::create_parent(path);
 }
@@ -208,10 +208,10 @@ void write_plot(const std::filesystem::path& path, const Table& table, const std
   const std::vector<Fit> drawn(
       fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(std::min(fits.size(), kColors.size())));
   const std::string picture = run_gnuplot(Plot(table, drawn).script());
-  // gnuplot does not notice that a disk is full.
+  // gnuplot does not detect that a disk is full.
   if (picture.find("</svg>") == std::string::npos)
     throw Error(ErrorKind::kOutput,
-                "plot: gnuplot's picture is incomplete; is there room for temporary files?");
+                "plot: the output of gnuplot is incomplete (check the free space for temporary files)");
   remap::write_file(path, picture);
 }
 

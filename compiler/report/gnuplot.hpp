@@ -1,15 +1,15 @@
-// gnuplot as a child process: the one place that starts it.
+// Runs gnuplot as a child process.
 #pragma once
 
 #include <string>
 
 namespace remapc {
 
-// Throws kOutput, naming Debian's package, where gnuplot cannot be started.
+// Throws kOutput with the name of Debian's package if gnuplot cannot be started.
 void require_gnuplot();
 
-// What gnuplot writes to standard output for `script`. Throws kOutput where it cannot be started or fails,
-// with the first line of its complaint.
+// Returns the standard output of gnuplot for `script`. Throws kOutput if gnuplot cannot be started or fails,
+// with the first line of its error message.
 std::string run_gnuplot(const std::string& script);
 
 }  // namespace remapc

@@ -9,7 +9,7 @@ namespace remapc {
 namespace {
 
 constexpr Eigen::Index kCentres = 80;
-constexpr double kWidth = 1.2;  // RMS radii
+constexpr double kWidth = 1.2;  // in RMS radii
 constexpr int kSteps = 25;
 constexpr double kFirstSigma = 0.4, kLastSigma = 0.05;
 constexpr int kScalingRounds = 8;
@@ -17,8 +17,8 @@ constexpr double kScalingExponent = 0.8;
 constexpr double kStrokeWeight = 1.5;
 constexpr double kBending = 10.0;
 
-// Spread over the set: the first is the one farthest from the mean, each further one the farthest from all
-// before.
+// Farthest point sampling: the first point is the farthest from the mean, each further point the farthest
+// from all previous ones.
 Points farthest_points(const Points& points, Eigen::Index wanted) {
   const Eigen::Index count = std::min(wanted, points.rows());
   Points chosen(count, points.cols());
@@ -35,14 +35,14 @@ Points farthest_points(const Points& points, Eigen::Index wanted) {
 
 Points rows_of(const Points& points, const std::vector<int>& rows) { return points(rows, Eigen::all); }
 
-// What points are drawn to: the sum of weights and of weighted targets of each.
+// The attraction of each point: the sums of weights and of weighted targets.
 struct Pull {
   Eigen::VectorXd weight;
   Points weighted;
 };
 
-// Every point of a stroke weighs the same, whichever stroke it is of. Masses are taken as they are: strokes
-// far from their partners, and points without any, pull less.
+// All points of strokes have the same weight. The masses are not normalised, so that strokes far from their
+// partners and points without a match have less effect.
 Pull pull_of(const PointSets& sets, const Points& moved, double sigma) {
   const SoftMatch all = match_softly(moved, sets.target.points, sigma);
   Pull pull{all.mass, all.mass.asDiagonal() * all.target};

@@ -20,7 +20,7 @@ using remap::ErrorKind;
 
 constexpr double kLargestDeviation = 1e-3;
 
-// A row as the network takes and gives it.
+// The inputs and outputs of the network for one row.
 struct MaterialRow {
   std::array<double, 6> specular{};  // diffuse, F0
   std::array<double, 4> metallic{};  // base color, metallic
@@ -30,9 +30,8 @@ std::size_t place_of(const MaterialTable& table, const std::vector<std::string>&
                      const std::string& name) {
   const auto found = std::find(columns.begin(), columns.end(), name);
   if (found == columns.end())
-    throw Error(ErrorKind::kInput,
-                table.name + ": has no column " + name +
-                    "; expected a table of remapc sample from a metallic model to a specular one");
+    throw Error(ErrorKind::kInput, table.name + ": missing column " + name +
+                                       " (use a table of remapc sample from a metallic to a specular model)");
   return static_cast<std::size_t>(found - columns.begin());
 }
 
@@ -55,7 +54,8 @@ std::vector<MaterialRow> material_rows(const MaterialTable& table) {
     rows.push_back(material);
   }
   if (rows.empty())
-    throw Error(ErrorKind::kInput, table.name + ": has no row of status ok; expected some thousand");
+    throw Error(ErrorKind::kInput,
+                table.name + ": no row has status ok (a network needs some thousand rows)");
   return rows;
 }
 
@@ -86,15 +86,14 @@ FamilyDeviation deviation_of(const std::vector<MaterialRow>& rows) {
 std::string comment_of(const MaterialTable& table, const std::string& key) {
   for (const auto& [name, value] : table.comments)
     if (name == key) return value;
-  throw Error(ErrorKind::kInput,
-              table.name + ": has no comment " + key + "; expected one, as remapc sample writes it");
+  throw Error(ErrorKind::kInput, table.name + ": missing comment " + key + " (remapc sample writes it)");
 }
 
 remap::RoughnessConvention width_of(const MaterialTable& table, const std::string& key) {
   const std::string name = comment_of(table, key);
   const auto convention = remap::convention_from_name(name);
   if (!convention)
-    throw Error(ErrorKind::kInput, table.name + ": " + key + " is " + name + "; expected a convention");
+    throw Error(ErrorKind::kInput, table.name + ": unknown convention '" + name + "' in the comment " + key);
   return *convention;
 }
 
@@ -140,7 +139,7 @@ MaterialSplit split_materials(const MaterialTable& table, const std::vector<Mate
   return split;
 }
 
-// Errors of what the converter gives: outputs held in 0 to 1.
+// Computes the errors of the converter, whose outputs are clamped to 0 to 1.
 void judge(const remap::Network& network, const std::vector<MaterialRow>& rows,
            remap::NetworkTraining* training) {
   std::vector<double> colors, metals;
@@ -165,9 +164,8 @@ remap::WorkflowFit fit_material_network(const MaterialTable& table, std::string_
   if (deviation.f0 > kLargestDeviation || deviation.diffuse > kLargestDeviation)
     throw Error(ErrorKind::kInput, table.name + ": rows differ from equation (2) by " +
                                        remap::number_text(std::max(deviation.f0, deviation.diffuse)) +
-                                       " rms; expected no more than " +
-                                       remap::number_text(kLargestDeviation) +
-                                       ", models of one BRDF and plain diffuse");
+                                       " (rms), more than " + remap::number_text(kLargestDeviation) +
+                                       " (both models must have the same BRDF and plain diffuse)");
   remap::WorkflowFit fit;
   fit.conversion = conversion_of(table, deviation.dielectric_f0);
   fit.id = fit_id(options.id, fit.conversion.specular.model, fit.conversion.metallic.model);
