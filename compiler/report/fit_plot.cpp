@@ -26,9 +26,6 @@ using remap::number_text;
 constexpr std::size_t kMostRows = 2000;
 constexpr int kCurvePoints = 200;
 constexpr std::size_t kCurves = 5;  // alphas whose specular is drawn
-// Colors that differ for color-blind eyes too (Okabe and Ito 2008).
-constexpr std::array<const char*, 6> kColors = {"#0072B2", "#D55E00", "#009E73",
-                                                "#CC79A7", "#E69F00", "#56B4E9"};
 
 // Quotes a text for gnuplot.
 std::string quoted(const std::string& text) {
@@ -67,13 +64,12 @@ class Plot {
 
   std::string script() {
     write_data();
-    out_ << "set terminal svg size 1280,1040 enhanced font 'Helvetica,13' background rgb 'white'\n"
+    out_ << plot_style(1280, 1040)
          << "set multiplot layout 2,2 margins 0.07,0.98,0.16,0.92 spacing 0.08,0.11 title "
          << quoted(fit_.source.model + " to " + fit_.target.model + ", " + std::to_string(rows_.size()) +
                    " rows of " + fit_.table.name)
          << " noenhanced font ',16'\n"
-         << "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
-         << "set tics textcolor rgb 'black'\nset key font ',11' noenhanced\n";
+         << "set key font ',11' noenhanced\n";
     alpha_panel();
     specular_panel();
     residual_panel("alpha", 2);
@@ -149,7 +145,7 @@ class Plot {
     out_ << "set yrange [0:1e-3<*]\nset key left top Left reverse\nplot ";
     for (std::size_t f = 0; f < fits_.size(); ++f)
       out_ << "$" << block << f << " using 1:2 with lines linewidth "
-           << 1.2 + 1.8 * static_cast<double>(fits_.size() - 1 - f) << " linecolor rgb '" << kColors[f]
+           << 1.2 + 1.8 * static_cast<double>(fits_.size() - 1 - f) << " linecolor rgb '" << kPlotColors[f]
            << "' title " << quoted(fit_label(fits_[f])) << ", ";
     out_ << rows << " with points pointtype 7 pointsize 0.25 linecolor rgb 'black' title 'rows'\n"
          << "unset yrange\n";
@@ -180,7 +176,7 @@ class Plot {
       const RowErrors errors = row_errors(fits_[f], rows_);
       const double rms = column == 2 ? errors.alpha.rms : errors.specular.rms;
       out_ << (f == 0 ? "" : ", ") << "$residuals" << f << " using 1:" << column
-           << " with points pointtype 7 pointsize 0.3 linecolor rgb '" << kColors[f] << "' title "
+           << " with points pointtype 7 pointsize 0.3 linecolor rgb '" << kPlotColors[f] << "' title "
            << quoted(fit_label(fits_[f]) + ", rms " + error_text(rms));
     }
     out_
@@ -206,13 +202,8 @@ void require_plot(const std::filesystem::path& path) {
 
 void write_plot(const std::filesystem::path& path, const Table& table, const std::vector<Fit>& fits) {
   const std::vector<Fit> drawn(
-      fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(std::min(fits.size(), kColors.size())));
-  const std::string picture = run_gnuplot(Plot(table, drawn).script());
-  // gnuplot does not detect that a disk is full.
-  if (picture.find("</svg>") == std::string::npos)
-    throw Error(ErrorKind::kOutput,
-                "plot: the output of gnuplot is incomplete (check the free space for temporary files)");
-  remap::write_file(path, picture);
+      fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(std::min(fits.size(), kPlotColors.size())));
+  write_svg(path, Plot(table, drawn).script());
 }
 
 std::string fit_label(const Fit& fit) {

@@ -96,7 +96,14 @@ void require_gnuplot() {
                                         ", install the package gnuplot-nox)");
 }
 
-std::string run_gnuplot(const std::string& script) {
+std::string plot_style(int width, int height) {
+  return "set terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
+         " enhanced font 'Helvetica,13' background rgb 'white'\n"
+         "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
+         "set tics textcolor rgb 'black'\n";
+}
+
+void write_svg(const std::filesystem::path& path, const std::string& script) {
   const ScratchFolder folder;
   remap::write_file(folder.file("script"), script);
   const int code = run(folder.file("script"), folder.file("output"), folder.file("complaints"));
@@ -105,7 +112,12 @@ std::string run_gnuplot(const std::string& script) {
   if (code != 0)
     throw Error(ErrorKind::kOutput,
                 "plot: gnuplot failed (" + std::to_string(code) + "): " + complaint(complaints));
-  return remap::read_file(folder.file("output"));
+  const std::string picture = remap::read_file(folder.file("output"));
+  // gnuplot does not detect that a disk is full.
+  if (picture.find("</svg>") == std::string::npos)
+    throw Error(ErrorKind::kOutput,
+                "plot: the output of gnuplot is incomplete (check the free space for temporary files)");
+  remap::write_file(path, picture);
 }
 
 }  // namespace remapc

@@ -281,7 +281,10 @@ std::vector<std::string> write_conductors(const ConductorsStudy& study, const st
   remap::write_file(folder / "fresnel.csv", fresnel);
   remap::write_file(folder / "as_to_ward.csv", table_text(study.there));
   remap::write_file(folder / "ward_to_as.csv", table_text(study.back));
+  return {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"};
+}
 
+std::string conductors_plot_script(const ConductorsStudy& study) {
   StudyPlot there{"Figure 6: metals, one curve per alpha; open points: flagged",
                   "F0 of " + kSource,
                   "specular of " + kTarget,
@@ -297,9 +300,7 @@ std::vector<std::string> write_conductors(const ConductorsStudy& study, const st
   const std::vector<TableRow> usable = usable_rows(study.there);
   for (std::size_t i = 0; i < usable.size(); ++i)
     trip.curves[0].points.emplace_back(usable[i].specular1, study.back.rows[i].specular2);
-  std::vector<std::string> files = {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"};
-  if (write_study_plot(folder / "figure6_7.svg", {there, trip})) files.push_back("figure6_7.svg");
-  return files;
+  return study_plot_script({there, trip});
 }
 
 }  // namespace remapc

@@ -64,8 +64,10 @@ ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& o
 // The findings, one sentence each.
 std::vector<std::string> conductors_words(const ConductorsStudy& study);
 
-// Writes conductors.csv, as_to_ward.csv, ward_to_as.csv, fresnel.csv and, if gnuplot is installed,
-// figure6_7.svg. Returns the names of the files.
+// Writes conductors.csv, as_to_ward.csv, ward_to_as.csv and fresnel.csv. Returns their names.
 std::vector<std::string> write_conductors(const ConductorsStudy& study, const std::filesystem::path& folder);
+
+// A gnuplot script that draws figures 6 and 7 as SVG.
+std::string conductors_plot_script(const ConductorsStudy& study);
 
 }  // namespace remapc

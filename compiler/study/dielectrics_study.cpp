@@ -325,15 +325,18 @@ std::vector<std::string> write_dielectrics(const DielectricsStudy& study,
     remap::write_file(folder / name, text);
     files.push_back(name);
   };
-  std::vector<StudyPlot> plots;
-  for (std::size_t i = 0; i < study.stages.size(); ++i) {
+  for (std::size_t i = 0; i < study.stages.size(); ++i)
     write("stages" + std::to_string(i + 1) + ".csv", table_text(study.stages[i]));
-    plots.push_back(stage_plot(study.stages[i], static_cast<int>(i + 1)));
-  }
   write("guesses.csv", trials_text(study.trials));
   write("dielectrics.csv", materials_text(study.stages[1]));
-  if (write_study_plot(folder / "figure8_10.svg", plots)) files.push_back("figure8_10.svg");
   return files;
+}
+
+std::string dielectrics_plot_script(const DielectricsStudy& study) {
+  std::vector<StudyPlot> plots;
+  for (std::size_t i = 0; i < study.stages.size(); ++i)
+    plots.push_back(stage_plot(study.stages[i], static_cast<int>(i + 1)));
+  return study_plot_script(plots);
 }
 
 }  // namespace remapc

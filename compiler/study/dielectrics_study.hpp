@@ -55,9 +55,12 @@ DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions&
 
 std::vector<std::string> dielectrics_words(const DielectricsStudy& study);
 
-// Writes stages1.csv, stages2.csv, stages3.csv, guesses.csv, dielectrics.csv (the measured materials in two
-// stages) and, if gnuplot is installed, figure8_10.svg. Returns the names of the files.
+// Writes stages1.csv, stages2.csv, stages3.csv, guesses.csv and dielectrics.csv (the measured materials in
+// two stages). Returns their names.
 std::vector<std::string> write_dielectrics(const DielectricsStudy& study,
                                            const std::filesystem::path& folder);
+
+// A gnuplot script that draws figures 8 and 10 as SVG.
+std::string dielectrics_plot_script(const DielectricsStudy& study);
 
 }  // namespace remapc

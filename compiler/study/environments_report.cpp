@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "remap/version.hpp"
+#include "report/gnuplot.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -157,9 +158,9 @@ std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsR
 }
 
 std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  // Colors that differ for color-blind eyes too (Okabe and Ito 2008), in the order of Method.
-  static constexpr std::array<const char*, kMethods.size()> kColors = {"#000000", "#D55E00", "#0072B2",
-                                                                       "#009E73", "#999999"};
+  // In the order of Method.
+  static constexpr std::array<const char*, kMethods.size()> kColors = {
+      "black", kPlotColors[1], kPlotColors[0], kPlotColors[2], "#999999"};
   std::ostringstream out;
   std::array<std::string, 2> curves;
   for (const Method method : methods_of(result)) {
@@ -178,12 +179,11 @@ std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsRe
                        " with linespoints linewidth 2 pointtype 7 pointsize 0.5 " + "linecolor rgb '" +
                        kColors[static_cast<std::size_t>(method)] + "' title '" + name + "'";
   }
-  out << "set terminal svg size 1200,480 enhanced font 'Helvetica,13' background rgb 'white'\n"
+  out << plot_style(1200, 480)
       << "set multiplot layout 1,2 margins 0.07,0.98,0.13,0.85 spacing 0.09,0.1 title 'Spheres under "
       << options.environments.size() << " environments, mean of " << options.pairs.size()
       << " pairs of models' font ',16'\n"
-      << "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
-      << "set tics textcolor rgb 'black'\nset xlabel 'alpha of the source'\n"
+      << "set xlabel 'alpha of the source'\n"
       << "set title 'RMSE, % of the display range (lower is better)'\nset yrange [0:*]\nset key bottom "
          "left\n"
       << curves[0] << "\nset title 'SSIM of luma (1: equal)'\nset yrange [*:1]\nset key bottom right\n"

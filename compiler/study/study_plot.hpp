@@ -1,7 +1,6 @@
 // Draws the curves of a study as one SVG.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +18,7 @@ struct StudyPlot {
   std::vector<StudyCurve> curves;
 };
 
-// Writes `plots` side by side. Returns false and writes nothing if gnuplot is missing. Throws kOutput if
-// gnuplot fails or the file cannot be written.
-bool write_study_plot(const std::filesystem::path& path, const std::vector<StudyPlot>& plots);
+// A gnuplot script that draws `plots` side by side as SVG.
+std::string study_plot_script(const std::vector<StudyPlot>& plots);
 
 }  // namespace remapc

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "remap/version.hpp"
+#include "report/gnuplot.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -104,14 +105,11 @@ void write_curves(const WarpsOptions& options, const WarpsResult& result, WarpGr
 }
 
 std::string plots_of(const WarpsOptions& options, const char* data, const char* first, const char* style) {
-  // Colors that color-blind readers can distinguish (Okabe and Ito 2008).
-  static constexpr std::array<const char*, 6> kColors = {"#009E73", "#E69F00", "#0072B2",
-                                                         "#D55E00", "#CC79A7", "#56B4E9"};
   std::string text = "plot ";
   for (std::size_t set = 0; set < options.cases.size(); ++set)
     text += (set == 0 ? "" : ", ") + std::string("$") + data + " using " + first + std::to_string(2 + set) +
             (std::string(first).empty() ? ":xtic(1) " : " ") + style + " linecolor rgb '" +
-            kColors[set % kColors.size()] + "' title \"" + options.cases[set].name + "\"";
+            kPlotColors[set % kPlotColors.size()] + "' title \"" + options.cases[set].name + "\"";
   return text + "\n";
 }
 
@@ -190,10 +188,9 @@ std::string warps_plot_script(const WarpsOptions& options, const WarpsResult& re
   write_curves(
       options, result, WarpGroup::kNodes, "nodes", [](const WarpVariant& variant) { return variant.nodes; },
       [](const WarpSummary& summary) { return summary.cost->compiled.difference; }, out);
-  out << "set terminal svg size 1500,520 enhanced font 'Helvetica,13' background rgb 'white'\n"
-      << "set multiplot title 'Error of appearance warps, " << size_text(options) << " texels' font ',16'\n"
-      << "set grid ytics linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
-      << "set tics textcolor rgb 'black'\nset yrange [0:*]\n"
+  out << plot_style(1500, 520) << "set grid noxtics\nset multiplot title 'Error of appearance warps, "
+      << size_text(options) << " texels' font ',16'\n"
+      << "set yrange [0:*]\n"
       << "set origin 0,0\nset size 0.5,0.94\nset style data histograms\nset style histogram clustered gap 1\n"
       << "set style fill solid border -1\nset xtics rotate by -30 scale 0\nset key top left noenhanced\n"
       << "set title 'Error, % of the template''s spread'\n"

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "remap/version.hpp"
+#include "report/gnuplot.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -155,9 +156,9 @@ std::string workflow_summary_csv(const WorkflowsOptions& options, const Workflow
 }
 
 std::string workflows_plot_script(const WorkflowsOptions& options, const WorkflowsResult& result) {
-  // Colors that color-blind readers can distinguish (Okabe and Ito 2008).
-  static constexpr std::array<const char*, 8> kColors = {"#000000", "#999999", "#CC79A7", "#E69F00",
-                                                         "#D55E00", "#56B4E9", "#0072B2", "#009E73"};
+  static constexpr std::array<const char*, 8> kColors = {"black",        "#999999",      kPlotColors[3],
+                                                         kPlotColors[4], kPlotColors[1], kPlotColors[5],
+                                                         kPlotColors[0], kPlotColors[2]};
   const WorkflowComparison& comparison = result.comparisons.front();
   std::ostringstream out;
   std::array<std::string, 2> bars;
@@ -178,13 +179,13 @@ std::string workflows_plot_script(const WorkflowsOptions& options, const Workflo
       bars[panel] += (bars[panel].empty() ? "plot " : ", ") + std::string("$figures using ") +
                      std::to_string(2 + 2 * m + panel) + ":xtic(1) linecolor rgb '" +
                      kColors[m % kColors.size()] + "' title \"" + comparison.methods[m] + "\"";
-  out << "set terminal svg size 1400,520 enhanced font 'Helvetica,13' background rgb 'white'\n"
-      << "set multiplot layout 1,2 margins 0.05,0.99,0.09,0.84 spacing 0.07,0.1 title 'Specular to metallic, "
+  out << plot_style(1400, 520)
+      << "set grid noxtics\nset multiplot layout 1,2 margins 0.05,0.99,0.09,0.84 spacing 0.07,0.1 title "
+         "'Specular to metallic, "
       << options.materials.size() << " materials under " << options.environments.size()
       << " environments' font ',16'\n"
       << "set style data histograms\nset style histogram clustered gap 1\nset style fill solid border -1\n"
-      << "set grid ytics linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
-      << "set tics textcolor rgb 'black'\nset yrange [0:*]\n"
+      << "set yrange [0:*]\n"
       << "set title 'RMSE, % of the display range (lower is better)'\nset key off\n"
       << bars[0] << "\nset title '1 - SSIM of luma (0: equal)'\nset key top left reverse Left noenhanced\n"
       << bars[1] << "\nunset multiplot\n";

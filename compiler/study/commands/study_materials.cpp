@@ -10,6 +10,7 @@
 #include "command_line/progress.hpp"
 #include "remap/error.hpp"
 #include "study/commands/studies.hpp"
+#include "study/commands/study_options.hpp"
 #include "study/conductors_study.hpp"
 #include "study/dielectrics_study.hpp"
 #include "system/files.hpp"
@@ -120,7 +121,10 @@ void run_conductors(const MaterialsCommand& command) {
       run_with_progress(command, "conductors", [&](const Renderer& renderer, const StudyOptions& options) {
         return study_conductors(renderer, options);
       });
-  report(command, conductors_words(study), write_conductors(study, command.output), conductors_json(study));
+  std::vector<std::string> files = write_conductors(study, command.output);
+  if (write_plot(command.output / "figure6_7.svg", conductors_plot_script(study)))
+    files.push_back("figure6_7.svg");
+  report(command, conductors_words(study), files, conductors_json(study));
 }
 
 void run_dielectrics(const MaterialsCommand& command) {
@@ -131,8 +135,10 @@ void run_dielectrics(const MaterialsCommand& command) {
       run_with_progress(command, "dielectrics", [&](const Renderer& renderer, const StudyOptions& options) {
         return study_dielectrics(renderer, options, command.diffuse);
       });
-  report(command, dielectrics_words(study), write_dielectrics(study, command.output),
-         dielectrics_json(study));
+  std::vector<std::string> files = write_dielectrics(study, command.output);
+  if (write_plot(command.output / "figure8_10.svg", dielectrics_plot_script(study)))
+    files.push_back("figure8_10.svg");
+  report(command, dielectrics_words(study), files, dielectrics_json(study));
 }
 
 constexpr int kMostResolution = 4096;

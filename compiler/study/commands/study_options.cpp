@@ -6,7 +6,6 @@
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "report/gnuplot.hpp"
-#include "system/files.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -52,12 +51,14 @@ void write_sheets(const std::filesystem::path& folder, const std::string& name,
     write_png(folder / (name + "_" + environments[e].name + ".png"), sheets[e]);
 }
 
-void write_plot(const std::filesystem::path& path, const std::string& script) {
+bool write_plot(const std::filesystem::path& path, const std::string& script) {
   try {
-    remap::write_file(path, run_gnuplot(script));
+    write_svg(path, script);
+    return true;
   } catch (const remap::Error& error) {
     remap::print_message("remap-study",
                          "warning: " + path.filename().string() + " was not drawn: " + error.what());
+    return false;
   }
 }
 

@@ -74,7 +74,7 @@ auto run_study(const std::string& name, Options& options, bool quiet, const Stud
 void write_sheets(const std::filesystem::path& folder, const std::string& name,
                   const std::vector<Environment>& environments, const std::vector<Image>& sheets);
 
-// Runs gnuplot and writes its output to `path`. Prints a warning if gnuplot is missing or fails.
-void write_plot(const std::filesystem::path& path, const std::string& script);
+// Writes the plot of a gnuplot script. Prints a warning and returns false if gnuplot is missing or fails.
+bool write_plot(const std::filesystem::path& path, const std::string& script);
 
 }  // namespace remapc
