@@ -65,7 +65,7 @@ Reflectances scaled_surface(Reflectances surface) {
 }
 
 // One convention and its methods.
-struct Run {
+struct WorkflowRun {
   std::string convention;
   bool scaled = false;
   std::vector<WorkflowMethod> methods;
@@ -91,7 +91,8 @@ double mean_rmse(const WorkflowPictures& pictures, std::size_t environment_count
 }
 
 // Compares one material with the results of every method and with the least-error surface.
-std::vector<WorkflowPictures> compared(const Studio& studio, const Run& run, const StudyMaterial& material) {
+std::vector<WorkflowPictures> compared(const Studio& studio, const WorkflowRun& run,
+                                       const StudyMaterial& material) {
   const Reflectances& maps = material.surface;
   const Reflectances shown = run.scaled ? scaled_surface(maps) : maps;
   const double alpha = studio.options.alphas[material.alpha];
@@ -119,7 +120,7 @@ std::vector<WorkflowPictures> compared(const Studio& studio, const Run& run, con
   return all;
 }
 
-WorkflowComparison comparison_of(const Studio& studio, const Run& run) {
+WorkflowComparison comparison_of(const Studio& studio, const WorkflowRun& run) {
   WorkflowComparison comparison{run.convention, {}, {}};
   for (const WorkflowMethod& method : run.methods) comparison.methods.push_back(method.name);
   comparison.methods.push_back(kLeastErrorMethod);
@@ -143,7 +144,7 @@ std::vector<std::size_t> sheet_rows(const std::vector<StudyMaterial>& materials)
   return rows;
 }
 
-void add_sheets(const Studio& studio, const Run& run, const WorkflowComparison& comparison,
+void add_sheets(const Studio& studio, const WorkflowRun& run, const WorkflowComparison& comparison,
                 WorkflowsResult* result) {
   const std::vector<StudyMaterial>& materials = studio.options.materials;
   const std::vector<std::size_t> rows = sheet_rows(materials);
@@ -230,8 +231,8 @@ WorkflowsResult study_workflows(const WorkflowsOptions& options) {
   const LitReflectances lit(options.environments, options.alphas, sampling);
   const Studio studio{options, lit};
   WorkflowsResult result;
-  const Run plain{"plain", false, plain_methods(options.learned), {remap::kCommonDielectricF0, 1.0}};
-  const Run gltf{
+  const WorkflowRun plain{"plain", false, plain_methods(options.learned), {remap::kCommonDielectricF0, 1.0}};
+  const WorkflowRun gltf{
       "gltf", true, gltf_methods(), {remap::kCommonDielectricF0, 1.0 - remap::kCommonDielectricF0}};
   result.comparisons.push_back(comparison_of(studio, plain));
   result.comparisons.push_back(comparison_of(studio, gltf));

@@ -65,8 +65,8 @@ bool alpha_needs_specular(const std::vector<TableRow>& rows) {
 std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model) {
   const std::string chosen = id.empty() ? remap::converter_id(source_model, target_model) : id;
   if (!remap::is_valid_id(chosen))
-    throw Error(
-        ErrorKind::kUsage,
+    throw remap::Error(
+        remap::ErrorKind::kUsage,
         "id: '" + chosen + "' is not valid (use a C++ identifier without a leading or double underscore)");
   return chosen;
 }
