@@ -38,10 +38,10 @@ std::string reason(const Error& error) {
   return error.what();
 }
 
-class Referee {
+class ComparisonRun {
  public:
-  Referee(const std::vector<TableRow>& rows, const remap::Domain& domain, const ComparisonOptions& options,
-          const FitProgress& progress)
+  ComparisonRun(const std::vector<TableRow>& rows, const remap::Domain& domain,
+                const ComparisonOptions& options, const FitProgress& progress)
       : rows_(rows), domain_(domain), options_(options), progress_(progress) {}
 
   Comparison compare() {
@@ -312,7 +312,7 @@ std::size_t choose_candidate(std::vector<Candidate*> candidates, const std::vect
 
 Comparison compare_regressions(const std::vector<TableRow>& rows, const remap::Domain& domain,
                                const ComparisonOptions& options, const FitProgress& progress) {
-  return Referee(rows, domain, options, progress).compare();
+  return ComparisonRun(rows, domain, options, progress).compare();
 }
 
 }  // namespace remapc

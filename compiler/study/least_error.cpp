@@ -7,6 +7,7 @@
 #include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
 #include "report/lit_sphere.hpp"
+#include "study/golden_section.hpp"
 #include "system/parallel.hpp"
 
 namespace remapc {
@@ -46,23 +47,12 @@ struct Optimum {
   double specular = 0.0, rmse = 0.0;
 };
 
-// Golden section search over specular. The error has one minimum, because brightness increases with specular.
+// The error has one minimum over specular, because brightness increases with specular.
 Optimum best_specular(const Search& search, const Width& width) {
-  constexpr double kGolden = 0.6180339887498949;
   constexpr int kSteps = 16;  // to 5e-4
-  double low = 0.0, high = 1.0;
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = mean_rmse(search, width, a), at_b = mean_rmse(search, width, b);
-  for (int step = 0; step < kSteps; ++step) {
-    if (at_a < at_b) {
-      high = b, b = a, at_b = at_a;
-      a = high - kGolden * (high - low), at_a = mean_rmse(search, width, a);
-    } else {
-      low = a, a = b, at_a = at_b;
-      b = low + kGolden * (high - low), at_b = mean_rmse(search, width, b);
-    }
-  }
-  return at_a < at_b ? Optimum{a, at_a} : Optimum{b, at_b};
+  const auto [specular, rmse] =
+      golden_section(0.0, 1.0, kSteps, [&](double value) { return mean_rmse(search, width, value); });
+  return {specular, rmse};
 }
 
 // The position of the minimum of the parabola through three values at -1, 0 and 1, clamped to [-1, 1].

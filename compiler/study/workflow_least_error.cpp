@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/image_similarity.hpp"
+#include "study/golden_section.hpp"
 
 namespace remapc {
 namespace {
@@ -79,19 +80,10 @@ class MetallicSearch {
     double least = error_at(0.0, guess_, &best);
     for (std::size_t i = 1; i < kGrid; ++i)
       least = std::min(least, error_at(static_cast<double>(i) / (kGrid - 1), guess_, &best));
-    constexpr double kGolden = 0.6180339887498949, kCell = 1.0 / (kGrid - 1);
-    double low = std::max(0.0, best.metallic - kCell), high = std::min(1.0, best.metallic + kCell);
+    constexpr double kCell = 1.0 / (kGrid - 1);
     const Rgb start = best.base_color;
-    double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-    double at_a = error_at(a, start, &best), at_b = error_at(b, start, &best);
-    for (int i = 0; i < kSections; ++i)
-      if (at_a < at_b) {
-        high = b, b = a, at_b = at_a;
-        a = high - kGolden * (high - low), at_a = error_at(a, start, &best);
-      } else {
-        low = a, a = b, at_a = at_b;
-        b = low + kGolden * (high - low), at_b = error_at(b, start, &best);
-      }
+    golden_section(std::max(0.0, best.metallic - kCell), std::min(1.0, best.metallic + kCell), kSections,
+                   [&](double metallic) { return error_at(metallic, start, &best); });
     return best;
   }
 
