@@ -5,8 +5,9 @@
 
 namespace remapc {
 
-// Golden section search in [low, high] for the minimum of `f`, which must have only one there. Each of `steps`
-// evaluates `f` once and reduces the interval to 0.618 times its length. Returns the best point and its value.
+// Golden section search in [low, high] for the minimum of `f`, which must have only one there. Each of
+// `steps` evaluates `f` once and reduces the interval to 0.618 times its length. Returns the best point and
+// its value.
 template <typename Function>
 std::pair<double, double> golden_section(double low, double high, int steps, const Function& f) {
   constexpr double kGolden = 0.6180339887498949;

@@ -31,8 +31,4 @@ WarpSet rust_set(std::size_t size);
 // They differ between the materials and the seeds.
 std::vector<StrokePair> strokes_of(const WarpSet& set, std::uint32_t seed);
 
-// Smooth noise, uniformly distributed in 0 to 1 and stretched along rows by `stretch`.
-std::vector<double> ranked_noise(std::size_t size, double roughness, std::uint32_t seed,
-                                 std::size_t stretch = 1);
-
 }  // namespace remapc

@@ -29,14 +29,6 @@ Points stroke_centres(const Points& positions, const std::vector<std::vector<std
 inline constexpr double kStartPrior = 0.3, kAlonePrior = 0.05;
 AffineMap affine_from_strokes(const PointSets& sets, double prior = kStartPrior);
 
-// Soft matches between two sets of points by unbalanced Sinkhorn scaling (Chizat et al. 2018). `mass`: the
-// degree to which each moved point is matched (about 1 / count); `target`: the matched position.
-struct SoftMatch {
-  Eigen::VectorXd mass;
-  Points target;
-};
-SoftMatch match_softly(const Points& moved, const Points& goal, double sigma);
-
 // Computes a SmoothWarp with 80 centres of width 1.2 in 25 steps with sigma from 0.4 to 0.05. Each step
 // matches all points softly, and separately the points of every stroke pair with 1.5 times the weight, and
 // solves one linear least squares problem with the bending prior 10 sigma^2 / 0.05 w' K w / 80. The optimum

@@ -117,7 +117,7 @@ TEST_CASE("distances without a closed form find the same correspondence", "[warp
     for (const auto distance : {AppearanceDistance::kCubeRoot, AppearanceDistance::kLog}) {
       const WarpFit fit = fit_warp(set.source, set.target, strokes, by(distance));
       const double error = error_of(set, fit, set.source, set.target);
-      CAPTURE(set.name, distance_name(distance), error, fit.diagnostics.coordinates_error);
+      CAPTURE(set.name, static_cast<int>(distance), error, fit.diagnostics.coordinates_error);
       CHECK(fit.diagnostics.coordinates_error < 0.03);
       CHECK(error < 0.35);  // unrelated texels: 1.41
       CHECK(fit.diagnostics.fold_share == 0.0);

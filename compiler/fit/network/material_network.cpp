@@ -59,6 +59,12 @@ std::vector<MaterialRow> material_rows(const MaterialTable& table) {
   return rows;
 }
 
+// The RMS deviation of a table from equation (2), in F0 and diffuse.
+struct FamilyDeviation {
+  double dielectric_f0 = 0.0;  // the value that fits the rows best, to six digits
+  double f0 = 0.0, diffuse = 0.0;
+};
+
 FamilyDeviation deviation_of(const std::vector<MaterialRow>& rows) {
   double products = 0.0, squares = 0.0;
   for (const MaterialRow& row : rows)
@@ -154,8 +160,6 @@ void judge(const remap::Network& network, const std::vector<MaterialRow>& rows,
 }
 
 }  // namespace
-
-FamilyDeviation family_deviation(const MaterialTable& table) { return deviation_of(material_rows(table)); }
 
 remap::WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
                                         const MaterialNetworkOptions& options, const FitProgress& progress) {

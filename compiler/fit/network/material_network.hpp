@@ -24,20 +24,11 @@ struct MaterialNetworkOptions {
   unsigned jobs = 0;               // threads; 0: one per core. The fit does not depend on it
 };
 
-// The RMS deviation of a table from equation (2), in F0 and diffuse.
-struct FamilyDeviation {
-  double dielectric_f0 = 0.0;  // the value that fits the rows best, to six digits
-  double f0 = 0.0, diffuse = 0.0;
-};
-
-// Evaluates the rows of status ok in a table of `remapc sample` from a metallic model (columns base_color_r1,
-// ..., metallic1) to a specular model (f0_r2, ..., diffuse_r2, ...). Throws kInput for missing columns or no
-// rows.
-FamilyDeviation family_deviation(const MaterialTable& table);
-
-// Trains the inverse of such a table, whose file is `bytes`. Diffuse is plain; the roughness conventions are
-// those of the table's models. Throws kInput if rows deviate from equation (2) by more than 1e-3 (RMS),
-// kUsage for an invalid id or share, and the errors of family_deviation() and train_network().
+// Trains the inverse of a table of `remapc sample` from a metallic model (columns base_color_r1, ...,
+// metallic1) to a specular model (f0_r2, ..., diffuse_r2, ...). `bytes`: the file of the table. Only rows of
+// status ok count. Diffuse is plain; the roughness conventions are those of the table's models. Throws kInput
+// for missing columns, without rows, and if rows deviate from equation (2) by more than 1e-3 (RMS); kUsage
+// for an invalid id or share; and the errors of train_network().
 remap::WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
                                         const MaterialNetworkOptions& options,
                                         const FitProgress& progress = {});

@@ -98,7 +98,6 @@ Eigen::VectorXd features_by(const SampledFeatures& features, const remap::WarpTe
 
 }  // namespace
 
-std::string_view distance_name(AppearanceDistance distance) { return remap::name_of(kDistances, distance); }
 std::optional<AppearanceDistance> distance_from_name(std::string_view name) {
   return remap::value_named(kDistances, name);
 }

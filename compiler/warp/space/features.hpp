@@ -13,8 +13,7 @@
 
 namespace remapc {
 
-// `relative`, `plain`, `cube-root` or `log`; empty for other values.
-std::string_view distance_name(AppearanceDistance distance);
+// The names are `relative`, `plain`, `cube-root` and `log`; empty for another name.
 std::optional<AppearanceDistance> distance_from_name(std::string_view name);
 std::vector<std::string> distance_names();
 
