@@ -36,8 +36,9 @@ struct PreviewFigure {
 struct Preview {
   std::vector<double> specular;        // of the source, as rendered
   std::vector<PreviewFigure> figures;  // by shape, then alpha
-  Image sheet;  // a column a width; for each shape a row of the source, the conversion, their difference four
-                // times
+  // One column for each alpha; for each shape one row of the source, one of the conversion and one of four
+  // times their difference.
+  Image sheet;
 };
 
 // Four alphas in a geometric sequence over the part of 0.1 to 0.7 that the domain covers.
