@@ -27,7 +27,7 @@ double reflectance(const Conductor& metal, std::size_t channel) {
   return normal_reflectance({metal.eta[channel], metal.k[channel]});
 }
 
-// A straight line through points, least squares.
+// The least squares line through a set of points.
 struct Line {
   double slope = 0.0, offset = 0.0;
 
@@ -56,7 +56,7 @@ Material conductor(double alpha, double eta, double k) {
   return {"mitsuba/as-conductor", {{"alpha", {alpha}}, {"eta", {eta}}, {"k", {k}}, {"diffuse", {0.0}}}};
 }
 
-// What exact Fresnel is compared with, and remapped to.
+// Matches pictures of metals with exact Fresnel to the target model.
 struct ExactMatching {
   const PictureTaker& picture_taker;
   ModelDescription source;
@@ -82,7 +82,8 @@ double square_sum(const std::vector<float>& a) {
   return sum;
 }
 
-// One metal at one width: its rows by index, and how far Schlick's picture is from the exact one.
+// Matches one metal at one alpha by its index of refraction, and measures the error of Schlick's
+// approximation.
 void match_metal(const ExactMatching& matching, const Conductor& metal, double alpha, ConductorRow* rows,
                  FresnelDifference* fresnel) {
   double difference = 0.0, power = 0.0;
@@ -154,7 +155,7 @@ std::vector<TableRow> rows_of_alpha(const Table& table, double alpha) {
   return rows;
 }
 
-// From Ward back, the rows that can be trusted.
+// Converts the usable rows from Ward back to Ashikhmin-Shirley.
 void travel_back(const Renderer& renderer, const StudyOptions& options, const SweepExecution& execution,
                  ConductorsStudy* study) {
   const std::vector<TableRow> there = usable_rows(study->there);
@@ -180,7 +181,7 @@ void travel_back(const Renderer& renderer, const StudyOptions& options, const Sw
   study->round_trip = trip;
 }
 
-// Largest difference in alpha and specular, over the rows that are ok in both.
+// The largest difference in alpha and specular over the rows that are ok in both tables.
 double difference(const Table& a, const Table& b) {
   double worst = 0.0;
   for (std::size_t i = 0; i < a.rows.size(); ++i)
@@ -190,7 +191,7 @@ double difference(const Table& a, const Table& b) {
   return worst;
 }
 
-// Gives each row of a metal its row of the sweep by F0.
+// Assigns to each row of a metal the row of the sweep with the same F0.
 void join_rows(ConductorsStudy* study) {
   std::map<std::pair<double, double>, const TableRow*> by_sample;
   for (const TableRow& row : study->there.rows) by_sample[{row.alpha1, row.specular1}] = &row;
@@ -230,36 +231,37 @@ std::vector<std::string> conductors_words(const ConductorsStudy& study) {
                   kConductorSource + " to " + kConductorTarget + ", light at 45 degrees:");
   double deviation = 0.0, shift = 0.0;
   for (const ConductorCurve& curve : study.curves) {
-    words.push_back("alpha " + number_text(curve.alpha) + ": " + std::to_string(curve.ok) + " of " +
-                    std::to_string(curve.ok + curve.clamped + curve.other) +
-                    " rows ok and on a straight line within " + short_text(curve.line_deviation) +
-                    " in specular; specular of Ward passes 1 at F0 " + short_text(curve.limit_f0) +
-                    ", beyond it " + std::to_string(curve.clamped) + " rows are flagged as clamped" +
-                    (curve.other == 0 ? "" : ", " + std::to_string(curve.other) + " as unstable or flat") +
-                    (curve.clamped == 0 ? ""
-                                        : ", where target alpha drifts by up to " +
-                                              percent_text(curve.clamped_alpha_shift)));
+    words.push_back(
+        "alpha " + number_text(curve.alpha) + ": " + std::to_string(curve.ok) + " of " +
+        std::to_string(curve.ok + curve.clamped + curve.other) + " rows are ok, within " +
+        short_text(curve.line_deviation) + " of a straight line in specular; Ward specular reaches 1 at F0 " +
+        short_text(curve.limit_f0) + "; above it, " + std::to_string(curve.clamped) +
+        " rows are flagged as clamped" +
+        (curve.other == 0 ? "" : ", " + std::to_string(curve.other) + " as unstable or flat") +
+        (curve.clamped == 0
+             ? ""
+             : " (target alpha changes by up to " + percent_text(curve.clamped_alpha_shift) + ")"));
     deviation = std::max(deviation, curve.line_deviation);
     shift = std::max(shift, curve.clamped_alpha_shift);
   }
   words.push_back("figure 6: smooth (largest distance from a line " + short_text(deviation) +
-                  ") except where specular of Ward passes 1; every such row is flagged");
-  words.push_back("mitsuba/ward, which ends at 1, gives the same ok rows within " +
+                  ") except where Ward specular exceeds 1; every such row is flagged");
+  words.push_back("mitsuba/ward, whose specular is limited to 1, gives the same ok rows within " +
                   short_text(study.plain_difference));
   const RoundTrip& trip = study.round_trip;
-  words.push_back("figure 7: the " + std::to_string(trip.rows) + " ok rows back to " + kConductorSource +
-                  ": slope " + short_text(trip.slope, 6) + ", offset " + short_text(trip.offset) +
-                  ", F0 within " + short_text(trip.f0_deviation) + ", alpha within " +
-                  short_text(trip.alpha_deviation));
+  words.push_back("figure 7: the " + std::to_string(trip.rows) + " ok rows converted back to " +
+                  kConductorSource + ": slope " + short_text(trip.slope, 6) + ", offset " +
+                  short_text(trip.offset) + ", F0 within " + short_text(trip.f0_deviation) +
+                  ", alpha within " + short_text(trip.alpha_deviation));
   const auto worst = std::max_element(
       study.fresnel.begin(), study.fresnel.end(),
       [](const FresnelDifference& a, const FresnelDifference& b) { return a.error < b.error; });
   double mean = 0.0;
   for (const FresnelDifference& item : study.fresnel)
     mean += item.error / static_cast<double>(study.fresnel.size());
-  words.push_back("Schlick from F0 against exact Fresnel: the pictures differ by " + percent_text(mean) +
+  words.push_back("Schlick (from F0) against exact Fresnel: pictures differ by " + percent_text(mean) +
                   " on average, at most " + percent_text(worst->error) + " (" + worst->material + ", alpha " +
-                  number_text(worst->alpha) + "); Ward specular by at most " +
+                  number_text(worst->alpha) + "); Ward specular differs by at most " +
                   percent_text(study.exact_specular_shift));
   return words;
 }
@@ -283,8 +285,11 @@ std::vector<std::string> write_conductors(const ConductorsStudy& study, const st
   remap::write_file(folder / "fresnel.csv", fresnel);
   remap::write_file(folder / "as_to_ward.csv", table_text(study.there));
   remap::write_file(folder / "ward_to_as.csv", table_text(study.back));
+  return {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"};
+}
 
-  StudyPlot there{"Figure 6: metals, one curve a width; open: flagged",
+std::string conductors_plot_script(const ConductorsStudy& study) {
+  StudyPlot there{"Figure 6: metals, one curve per alpha; open points: flagged",
                   "F0 of " + kConductorSource,
                   "specular of " + kConductorTarget,
                   {}};
@@ -295,13 +300,11 @@ std::vector<std::string> write_conductors(const ConductorsStudy& study, const st
     there.curves.push_back(ok);
     there.curves.push_back(flagged);
   }
-  StudyPlot trip{"Figure 7: there and back", "F0", "F0 that came back", {{"ok rows", {}, true}}};
+  StudyPlot trip{"Figure 7: round trip", "F0", "F0 after the round trip", {{"ok rows", {}, true}}};
   const std::vector<TableRow> usable = usable_rows(study.there);
   for (std::size_t i = 0; i < usable.size(); ++i)
     trip.curves[0].points.emplace_back(usable[i].specular1, study.back.rows[i].specular2);
-  std::vector<std::string> files = {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"};
-  if (write_study_plot(folder / "figure6_7.svg", {there, trip})) files.push_back("figure6_7.svg");
-  return files;
+  return study_plot_script({there, trip});
 }
 
 }  // namespace remapc

@@ -86,7 +86,7 @@ TEST_CASE("remapc import: what cannot be read or written is named") {
     return session.remapc({"import", session.path(file), "-o", session.path(folder)});
   };
   check_failure(import("no.json", "fits"), 1, "no.json: cannot be read: No such file");
-  check_failure(import("alpha.model", "fits"), 1, "is no JSON");
+  check_failure(import("alpha.model", "fits"), 1, "invalid JSON");
   check_failure(import("d.json", "alpha.model"), 1, "alpha.model: cannot be made a folder");
   session.write("alpha.model", kModel + "1.5 1:0.25 \n");
   check_failure(import("d.json", "fits"), 1, "alpha.model:9: the file ends after 1");

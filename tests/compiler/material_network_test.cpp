@@ -88,13 +88,13 @@ TEST_CASE("material network: learns the way back, says how well, and returns fro
 TEST_CASE("material network: tables of other columns, or not of equation (2), are refused") {
   MaterialTable table = family_table(200, 0.04);
   table.target_columns[1] = "specular_r2";
-  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("has no column f0_r2"));
+  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("missing column f0_r2"));
   table = family_table(200, 0.04);
   for (NamedRow& row : table.rows) row.target[4] *= 0.9;
   CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("differ from equation (2)"));
   table = family_table(200, 0.04);
   for (NamedRow& row : table.rows) row.status = RowStatus::kFlat;
-  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("no row of status ok"));
+  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("no row has status ok"));
   MaterialNetworkOptions options = quick_options();
   options.id = "a b";
   CHECK_THROWS_WITH(fit_material_network(family_table(200, 0.04), "", options), Contains("identifier"));

@@ -162,7 +162,7 @@ TEST_CASE("mlp: rows that cannot be fitted are refused") {
   };
   std::vector<TableRow> rows = smooth_rows();
   rows.resize(9);
-  CHECK_THROWS_WITH(fit_mlp(rows, {}), "mlp: 9 rows; expected at least 10");
+  CHECK_THROWS_WITH(fit_mlp(rows, {}), "mlp: too few rows (9, at least 10 are required)");
   CHECK(kind_of(rows, {}) == remap::ErrorKind::kInput);
 
   rows = smooth_rows();

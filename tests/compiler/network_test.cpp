@@ -190,6 +190,6 @@ TEST_CASE("network training: samples and options that do not fit together are re
   options.validation_fraction = 0.6;
   CHECK_THROWS_WITH(train_network(samples, options), Catch::Contains("validation share 0.6"));
   samples.outputs.pop_back();
-  CHECK_THROWS_WITH(train_network(samples, {}), Catch::Contains("whole rows"));
-  CHECK_THROWS_WITH(train_network({}, {}), Catch::Contains("whole rows"));
+  CHECK_THROWS_WITH(train_network(samples, {}), Catch::Contains("do not form equally many whole rows"));
+  CHECK_THROWS_WITH(train_network({}, {}), Catch::Contains("do not form equally many whole rows"));
 }

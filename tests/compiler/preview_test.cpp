@@ -116,8 +116,8 @@ TEST_CASE("preview: invalid options are refused") {
   refused("mitsuba/ggxx", small_preview(), "did you mean mitsuba/ggx?");
   PreviewOptions options = small_preview();
   options.specular = {0.1, 0.2};
-  refused("mitsuba/ggx", options, "specular has 2 values; expected 1 or 3");
+  refused("mitsuba/ggx", options, "specular must have 1 or 3 values, not 2");
   options = small_preview();
   options.shapes.clear();
-  refused("mitsuba/ggx", options, "nothing to show");
+  refused("mitsuba/ggx", options, "at least one shape is required");
 }

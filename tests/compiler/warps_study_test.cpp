@@ -112,7 +112,7 @@ TEST_CASE("study warp: tables have all rows, pictures all cells") {
   CHECK(line_count(warp_sensitivity_csv(options, small_result())) == 5 + variants - 7);
   const std::string text = warps_text(options, small_result());
   CHECK_THAT(text, Contains("Sets leaf, 64 x 64 texels, 2 sets of strokes each"));
-  CHECK_THAT(text, Contains("The registration is "));
+  CHECK_THAT(text, Contains("Mean error: registration "));
   CHECK_THAT(warps_plot_script(options, small_result()), Contains("$nodes using 1:2"));
   const std::vector<WarpSheet> sheets = warp_sheets(options, small_result());
   REQUIRE(sheets.size() == 3);

@@ -1,4 +1,4 @@
-// The studies of `remapc study`: each adds itself as a subcommand of it.
+// The subcommands of `remap-study`. Each function adds one study to the program.
 #pragma once
 
 #include <CLI/CLI.hpp>
