@@ -87,7 +87,7 @@ TEST_CASE("remapc import: what cannot be read or written is named") {
   };
   check_failure(import("no.json", "fits"), 1, "no.json: cannot be read: No such file");
   check_failure(import("alpha.model", "fits"), 1, "is no JSON");
-  check_failure(import("d.json", "alpha.model"), 1, "alpha.model: cannot be made a folder");
+  check_failure(import("d.json", "alpha.model"), 1, "alpha.model: folder cannot be created");
   session.write("alpha.model", kModel + "1.5 1:0.25 \n");
   check_failure(import("d.json", "fits"), 1, "alpha.model:9: the file ends after 1");
   fs::remove(session.path("specular.model"));
@@ -146,7 +146,7 @@ TEST_CASE("remapc export: what is unknown, too small or cannot be written is nam
   check_failure(export_to("x.csv", {"--size", "1"}), 2, "--size: Value 1 not in range 2 to 1048576");
   check_failure(export_to("x.csv", {"--size-specular", "-3"}), 2, "--size-specular: Value -3 not in range");
   check_failure(export_to("x.csv", {"--only", "color"}), 2, "--only");
-  check_failure(export_to("t.csv/x.csv"), 1, "t.csv: cannot be made a folder");
+  check_failure(export_to("t.csv/x.csv"), 1, "t.csv: folder cannot be created");
   check_failure(export_to("fits"), 1, "fits: cannot be written");
   CHECK_FALSE(fs::exists(session.path("x.csv")));
   ProcessLimits limits;

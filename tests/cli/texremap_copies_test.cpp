@@ -152,10 +152,12 @@ TEST_CASE("texremap copies: wrong words") {
     CHECK(session.file_count() == 0);
   };
   refused({"--roughness", roughness, "--specular", "0.04", "--diffuse", session.path("none.png")}, 1,
-          "none.png: is no file");
+          "none.png: cannot be copied: not a readable file");
   refused({"--roughness", roughness, "--specular", "0.04", "--metallic", "0.5"}, 2,
-          "--metallic: is a number, which --layout as-inputs has no place for");
-  refused({"--roughness", roughness, "--specular", "0.04", "--copy-others"}, 2, "--copy-others: is for");
-  refused({session.path("in"), "--diffuse", roughness}, 2, "expected --copy-others");
-  refused({session.path("in"), "--occlusion", roughness, "--layout", "orm"}, 2, "--occlusion: is the map");
+          "--metallic: a number has no place in --layout as-inputs");
+  refused({"--roughness", roughness, "--specular", "0.04", "--copy-others"}, 2,
+          "--copy-others requires a folder");
+  refused({session.path("in"), "--diffuse", roughness}, 2,
+          "--diffuse cannot be used with a folder (use --copy-others)");
+  refused({session.path("in"), "--occlusion", roughness, "--layout", "orm"}, 2, "--occlusion: the map");
 }

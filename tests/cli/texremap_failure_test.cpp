@@ -266,7 +266,7 @@ TEST_CASE("texremap: a link that leads to itself is no input, and no output is w
   fs::create_symlink(session.path("elsewhere.png"), session.path("out/s.png"));
   const ProcessResult out = session.convert("r.png", "s.png");
   CHECK(out.exit_code == 1);
-  CHECK_THAT(out.last_error(), Contains("out/s.png: exists"));
+  CHECK_THAT(out.last_error(), Contains("out/s.png: already exists"));
   // --force replaces the link, not what it leads to.
   CHECK(session.convert("r.png", "s.png", {"--force"}).exit_code == 0);
   CHECK_FALSE(fs::exists(session.path("elsewhere.png")));

@@ -211,9 +211,8 @@ TEST_CASE("texremap inputs: bad texels are kept, clamped, or the end") {
   fs::remove_all(session.path("out"));
   const ProcessResult failed = convert(session, words);
   CHECK(failed.exit_code == 1);
-  CHECK_THAT(
-      failed.last_error(),
-      Contains("s.exr: G of texel (6, 4) is nan; expected finite values from 0, or --bad-texels clamp"));
+  CHECK_THAT(failed.last_error(),
+             Contains("s.exr: G of texel (6, 4) is nan (--bad-texels clamp replaces such values)"));
   CHECK(session.file_count() == 0);
 }
 
@@ -249,7 +248,7 @@ TEST_CASE("texremap inputs: a map that was converted is not converted again") {
   const ProcessResult refused = convert(session, again);
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.last_error(),
-             Contains("was converted to mitsuba/as already; expected a map of mitsuba/ward"));
+             Contains("already converted to mitsuba/as, but the source is mitsuba/ward"));
   CHECK_FALSE(fs::exists(session.path("again")));
   // Onwards from what it is now.
   std::vector<std::string> onwards = again;
@@ -270,19 +269,19 @@ TEST_CASE("texremap inputs: what does not fit together is wrong usage") {
     CHECK_FALSE(fs::exists(session.path("out")));
   };
   const std::string r = session.path("r.exr"), s = session.path("s.exr"), out = session.path("out");
-  refused({"--specular", s, "-o", out},
-          "--roughness: is missing; expected a map or a number, or --glossiness");
-  refused({"--roughness", r, "--specular", s}, "--output: is missing");
+  refused({"--specular", s, "-o", out}, "--roughness is required (a map or a number; or use --glossiness)");
+  refused({"--roughness", r, "--specular", s}, "--output is required");
   refused({"--roughness", "0.1,0.2,0.3", "--specular", s, "-o", out},
-          "--roughness: has three values; expected one");
-  refused({"--roughness", r, "--specular", s + ":R,G", "-o", out}, "expected FILE:CHANNEL");
+          "--roughness: has three values (give one)");
+  refused({"--roughness", r, "--specular", s + ":R,G", "-o", out}, "(use FILE:CHANNEL or FILE:R,G,B)");
   refused({"--roughness", r, "--specular", s, "-o", out, "--roughness-encoding", "rouhgness"},
           "did you mean roughness?");
   refused({"--roughness", r, "--specular", s, "-o", out, "--color-space", "srbg"}, "did you mean srgb?");
-  refused({"--roughness", r, "--specular", s, "-o", out, "--bad-texels", "drop"}, "--bad-texels: is drop");
+  refused({"--roughness", r, "--specular", s, "-o", out, "--bad-texels", "drop"},
+          "--bad-texels: unknown treatment 'drop' (choose keep, clamp, fail)");
   refused({"--roughness", r, "--specular", s, "-o", out, "--only", "specualr"}, "did you mean specular?");
   refused({"--glossiness", r, "--specular", s, "-o", out, "--roughness-encoding", "alpha"},
-          "does not go with");
+          "--roughness-encoding cannot be used with --glossiness");
 }
 
 TEST_CASE("texremap inputs: grey in a JPEG may be a step from grey") {

@@ -105,18 +105,19 @@ TEST_CASE("texremap layouts: nothing is lost or made up unsaid") {
   const std::string path = session.path("in.png");
   refused({"--roughness", path + ":G", "--specular", "0.4", "--layout", "separate"},
           "channel R would be lost");
-  refused({"--roughness", path + ":G", "--specular", "0.4", "--layout", "omr"}, "did you mean orm?");
+  refused({"--roughness", path + ":G", "--specular", "0.4", "--layout", "omr"},
+          "--layout: unknown layout 'omr' (did you mean orm?)");
   std::vector<std::string> words = packed(session, "in.png");
   words.insert(words.end(), {"--layout", "orm", "--only", "specular"});
-  refused(words, "--only: leaves a channel of --layout orm empty");
+  refused(words, "--only cannot be used with --layout orm");
 
   write_image(session.path("r.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
   const ProcessResult result =
       convert(session, "mitsuba/ward", "mitsuba/as",
               {"--roughness", session.path("r.png"), "--specular", "0.4", "--layout", "orm"}, "out");
   require_success(result);
-  CHECK_THAT(result.errors, Contains("has no occlusion map; occlusion is 1") &&
-                                Contains("has no metallic map; metallic is 0"));
+  CHECK_THAT(result.errors, Contains("no occlusion map; occlusion is set to 1") &&
+                                Contains("no metallic map; metallic is set to 0"));
   CHECK(channel(session, "out/orm.png", 0) == std::vector<float>(kSize * kSize, 1.0f));
   CHECK(channel(session, "out/orm.png", 2) == std::vector<float>(kSize * kSize, 0.0f));
 }

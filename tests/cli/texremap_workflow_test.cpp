@@ -291,20 +291,20 @@ TEST_CASE("texremap workflows: maps that cannot be meant so are warned of, with 
   };
   const std::vector<std::string> words = specular_words(session, "specular", "metallic");
   write_specular(session, 0.4f, 0.2195f);  // F0 0.04 as sRGB stores it
-  warned(words, "F0 0.04 stored in sRGB looks like this; expected --color-space specular=srgb");
+  warned(words, "like F0 0.04 stored in sRGB (use --color-space specular=srgb");
   write_specular(session, 0.4f, 0.0f);
   write_colors(session, "s.exr", [](int, int, int) { return 0.0f; });
-  warned(words, "specular is black in every texel that was looked at; expected 0.04");
+  warned(words, "specular is black in every sampled texel (dielectrics have a linear F0 of 0.04)");
   write_colors(session, "s.exr", [](int, int, int) { return 1.0f; });
-  warned(words, "specular is white in every texel that was looked at");
+  warned(words, "specular is white in every sampled texel");
   write_specular(session, 8.0f);
-  warned(words, "texels with values above 1, which reflect more than they receive");
+  warned(words, "texels reflect more than 1; clamped to 1");
   write_specular(session);
-  warned(words, "diffuse of specular is taken as plain, which no map can tell; --diffuse-convention scaled");
-  warned(words, "the maps' own F0 of a dielectric is about 0.04");
+  warned(words, "diffuse of specular is assumed to be plain (--diffuse-convention scaled");
+  warned(words, "dielectric F0 estimated from the maps: 0.04");
   write_metallic(session);
   write_colors(session, "b.exr", [](int, int, int) { return 0.0f; });
-  warned(metallic_words(session, "metallic", "specular"), "base_color is black in every texel");
+  warned(metallic_words(session, "metallic", "specular"), "base_color is black in every sampled texel");
 }
 
 TEST_CASE("texremap workflows: the F0 of the maps is used where that is asked for") {
@@ -314,7 +314,7 @@ TEST_CASE("texremap workflows: the F0 of the maps is used where that is asked fo
                                                      {"--dielectric-f0", "estimate", "--json"}));
   require_success(result);
   CHECK(nlohmann::json::parse(result.output)["metallic_confidence"]["rms_residual"] < 0.002);
-  CHECK_THAT(result.errors, Contains("is about 0.055; 0.055 is used"));
+  CHECK_THAT(result.errors, Contains("estimated from the maps: 0.055; 0.055 is used"));
   const TestImage metal = read_image(session.path("out/metallic.exr"));
   CHECK(metal.at(5, 5, 0) < 0.01f);
 }
@@ -333,23 +333,26 @@ TEST_CASE("texremap workflows: what does not fit together is refused, and nothin
                                  metal = metallic_words(session, "gltf", "specular");
   std::vector<std::string> words = specular;
   words.erase(words.begin() + 4, words.begin() + 6);
-  refused(words, "--diffuse: is missing; expected a map or a number");
+  refused(words, "--diffuse is required (a map or a number");
   words = metal;
   write_grey(session, "m.exr", metallic, OIIO::TypeFloat, 20);
-  refused(words, "m.exr: is 20 x 20; expected the size of", 1);
-  refused(with(specular, {"--layout", "specgloss"}), "specgloss, which has no place for metallic");
-  refused(with(specular, {"--layout", "as-inputs"}), "no input has a place for base_color");
+  refused(words, "m.exr: size 20x20 does not match ", 1);
+  refused(with(specular, {"--layout", "specgloss"}), "--layout: specgloss cannot hold metallic");
+  refused(with(specular, {"--layout", "as-inputs"}), "no input holds base_color");
   refused(with(specular, {"--from-workflow", "metallic"}), "specular has the specular workflow");
-  refused(with(specular, {"--formula", "projektion"}), "did you mean projection?");
+  refused(with(specular, {"--formula", "projektion"}),
+          "--formula: unknown formula 'projektion' (did you mean projection?)");
   refused(with(specular, {"--formula", "khronos"}), "Khronos' solver with plain diffuse", 1);
-  refused(with(specular, {"--dielectric-f0", "2"}), "--dielectric-f0: is 2; expected 0 to 0.9, or estimate");
-  refused(with(specular, {"--diffuse-convention", "plane"}), "did you mean plain?");
-  refused(with(metal, {"--residual", "r.exr"}), "--residual: is for metallic results");
-  refused(with(metal, {"--dielectric-f0", "estimate"}), "expected a number");
-  refused(with(specular, {"--only", "specular"}), "--only: is for width and specular alone");
+  refused(with(specular, {"--dielectric-f0", "2"}),
+          "--dielectric-f0: invalid value '2' (use 0 to 0.9, or estimate)");
+  refused(with(specular, {"--diffuse-convention", "plane"}),
+          "unknown convention 'plane' (did you mean plain?)");
+  refused(with(metal, {"--residual", "r.exr"}), "--residual requires a metallic target");
+  refused(with(metal, {"--dielectric-f0", "estimate"}), "(give a number)");
+  refused(with(specular, {"--only", "specular"}), "--only cannot be used with a workflow");
   refused({"--from", "mitsuba/ward", "--to", "mitsuba/ggx", "--roughness", "0.3", "--specular", "0.1",
            "--prior", "noisy"},
-          "--prior: is for workflows");
+          "--prior requires a workflow");
 }
 
 TEST_CASE("texremap workflows: a folder of sets goes from one workflow to another") {
@@ -363,7 +366,7 @@ TEST_CASE("texremap workflows: a folder of sets goes from one workflow to anothe
   const ProcessResult result =
       convert(session, {session.path("in"), "--from", "gltf-specgloss", "--to", "gltf", "--layout", "orm"});
   CHECK(result.exit_code == 1);
-  CHECK_THAT(result.errors, Contains("bare: has no specular map; expected one, or --specular VALUE"));
+  CHECK_THAT(result.errors, Contains("bare: no specular map found (or use --specular VALUE"));
   const TestImage orm = read_image(session.path("out/wood_orm.png")),
                   gloss = read_image(session.path("in/wood_glossiness.png")),
                   occlusion = read_image(session.path("in/wood_ao.png"));
@@ -389,15 +392,16 @@ TEST_CASE("texremap workflows: two sets of one name in a folder are refused befo
     CHECK_FALSE(std::filesystem::exists(session.path("out")));
   };
   const auto made_from = [&](const std::string& result, const std::string& map) {
-    return session.path("out/wood/wood_" + result) + ": would be made from both " +
-           session.path("in/wood/" + map) + " and " + session.path("in/wood/wood_" + map);
+    return session.path("out/wood/wood_" + result) + ": would be written twice, from " +
+           session.path("in/wood/" + map) + " and from " + session.path("in/wood/wood_" + map);
   };
   check_refused({"--from", "gltf", "--to", "gltf-specgloss"}, made_from("diffuse.png", "basecolor.png"));
   // Under the names of the inputs there would be room for both.
   const std::vector<std::string> to_ward = {"--from",       "gltf",          "--to",
                                             "mitsuba/ward", "--to-workflow", "metallic"};
   check_refused(with(to_ward, {"--layout", "separate"}), made_from("base_color.png", "basecolor.png"));
-  check_refused(with(to_ward, {"--residual", "residual.png"}), "wood_residual.png: would be made from both ");
+  check_refused(with(to_ward, {"--residual", "residual.png"}),
+                "wood_residual.png: would be written twice, from ");
   CHECK(convert(session, with({session.path("in"), "--recursive"}, to_ward)).exit_code == 0);
 }
 
@@ -423,7 +427,7 @@ TEST_CASE("texremap workflows: list and path know them") {
   CHECK(models[0]["dielectric_f0"] == 0.04);
   const ProcessResult path = session.texremap({"path", "--from", "mitsuba/ward", "--to", "gltf"});
   require_success(path);
-  CHECK_THAT(path.output, Contains("width and specular from mitsuba/ward to mitsuba/ggx") &&
+  CHECK_THAT(path.output, Contains("roughness and specular from mitsuba/ward to mitsuba/ggx") &&
                               Contains("to base color and metallic by projection") &&
                               Contains("mitsuba_ward_to_mitsuba_ggx"));
   require_success(session.texremap({"path", "--from", "gltf-specgloss", "--to", "gltf", "--json"}));

@@ -112,7 +112,7 @@ TEST_CASE("random sweep: what cannot vary is refused by its parameter") {
   };
   MaterialSampleOptions options = random_options("mitsuba/ggx-metallic", "mitsuba/ggx", 1);
   options.varied = {"metalic"};
-  refused(options, "has no parameter metalic; did you mean metallic?");
+  refused(options, "has no parameter metalic (did you mean metallic?)");
   options.varied = {"base_color"};
   refused(options, "base_color is the specular, which varies anyway");
   options.varied = {};

@@ -127,7 +127,7 @@ TEST_CASE("roles: what cannot be cast is refused by its parameter") {
   };
   ParameterRoles roles;
   roles.specular = "metalic";
-  refused(roles, "has no parameter metalic; did you mean metallic?");
+  refused(roles, "has no parameter metalic (did you mean metallic?)");
   roles.specular = "metallic";
   refused(roles, "base_color has lost its role and has no value; expected it fixed, base_color=VALUE");
   roles.fixed = {{"metallic", 0.5}, {"base_color", 0.5}};

@@ -82,5 +82,5 @@ TEST_CASE(
 
 TEST_CASE("shape: names are answered with the nearest") {
   for (const Shape shape : kShapes) CHECK(shape_from_name(shape_name(shape)) == shape);
-  CHECK_THROWS_WITH(shape_from_name("tours"), "shape: tours is none; did you mean torus?");
+  CHECK_THROWS_WITH(shape_from_name("tours"), "shape: tours is none (did you mean torus?)");
 }

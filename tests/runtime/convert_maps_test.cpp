@@ -199,11 +199,11 @@ TEST_CASE("convert_maps: what does not fit together is refused") {
     CHECK_THROWS_WITH(convert_maps(*converter, maps), Contains(message));
   };
   refused([](MapConversion& maps) { maps.sources[Parameter::kWidth].channels.clear(); },
-          "the roughness has no channel");
+          "roughness has no channel");
   refused([](MapConversion& maps) { maps.sources[Parameter::kSpecular].channels.pop_back(); },
           "specular has 2 channels");
   refused([](MapConversion& maps) { maps.targets[Parameter::kSpecular].channels.pop_back(); },
-          "expected the 3 of the source");
+          "but the converter makes 3");
   refused(
       [](MapConversion& maps) {
         maps.sources[Parameter::kSpecular].factors = {1.0f, 2.0f};

@@ -128,7 +128,7 @@ TEST_CASE("image planes: maps whose levels do not match are refused") {
   write_image(folder.path() / "s.exr", test_spec(64, 64, {"R", "G", "B"}, OIIO::TypeHalf), noise);
   CHECK_THROWS_WITH(convert((folder.path() / "r.exr").string(), (folder.path() / "s.exr").string(),
                             folder.path() / "out", *converter),
-                    Contains("s.exr: has 1 mip levels; expected 7"));
+                    Contains("s.exr: number of mip levels is 1, but other maps of the set have 7"));
   CHECK(fs::is_empty(folder.path() / "out"));
   // A number has every level.
   CHECK_NOTHROW(convert((folder.path() / "r.exr").string(), "0.5", folder.path() / "out", *converter));
@@ -154,8 +154,7 @@ TEST_CASE("image planes: parts hold parameters, and the others stay") {
     convert(path + ":rough.width", path + ":base.R,base.G,base.B", folder.path() / "out", *converter);
   } else {
     // TIFF names no channels and no parts: its colors are found, one grey part among two is not.
-    CHECK_THROWS_WITH(convert(path, path, folder.path() / "out", *converter),
-                      Contains("several have such channels"));
+    CHECK_THROWS_WITH(convert(path, path, folder.path() / "out", *converter), Contains("have such channels"));
     convert("0.5", path + ":R,G,B", folder.path() / "out", *converter);
   }
   const Plane base = read_plane(file, 0, 0), rough = read_plane(file, 2, 0), base_out = read_plane(out, 0, 0),

@@ -81,19 +81,15 @@ TEST_CASE("find sets: two candidates for a role are a fault of their set alone")
     return set.remarks.front();
   };
   CHECK(remark("a") ==
-        "a: 2 maps for the width of the highlight: a_Roughness.exr (roughness), a_rough.png (roughness); "
-        "expected one");
+        "a: 2 roughness maps found: a_Roughness.exr (roughness), a_rough.png (roughness); keep one");
   CHECK(remark("b") ==
-        "b: 2 maps for the width of the highlight: b_glossiness.png (glossiness), b_roughness.png "
-        "(roughness); expected one");
+        "b: 2 roughness maps found: b_glossiness.png (glossiness), b_roughness.png (roughness); keep one");
   CHECK(remark("c") ==
-        "c: 2 maps for the width of the highlight: c_orm.png (roughness in G), c_roughness.png "
-        "(roughness); expected one");
+        "c: 2 roughness maps found: c_orm.png (roughness in G), c_roughness.png (roughness); keep one");
   CHECK(remark("d") ==
-        "d: 2 maps for specular: d_spec.png (specular), d_specular.exr (specular); expected one");
+        "d: 2 specular maps found: d_spec.png (specular), d_specular.exr (specular); keep one");
   CHECK(remark("f") ==
-        "f: 2 maps for the width of the highlight: f_rough_2k.png (roughness), f_rough_4k.png "
-        "(roughness); expected one");
+        "f: 2 roughness maps found: f_rough_2k.png (roughness), f_rough_4k.png (roughness); keep one");
   CHECK(set_at(found, "e").state == SetState::kReady);
   CHECK_FALSE(set_at(found, "a").width);
 }
@@ -104,8 +100,7 @@ TEST_CASE("find sets: a set without roughness or glossiness is skipped with the 
   for (const std::string name : {"rough_wood", "steel"}) {
     const FoundSet& set = set_at(found, name);
     CHECK(set.state == SetState::kSkipped);
-    CHECK(set.remarks ==
-          std::vector<std::string>{name + ": no map of roughness or glossiness; expected one"});
+    CHECK(set.remarks == std::vector<std::string>{name + ": no roughness or glossiness map found"});
   }
   CHECK(set_at(found, "rough_wood").bystanders.size() == 2);
 }
@@ -169,9 +164,8 @@ TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are no text") {
   CHECK(set_at(found, "old wood").specular);
   CHECK(set_at(found, "K\xc3\xb6nig\xe2\x99\x9a").state == SetState::kReady);
   CHECK(set_at(found, "a\nb").remarks.at(0) ==
-        "a\\nb: 2 maps for the width of the highlight: a\\nb_Roughness.png (roughness), a\\nb_rough.png "
-        "(roughness); "
-        "expected one");
+        "a\\nb: 2 roughness maps found: a\\nb_Roughness.png (roughness), a\\nb_rough.png (roughness); keep "
+        "one");
   CHECK(shown("tab\there\x1b") == "tab\\x09here\\x1b");
 }
 

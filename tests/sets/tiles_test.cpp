@@ -65,7 +65,7 @@ TEST_CASE("tile pattern: names without a place") {
 
 TEST_CASE("tile pattern: two places are refused, by name") {
   CHECK(complaint("a.<UDIM>.####.exr") ==
-        "a.<UDIM>.####.exr: holds several places for a number, <UDIM> and ####; expected one");
+        "a.<UDIM>.####.exr: has two placeholders, <UDIM> and #### (use one)");
 }
 
 TEST_CASE("tile name: a number that no tile has is refused") {

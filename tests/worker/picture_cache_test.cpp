@@ -105,8 +105,7 @@ TEST_CASE("worker list: own entries come before shipped ones, and mistakes are n
   CHECK(entries[0].install == "ask");
   CHECK(entries[0].folder == list.parent_path().string());
   remap::write_file(list, R"({"workers": [{"name": "a/b", "command": "run"}]})");
-  CHECK_THROWS_WITH(read_worker_list(list),
-                    Contains("workers[0].name: is \"a/b\"; expected a name without /"));
+  CHECK_THROWS_WITH(read_worker_list(list), Contains("workers[0].name: expected a name without /"));
   CHECK_THROWS_WITH(parse_worker("ours"), Contains("expected NAME=COMMAND"));
   CHECK_THROWS_WITH(known_workers({"a=b", "a=c"}), Contains("a was given before"));
   const auto known = known_workers({"mitsuba3=mine --fast"});
