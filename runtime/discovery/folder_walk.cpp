@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <set>
+#include <string_view>
 #include <sys/stat.h>
 #include <system_error>
 
@@ -17,6 +18,13 @@ namespace {
 
 constexpr std::array<std::string_view, 10> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
                                                           "jpeg", "tga", "bmp",  "hdr", "tx"};
+
+bool is_image_name(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos || dot == 0) return false;
+  const std::string extension = lower(name.substr(dot + 1));
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
 
 using FolderIdentity = std::pair<dev_t, ino_t>;
 
@@ -108,13 +116,6 @@ class Walker {
 };
 
 }  // namespace
-
-bool is_image_name(std::string_view name) {
-  const std::size_t dot = name.rfind('.');
-  if (dot == std::string_view::npos || dot == 0) return false;
-  const std::string extension = lower(name.substr(dot + 1));
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
 
 Walk walk_images(const fs::path& root, const WalkOptions& options) { return Walker(root, options).run(); }
 

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace remap {
@@ -29,13 +28,10 @@ struct Walk {
   std::vector<WalkProblem> problems;  // in any order
 };
 
-// Whether the extension belongs to a supported image format: exr tif tiff png jpg jpeg tga bmp hdr tx.
-bool is_image_name(std::string_view name);
-
-// Lists the images under `root`. Hidden names are skipped, and with them unfinished results (files.hpp).
-// Symbolic links are followed. Each folder is visited once, under its own path if that lies below the root,
-// so loops end. Unreadable files and folders become problems. Throws kInput only if the root itself cannot be
-// read.
+// Lists the images under `root`, with the extensions exr tif tiff png jpg jpeg tga bmp hdr tx. Hidden names
+// are skipped, and with them unfinished results (files.hpp). Symbolic links are followed. Each folder is
+// visited once, under its own path if that lies below the root, so loops end. Unreadable files and folders
+// become problems. Throws kInput only if the root itself cannot be read.
 Walk walk_images(const std::filesystem::path& root, const WalkOptions& options);
 
 }  // namespace remap

@@ -140,12 +140,17 @@ void explain(const PathOptions& asked) {
 void add_path_command(CLI::App& app) {
   auto options = std::make_shared<PathOptions>();
   CLI::App* command = app.add_subcommand("path", "Explain which converters lead from one model to another");
-  command->add_option("--from", options->request.source, "Source model, e.g. mitsuba/ward")->required();
-  command->add_option("--to", options->request.target, "Target model, e.g. mitsuba/as")->required();
+  command->add_option("--from", options->request.source, "Source model, e.g. mitsuba/ward")
+      ->required()
+      ->type_name("MODEL");
+  command->add_option("--to", options->request.target, "Target model, e.g. mitsuba/as")
+      ->required()
+      ->type_name("MODEL");
   command
       ->add_option("--via", options->request.via,
                    "Model that the path must pass through; repeatable, in order")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->type_name("MODEL");
   command->add_flag("--json", options->json, "Print JSON");
   command->footer(
       "Example:\n  texremap path --from mitsuba/ward --to mitsuba/as\n"

@@ -122,8 +122,6 @@ std::optional<PixelType> pixel_type_from_name(std::string_view name) noexcept {
   return value_named(kTypes, name);
 }
 
-std::vector<std::string> pixel_type_names() { return names_of(kTypes); }
-
 void load_values(PixelType type, const std::byte* first, std::size_t stride, std::size_t count,
                  float* values) noexcept {
   with_storage(type, [&](auto stored) { load<decltype(stored)>(first, stride, count, values); });

@@ -4,9 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace remap {
 
@@ -18,7 +16,6 @@ bool is_integer(PixelType type) noexcept;
 // `uint8`, `half`, ...: the names on the command line and in OpenImageIO.
 std::string_view pixel_type_name(PixelType type) noexcept;
 std::optional<PixelType> pixel_type_from_name(std::string_view name) noexcept;
-std::vector<std::string> pixel_type_names();
 
 // Reads `count` values of `type` at intervals of `stride` bytes from `first`, which need not be aligned.
 // Integers are divided by the largest of their type: 255 of uint8 becomes 1.

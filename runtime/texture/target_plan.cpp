@@ -16,6 +16,12 @@ namespace {
 
 using Content = TargetChannel::Content;
 
+constexpr NamedValues<Layout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
+                                              {Layout::kSeparate, "separate"},
+                                              {Layout::kOrm, "orm"},
+                                              {Layout::kArm, "arm"},
+                                              {Layout::kSpecGloss, "specgloss"}}};
+
 void require_known_extension(const std::string& extension) {
   static const std::array<std::string, 9> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
                                                          "jpeg", "tga", "bmp",  "hdr"};
@@ -316,7 +322,7 @@ std::vector<PlannedMap> specgloss_maps(const TextureSet& set, const TargetChoice
 }
 
 std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& choice) {
-  const std::string layout(layout_name(choice.layout));
+  const std::string layout(name_of(kLayouts, choice.layout));
   const bool is_specgloss = choice.layout == Layout::kSpecGloss;
   const bool is_metallic = is_wanted(choice, Parameter::kMetallic);
   if (is_specgloss ? is_metallic : is_wanted(choice, Parameter::kDiffuse))
@@ -337,19 +343,11 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
   return all;
 }
 
-constexpr NamedValues<Layout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
-                                              {Layout::kSeparate, "separate"},
-                                              {Layout::kOrm, "orm"},
-                                              {Layout::kArm, "arm"},
-                                              {Layout::kSpecGloss, "specgloss"}}};
-
 }  // namespace
 
 std::string set_file_name(const fs::path& file, const ResultNames& names) {
   return names.before + file.stem().string() + names.after + file.extension().string();
 }
-
-std::string_view layout_name(Layout layout) { return name_of(kLayouts, layout); }
 
 std::optional<Layout> layout_from_name(std::string_view name) { return value_named(kLayouts, name); }
 
@@ -361,7 +359,7 @@ std::string file_name(Parameter parameter, const TargetChoice& choice) {
     return "specular_glossiness";
   if ((choice.layout == Layout::kOrm || choice.layout == Layout::kArm) &&
       (is_width || parameter == Parameter::kMetallic))
-    return std::string(layout_name(choice.layout));
+    return std::string(name_of(kLayouts, choice.layout));
   return is_width ? choice.width_name : std::string(parameter_name(parameter));
 }
 

@@ -46,7 +46,6 @@ enum class Layout {
   kArm,        // like kOrm, named arm
   kSpecGloss,  // specular_glossiness: specular, with glossiness in alpha; and diffuse
 };
-std::string_view layout_name(Layout layout);
 std::optional<Layout> layout_from_name(std::string_view name);
 std::vector<std::string> layout_names();
 

@@ -1,4 +1,4 @@
-// Files of a material that are not converted and go along with it, byte for byte.
+// Files of a material that are copied byte for byte, without conversion.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -18,7 +18,7 @@ void write_map(const Session& session, const std::string& name, const std::vecto
   write_image(session.path(name), test_spec(size, size, channels, OIIO::TypeUInt8), noise);
 }
 
-// A whole material: what is converted, and what is not.
+// A whole material: maps to convert and maps to copy.
 void write_set(const Session& session, const std::string& folder) {
   write_map(session, folder + "/wood_Roughness.png", {"Y"});
   write_map(session, folder + "/wood_Specular.png", {"R", "G", "B"});

@@ -1,4 +1,4 @@
-// texremap when the system fails it: full disks, limits, signals. Results appear whole or not at all.
+// texremap under failures of the system: full disks, limits, signals. Results appear complete or not at all.
 #include <chrono>
 #include <csignal>
 #include <sys/mount.h>
@@ -19,7 +19,7 @@ void write_pair_of(const Session& session, const std::string& extension, int siz
   session.write_pair(extension, size, extension == "exr" ? OIIO::TypeHalf : OIIO::TypeUInt8);
 }
 
-// A file system of its own in a folder, where the test may mount one.
+// A small file system mounted on a folder, if the test has the permission.
 class SmallDisk {
  public:
   SmallDisk(const std::string& folder, const char* size) : folder_(folder) {
@@ -46,7 +46,7 @@ void write_sets(const Tree& tree, const std::string& extension, int large) {
                set[0] == 'b' ? large : kTreeMapSize);
 }
 
-// The large one failed, and nothing of it is there, not even under another name.
+// Checks that the large set failed and left no file, not even under another name.
 void check_others_whole(const Tree& tree, const ProcessResult& result, const std::string& extension) {
   INFO(result.errors);
   CHECK(result.exit_code == 1);
@@ -71,7 +71,7 @@ ProcessLimits ordinary_user() {
   return limits;
 }
 
-// Whether the modes of files hold for programs that the tests start; says so where not.
+// Whether file modes apply to programs that the tests start. Warns if they do not.
 bool permissions_hold(const Session& session) {
   const std::string file = session.path("unreadable");
   write_file(file, "");
@@ -104,7 +104,7 @@ TEST_CASE("texremap: a file-size limit is a failure for every format and leaves 
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
   write_pair_of(session, extension, 256);
-  for (const rlim_t limit : {rlim_t{500}, rlim_t{20'000}}) {  // the message must fit, too
+  for (const rlim_t limit : {rlim_t{500}, rlim_t{20'000}}) {  // the message must fit within the limit, too
     const std::string threads = limit == 500 ? "1" : "2";
     const ProcessResult result =
         session.convert("r." + extension, "s." + extension, {"--quiet", "--threads", threads}, {limit});
@@ -180,7 +180,7 @@ TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and 
   const std::string extension = GENERATE("exr", "png", "tif", "tga", "jpg");
   write_sets(tree, extension, 256);
   ProcessLimits limits;
-  limits.file_bytes = 20'000;  // the JSON must fit, too
+  limits.file_bytes = 20'000;  // the JSON must fit within the limit, too
   for (const char* threads : {"1", "2"}) {
     check_others_whole(tree, tree.convert_tree({"--json", "--force", "--threads", threads}, limits),
                        extension);
@@ -196,7 +196,7 @@ TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the ot
     return;
   }
   write_sets(tree, "exr", 512);
-  // One at a time: the others would find the disk full while the large one fills it.
+  // One set at a time: other sets would find the disk full while the large one fills it.
   const ProcessResult result = tree.convert_tree({"--json", "--threads", "1"});
   check_others_whole(tree, result, "exr");
   CHECK_THAT(result.errors, Contains("No space left on device"));
@@ -214,7 +214,7 @@ TEST_CASE("texremap: a full disk from the first byte on leaves no file") {
   std::vector<std::string> words = session.conversion("", "s." + extension);
   words[6] = "0.3";
   words.insert(words.end(), {"--only", "specular"});
-  // Standard error is a file here: what was said does not fit either.
+  // Standard error is a file here, so the message does not fit either.
   const ProcessResult result = session.texremap(words, limits);
   CHECK(result.exit_code == 1);
   CHECK(result.signal == 0);
@@ -267,7 +267,7 @@ TEST_CASE("texremap: a link that leads to itself is no input, and no output is w
   const ProcessResult out = session.convert("r.png", "s.png");
   CHECK(out.exit_code == 1);
   CHECK_THAT(out.last_error(), Contains("out/s.png: already exists"));
-  // --force replaces the link, not what it leads to.
+  // --force replaces the link, not its target.
   CHECK(session.convert("r.png", "s.png", {"--force"}).exit_code == 0);
   CHECK_FALSE(fs::exists(session.path("elsewhere.png")));
   CHECK_FALSE(fs::is_symlink(session.path("out/s.png")));

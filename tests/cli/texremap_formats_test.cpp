@@ -1,5 +1,5 @@
-// What texremap writes, read by OpenImageIO: converted channels against the converter, everything else as it
-// was.
+// Reads the results of texremap with OpenImageIO: converted channels must equal the converter, everything
+// else the input.
 #include <cstring>
 
 #include <catch2/catch.hpp>
@@ -58,7 +58,7 @@ void check_converted(const TestImage& roughness, const TestImage& specular, cons
   }
 }
 
-// Channels from the fourth on, bit for bit.
+// Compares the channels from the fourth on, bit for bit.
 void check_passed_through(const TestImage& in, const TestImage& out) {
   REQUIRE(in.bytes.size() == out.bytes.size());
   const std::size_t texel = in.spec.pixel_bytes(true), colors = in.spec.pixel_bytes(0, 3, true);
@@ -247,7 +247,8 @@ TEST_CASE("texremap: a JPEG stays one, with a warning") {
   REQUIRE(result.exit_code == 0);
   CHECK_THAT(result.errors, Contains("jpeg compression changes values") && Contains("read as color in sRGB"));
   const TestImage in = read_image(session.path("r.jpg")), out = read_image(session.path("out/r.jpg"));
-  // Quality 100 rounds the coefficients of 8 x 8 cosines to whole numbers: a few steps of 1/255 at most.
+  // Quality 100 rounds the coefficients of 8 x 8 cosines to integers, an error of a few steps of 1/255 at
+  // most.
   for (int x = 0; x < 64; ++x)
     CHECK(out.at(x, 3, 0) == Approx(converted_texel(in.at(x, 3, 0), {})[0]).margin(4.0 / 255.0));
 }

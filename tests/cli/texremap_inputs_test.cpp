@@ -1,5 +1,4 @@
-// Inputs of texremap as people have them: packed channels, glossiness, numbers, factors, color in sRGB,
-// values that no material has.
+// Inputs of texremap: packed channels, glossiness, numbers, factors, sRGB color, invalid values.
 #include <cmath>
 #include <cstring>
 
@@ -84,7 +83,7 @@ TEST_CASE("texremap inputs: the ORM map of BoomBox keeps occlusion and metallic"
 TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data throughout") {
   const Session session;
   const std::string name = "sg." + std::string(GENERATE("png", "tga", "tif", "exr"));
-  // Alpha far below the colors, and 0: multiplication by it would be seen, and division by it even more.
+  // Alpha far below the colors, and 0, so that a multiplication or division by it would show.
   write_image(session.path(name), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
               [](int x, int y, int c) {
                 return c < 3 ? noise(x, y, c) : x < 5 ? 0.0f : 0.3f * noise(x, y, c);
@@ -250,7 +249,7 @@ TEST_CASE("texremap inputs: a map that was converted is not converted again") {
   CHECK_THAT(refused.last_error(),
              Contains("already converted to mitsuba/as, but the source is mitsuba/ward"));
   CHECK_FALSE(fs::exists(session.path("again")));
-  // Onwards from what it is now.
+  // Converting from the current model is allowed.
   std::vector<std::string> onwards = again;
   onwards.insert(onwards.begin(), {"convert", "--from", "mitsuba/as", "--to", "mitsuba/ggx"});
   CHECK(session.texremap(onwards).exit_code == 0);

@@ -1,4 +1,4 @@
-// Results in other files than the inputs: packed, taken apart, and back.
+// Layouts: results packed into one file, split into several, and packed again.
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
@@ -51,7 +51,7 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again") {
   CHECK(channel(session, named("apart/roughness"), 0) == expected);
   CHECK(read_image(session.path(named("apart/roughness"))).spec.format == type);
 
-  // Together again, converted onwards; then as inputs, which keeps the layout.
+  // Packed again and converted to another model; then as-inputs, which keeps the layout.
   const std::string layout = GENERATE("orm", "arm");
   require_success(convert(session, "mitsuba/as", "mitsuba/ggx",
                           {"--roughness", session.path(named("apart/roughness")), "--occlusion",

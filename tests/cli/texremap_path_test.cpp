@@ -1,4 +1,4 @@
-// `texremap path`, and paths in `convert` and `list`, with whatever converters ship.
+// `texremap path`, and paths in `convert` and `list`, with the converters that are compiled in.
 #include <algorithm>
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ namespace {
 
 const std::string kId = "mitsuba_ward_to_mitsuba_as";
 
-// What the converter says of itself: `image 0.1, fit rms 0.2 in alpha and 0.3 in f0`.
+// The errors of the converter: `image 0.1, fit rms 0.2 in alpha and 0.3 in f0`.
 std::string ward_to_as_errors() {
   const ConverterInfo& info = find_converter("mitsuba/ward", "mitsuba/as").info();
   return "image " + number_text(info.image_rms_error.value()) + ", fit rms " +
@@ -40,8 +40,7 @@ void check_refused(const ProcessResult& result, const std::string& message) {
   CHECK(result.output.empty());
 }
 
-// The first pair of models that no path joins; empty names where there is none among the converters that
-// ship.
+// The first pair of models without a path; empty names if all pairs have one.
 PathRequest missing_pair() {
   const ConverterGraph graph = compiled_graph();
   for (const std::string& from : graph.models())
@@ -52,7 +51,7 @@ PathRequest missing_pair() {
   return {};
 }
 
-// The first path of two steps, the model between them given; empty names where there is none.
+// The first path of two steps, with the model between them; empty names if there is none.
 PathRequest detour() {
   for (const auto& first : compiled_converters())
     for (const auto& second : compiled_converters()) {
@@ -204,8 +203,8 @@ TEST_CASE("texremap convert: from one real renderer to another, through the hub"
   CHECK(Json::parse(result.output)["path"] ==
         Json({"cycles_5_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_threejs_r187_standard_metal"}));
   const TestImage r = read_image(session.path("out/r.exr")), s = read_image(session.path("out/s.exr"));
-  // All three are GGX with alpha = roughness^2; they differ in masking and in multiple scattering, which show
-  // on rough surfaces.
+  // All three are GGX with alpha = roughness^2. They differ in masking and multiple scattering, visible on
+  // rough surfaces.
   for (int x = 0; x < 16; ++x) {
     const float source = 0.2f + 0.03f * static_cast<float>(x);
     INFO("roughness " << source);

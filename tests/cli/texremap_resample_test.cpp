@@ -1,4 +1,4 @@
-// Maps of several sizes. OpenImageIO's own resampling says what the values between texels are.
+// Maps of several sizes. The reference for values between texels is the resampling of OpenImageIO.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ ProcessResult convert(const Session& session, std::vector<std::string> words, co
   return session.texremap(words);
 }
 
-// `name` of the session at another size, linearly between texels, as floats.
+// Writes the image `name` of the session at another size, interpolated linearly, as floats.
 void write_resampled(const Session& session, const std::string& name, int width, int height,
                      const std::string& result) {
   const OIIO::ImageBuf source(session.path(name));
@@ -77,7 +77,7 @@ TEST_CASE("texremap --resample: bands of tall maps meet without a seam") {
   REQUIRE(out.spec.height == 3000);
   for (int y = 1; y < 3000; ++y) {
     INFO("row " << y);
-    REQUIRE(out.at(5, y, 0) >= out.at(5, y - 1, 0));  // a ramp stays one
+    REQUIRE(out.at(5, y, 0) >= out.at(5, y - 1, 0));  // a ramp stays monotonic
     REQUIRE(out.at(5, y, 0) - out.at(5, y - 1, 0) < 2e-3f);
   }
 }
@@ -93,7 +93,7 @@ TEST_CASE("texremap --resample: color in sRGB is interpolated as light") {
                            "--color-space", "srgb", "--resample"},
                           "out"));
   const TestImage out = read_image(session.path("out/s.png"));
-  // A quarter of the way from black to white, in light.
+  // A quarter of the way from black to white, in linear light.
   const float linear = converted_texel(as_stored(0.3f, OIIO::TypeUInt8), {0.25f, 0.25f, 0.25f})[1];
   const double stored = 1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055;
   CHECK(out.at(1, 0, 0) == as_stored(static_cast<float>(stored), OIIO::TypeUInt8));

@@ -1,4 +1,4 @@
-// Folders of texture sets, tiles and frames: what is found, what is written, what happens when one fails.
+// Folders of texture sets, tiles and frames: the sets found, the files written, and failures of single sets.
 #include "cli/texremap_tree.hpp"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ TEST_CASE("texremap tree: sets of every habit are converted, each by the meaning
   CHECK_THAT(result.errors, Contains("6 sets converted by mitsuba_ward_to_mitsuba_as, 0 failed"));
   CHECK_THAT(result.errors, Contains("roughness maps are read as alpha, the parameter of mitsuba/ward"));
 
-  // The set of specular and glossiness by hand: glossiness stays glossiness.
+  // Expected values of the specular-glossiness set: glossiness stays glossiness.
   const std::string name = "gltf/chair_specularGlossiness.png";
   const TestImage in = read_image(tree.path("in/" + name)), out = read_image(tree.path("out/" + name));
   for (int x = 0; x < kSize; ++x) {
@@ -231,7 +231,7 @@ TEST_CASE("texremap tree: --resume makes what is missing, what changed, and noth
   CHECK(states({}) == "dddd");
   fs::remove(tree.path(named("out/b_spec")));
   CHECK(states({}) == "dcdd");
-  // Another input, another option, a file that is not ours.
+  // A changed input, another option, and a foreign file.
   tree.map(named("in/c_rough"), kColor);
   CHECK(states({}) == "ddfd");
   write_image(tree.path(named("in/c_rough")), test_spec(kSize, kSize, kGrey, OIIO::TypeUInt8),
@@ -256,7 +256,7 @@ TEST_CASE(
   fs::rename(tree.path("out"), tree.path("unbroken"));
   const auto check_files = [&] {
     for (const std::string& name : tree.results()) {
-      if (fs::path(name).filename().string().front() == '.') continue;  // unfinished, and named so
+      if (fs::path(name).filename().string().front() == '.') continue;  // unfinished
       CHECK(read_file(tree.path("out/" + name)) == read_file(tree.path("unbroken/" + name)));
     }
   };
@@ -286,7 +286,7 @@ TEST_CASE("texremap tree: names with spaces, Unicode and line breaks; links that
   REQUIRE(result.exit_code == 0);
   CHECK(nlohmann::json::parse(result.output)["sets"].size() == 1);
   CHECK(tree.results() == Names{odd.substr(3) + "_rough.png", odd.substr(3) + "_spec.png"});
-  // A message is a line, whatever a name holds.
+  // A message is one line even if a name has a line break.
   for (std::size_t begin = 0; begin < result.errors.size();) {
     CHECK(result.errors.compare(begin, 10, "texremap: ") == 0);
     begin = result.errors.find('\n', begin) + 1;

@@ -1,4 +1,4 @@
-// texremap as a person meets it: one wrong input a test, with its exit code and its message.
+// Errors in the use of texremap: one wrong input per test, with its exit code and message.
 #include <fstream>
 
 #include <catch2/catch.hpp>
@@ -157,7 +157,7 @@ TEST_CASE("texremap: an input is never the output") {
   words.push_back("--force");
   words[words.size() - 2] = session.path(".");
   check_failure(session.texremap(words), 2, "would overwrite the input");
-  // By another name: the results would be the inputs of each other's names.
+  // Through a link: one result would overwrite the other input.
   fs::create_directory(session.path("out"));
   fs::create_symlink(session.path("s.exr"), session.path("out/r.exr"));
   check_failure(session.convert("r.exr", "s.exr", {"--force"}), 2, "would overwrite the input");

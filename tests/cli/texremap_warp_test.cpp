@@ -1,4 +1,4 @@
-// Warps over maps, against the same warp in double precision.
+// Warps of maps, compared with the same warp in double precision.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSize = 50;
 
-// A folder with a set and a warp; roughness is the root of alpha.
+// A folder with a set and a warp; roughness is the square root of alpha.
 struct WarpSession : Session {
   WarpMapFit fit;
   explicit WarpSession(const std::string& source_model = "mitsuba/ward") {
@@ -135,7 +135,7 @@ TEST_CASE("texremap warps: a set that was converted to what the warp takes needs
   require_success(convert("metal_again", {"--fit", session.path("stony.json"), "--from-workflow", "metallic"},
                           "again_out"));
 
-  // Diffuse of glTF counts what specular leaves of the light: another material.
+  // Diffuse of glTF is scaled by the light that specular leaves, so it is a different material.
   require_success(convert("metal", {"--from", "metallic", "--to", "gltf-specgloss"}, "scaled"));
   const ProcessResult scaled = convert("scaled", by_warp, "scaled_out");
   CHECK(scaled.exit_code != 0);
@@ -148,7 +148,7 @@ TEST_CASE("texremap warps: a set that was converted to what the warp takes needs
 
 namespace {
 
-// A warp whose source was diffuse alone, and a folder that has no more.
+// A warp of a diffuse map alone, and a folder with only such maps.
 struct AlbedoSession : WarpSession {
   AlbedoSession() : WarpSession("mitsuba/ggx") {
     fit.method[kWarpSourceMaps] = kDiffuseAlone;

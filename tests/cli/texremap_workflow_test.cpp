@@ -1,5 +1,5 @@
-// Materials between workflows on files: what comes out, against formulas written here and the library in
-// memory, and what is said of maps that cannot be what they are taken for.
+// Conversions between workflows on files: results compared with formulas in this test and with the library in
+// memory, and warnings about implausible maps.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -32,13 +32,13 @@ float base_color(int x, int y, int c) { return 0.05f + 0.9f * noise(x, y, c); }
 float metallic(int x, int y, int) { return noise(x, y, 7); }
 float roughness(int x, int y, int) { return 0.1f + 0.8f * noise(x, y, 9); }
 
-// b.exr, m.exr, r.exr of a metallic material, floats.
+// Writes b.exr, m.exr and r.exr of a metallic material, as floats.
 void write_metallic(const Session& session) {
   write_colors(session, "b.exr", base_color);
   write_grey(session, "m.exr", metallic);
   write_grey(session, "r.exr", roughness);
 }
-// d.exr, s.exr, r.exr of a specular one: half plastics, half metals.
+// Writes d.exr, s.exr and r.exr of a specular material: half plastic, half metal.
 void write_specular(const Session& session, float diffuse = 0.4f, float specular = 0.04f) {
   write_colors(session, "d.exr",
                [&](int x, int y, int c) { return y < 20 ? diffuse * noise(x, y, c) : 0.0f; });
@@ -194,7 +194,7 @@ TEST_CASE("texremap workflows: glossiness in alpha leaves the colors of a PNG al
                   orm = read_image(session.path("out/orm.png"));
   for (int x = 1; x < kSize; ++x) {
     REQUIRE(orm.at(x, 0, 1) == Approx(1.0f - static_cast<float>(x) / 255.0f).margin(1e-6));
-    // The color of the texel does not know its glossiness: a metal of 0.8 in sRGB.
+    // The color must not depend on the glossiness in alpha: a metal of 0.8 in sRGB.
     REQUIRE(orm.at(x, 0, 2) > 0.9f);
     REQUIRE(base.at(x, 0, 0) == Approx(0.8f).margin(0.03));
   }
@@ -219,7 +219,7 @@ TEST_CASE("texremap workflows: alpha of diffuse goes along, and what it masks do
 
 TEST_CASE("texremap workflows: a mask of metal chooses between answers that look alike") {
   const Session session;
-  // A dark blend: metallic 0.69 with a base color of 0.04, or none with 0.0125; the same picture.
+  // A dark blend: metallic 0.69 with base color 0.04, or 0 with 0.0125, gives the same picture.
   write_colors(session, "d.exr", [](int, int, int) { return 0.0125f; });
   write_colors(session, "s.exr", [](int, int, int) { return 0.04f; });
   write_grey(session, "r.exr", [](int, int, int) { return 0.5f; });
@@ -243,7 +243,7 @@ TEST_CASE("texremap workflows: metallic that is a guess follows the texels aroun
     };
     write_colors(session, name, value, OIIO::TypeUInt8, kWide);
   };
-  // A step of 8 bits more specular, and the dark plastic is a blend of metallic 0.7: the same picture.
+  // With one step of 8 bits more specular, the dark plastic is a blend of metallic 0.7: the same picture.
   bytes("d.png", 0, 34, 0.0f, 150);
   bytes("s.png", 200, 56, 2.0f, 56);
   const auto converted = [&](const std::string& folder, const std::vector<std::string>& more) {
@@ -270,7 +270,7 @@ TEST_CASE("texremap workflows: metallic that is a guess follows the texels aroun
   for (int y = 1; y < kWide; ++y)
     for (int x = 1; x < kWide; ++x) {
       if (width.at(x, y, 0) <= kGuessWidth) REQUIRE(smooth.at(x, y, 0) == alone.at(x, y, 0));
-      // Squared, within a step of 8 bits of the best: no picture shows it.
+      // The square must be within a step of 8 bits of the best, which is not visible.
       const double step = 1.0 / 255.0, before = residual.at(x, y, 0), after = smooth_residual.at(x, y, 0);
       REQUIRE(after * after <= before * before + 1.01 * step * step);
       if (x <= kDark + 4 || x >= kPlastic - 4) continue;
@@ -396,7 +396,7 @@ TEST_CASE("texremap workflows: two sets of one name in a folder are refused befo
            session.path("in/wood/" + map) + " and from " + session.path("in/wood/wood_" + map);
   };
   check_refused({"--from", "gltf", "--to", "gltf-specgloss"}, made_from("diffuse.png", "basecolor.png"));
-  // Under the names of the inputs there would be room for both.
+  // With the names of the inputs, both sets can be written.
   const std::vector<std::string> to_ward = {"--from",       "gltf",          "--to",
                                             "mitsuba/ward", "--to-workflow", "metallic"};
   check_refused(with(to_ward, {"--layout", "separate"}), made_from("base_color.png", "basecolor.png"));

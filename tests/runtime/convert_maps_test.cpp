@@ -1,4 +1,4 @@
-// The conversion of buffers in memory against the converter applied texel by texel.
+// The conversion of buffers in memory, compared with the converter applied to each texel.
 #include "texture/convert_maps.hpp"
 
 #include <cmath>
@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::size_t kWidth = 61, kHeight = 37;
 
-// Interleaved texels of roughness, red, green, blue and two values of somebody else's, rows padded.
+// Interleaved texels of roughness, red, green, blue and two foreign values, with padded rows.
 struct Buffer {
   static constexpr std::size_t kValues = 6, kRow = kWidth * kValues + 3;
   std::vector<float> values = std::vector<float>(kRow * kHeight, -7.0f);
 
   float& at(std::size_t x, std::size_t y, std::size_t c) { return values[y * kRow + x * kValues + c]; }
-  // Upside down where asked: the first row is the last in memory.
+  // If `flipped`, the first row is the last in memory.
   ChannelView channel(std::size_t c, bool flipped = false) {
     ChannelView view = float_channel(&at(0, flipped ? kHeight - 1 : 0, c), kWidth, kValues);
     view.row_stride = static_cast<std::ptrdiff_t>(kRow * sizeof(float)) * (flipped ? -1 : 1);
@@ -134,7 +134,7 @@ TEST_CASE("convert_maps: statistics are those of all values, whatever the thread
     CHECK(bins == one.sources.at(Parameter::kSpecular).histogram);
     CHECK(statistics.targets.at(Parameter::kWidth).max == one.targets.at(Parameter::kWidth).max);
   }
-  // Noise is even: every bin holds about its share.
+  // The noise is uniform, so every bin holds about its share.
   for (const std::size_t count : one.sources.at(Parameter::kSpecular).histogram)
     CHECK(static_cast<double>(count) == Approx(3.0 * kWidth * kHeight / 32.0).epsilon(0.3));
 }
@@ -187,7 +187,7 @@ TEST_CASE("convert_maps: dithering keeps the mean and is the same in every run a
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   };
   CHECK(mean(whole) == Approx(exact).margin(0.01));
-  CHECK(std::fabs(mean(plain) - exact) > 0.05);  // or the line before shows nothing
+  CHECK(std::fabs(mean(plain) - exact) > 0.05);  // otherwise the line before proves nothing
 }
 
 TEST_CASE("convert_maps: what does not fit together is refused") {

@@ -23,7 +23,7 @@ struct Plane {
   }
 };
 
-// By OpenImageIO alone; no plane: an empty description.
+// Reads with OpenImageIO alone; the description is empty if the plane does not exist.
 Plane read_plane(const fs::path& path, int part, int level) {
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
@@ -130,7 +130,7 @@ TEST_CASE("image planes: maps whose levels do not match are refused") {
                             folder.path() / "out", *converter),
                     Contains("s.exr: number of mip levels is 1, but other maps of the set have 7"));
   CHECK(fs::is_empty(folder.path() / "out"));
-  // A number has every level.
+  // A number serves every mip level.
   CHECK_NOTHROW(convert((folder.path() / "r.exr").string(), "0.5", folder.path() / "out", *converter));
   CHECK(read_plane(folder.path() / "out" / "specular.exr", 0, 3).spec.width == 8);
 }
@@ -153,7 +153,7 @@ TEST_CASE("image planes: parts hold parameters, and the others stay") {
   if (is_exr) {
     convert(path + ":rough.width", path + ":base.R,base.G,base.B", folder.path() / "out", *converter);
   } else {
-    // TIFF names no channels and no parts: its colors are found, one grey part among two is not.
+    // TIFF has no names of channels or parts: colors are found, one of two grey parts is not.
     CHECK_THROWS_WITH(convert(path, path, folder.path() / "out", *converter), Contains("have such channels"));
     convert("0.5", path + ":R,G,B", folder.path() / "out", *converter);
   }

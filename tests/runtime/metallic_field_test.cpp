@@ -1,4 +1,4 @@
-// The field against what it must give where the answer is plain: constants, ramps, holes.
+// The field for cases with a known answer: constants, ramps, holes.
 #include "texture/metallic_field.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kSure = 0.05f, kGuess = 0.5f;
 
-// `texel(x, y)` gives metallic and its width.
+// `texel(x, y)` returns metallic and metallic_width.
 template <typename Texel>
 bool fill(MetallicField& field, std::size_t width, std::size_t height, const Texel& texel) {
   std::vector<float> metallic(width), metallic_width(width);

@@ -1,4 +1,4 @@
-// Pixel types against Imath's half and against whole-number arithmetic.
+// Pixel types, compared with Imath's half and with integer arithmetic.
 #include "texture/pixel_type.hpp"
 
 #include <Imath/half.h>
@@ -116,7 +116,8 @@ TEST_CASE("pixel type: values are taken at their stride and nothing beside them 
 }
 
 TEST_CASE("pixel type: names are found again") {
-  for (const std::string& name : pixel_type_names())
+  for (const std::string name :
+       {"uint8", "uint16", "uint", "int8", "int16", "int", "half", "float", "double"})
     CHECK(pixel_type_name(pixel_type_from_name(name).value()) == name);
   CHECK_FALSE(pixel_type_from_name("float16").has_value());
 }

@@ -1,4 +1,4 @@
-// The streaming pass against the converter applied texel by texel.
+// The streaming pass, compared with the converter applied to each texel.
 #include "texture/texture_pass.hpp"
 
 #include <cmath>
@@ -122,7 +122,7 @@ TEST_CASE("texture pass: whole materials do not depend on threads and bands, smo
     write_image(folder.path() / name, test_spec(kWidth, kHeight, channels, OIIO::TypeFloat), texel);
     return MapName{folder.path() / name, {}};
   };
-  // Dark texels, of which metallic is a guess, in stripes between metal and plastic.
+  // Dark texels, whose metallic is undetermined, in stripes between metal and plastic.
   TextureSetRequest request;
   request.parameters[Parameter::kDiffuse].source = write("d.exr", {"R", "G", "B"}, [](int, int y, int c) {
     return y % 60 < 20 ? 0.0f : y % 60 < 40 ? 0.015f : 0.2f + 0.1f * noise(y, 0, c);
@@ -180,7 +180,7 @@ TEST_CASE("texture pass: odd values are counted by texel") {
   write_image(scene.specular, test_spec(kWidth, kHeight, {"R", "G", "B"}, OIIO::TypeFloat),
               [&](int x, int y, int c) {
                 if (y == 9 && c > 0 && x < 4) return -1.0f;  // two channels of four texels
-                if (y == 7 && c == 0 && x < 4) return NAN;   // three of them have a NaN width, too
+                if (y == 7 && c == 0 && x < 4) return NAN;   // three of them also have a NaN roughness
                 return 0.25f;
               });
   const auto converter = make_interpreted_converter(example_fit());

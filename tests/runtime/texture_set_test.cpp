@@ -1,4 +1,4 @@
-// Which channels of which files a converter gets.
+// The choice of channels and files for the parameters of a converter.
 #include "texture/texture_set.hpp"
 
 #include <catch2/catch.hpp>
@@ -69,7 +69,7 @@ TEST_CASE("texture set: a file and its channels are told apart at the last colon
   CHECK(map("layers.exr:base.specular.R").channels == std::vector<std::string>{"base.specular.R"});
   CHECK(map(":G").file == ":G");
   for (const char* bad : {"a.png:", "a.png:R,G", "a.png:R,,B"}) CHECK_THROWS_AS(map(bad), Error);
-  // A file of the whole name comes first.
+  // A file with the whole name takes precedence.
   const Files files;
   const std::string odd = files.image("odd:G.exr", {"Y"}).string();
   CHECK(map(odd).file == odd);
@@ -137,7 +137,7 @@ TEST_CASE("texture set: color in whole numbers tagged sRGB is read as such, and 
   CHECK(tagged.parameters.at(Parameter::kSpecular).transfer == Transfer::kSrgb);
   REQUIRE(remarks(tagged).size() == 1);
   CHECK_THAT(remarks(tagged).front(), Contains("is read as sRGB color"));
-  // One channel of it is data, and so are floats and every roughness.
+  // A single channel is data, and so are floats and every roughness.
   CHECK(opened(MapName{roughness, {}}, MapName{png, {"G"}}).parameters.at(Parameter::kSpecular).transfer ==
         Transfer::kLinear);
   CHECK(opened(MapName{png, {}}, kGrey).parameters.at(Parameter::kWidth).transfer == Transfer::kLinear);

@@ -1,4 +1,4 @@
-// Trees as people have them, and what may be wrong with them.
+// Discovery of sets in typical trees, and in trees with errors.
 #include <chrono>
 #include <iostream>
 #include <sys/stat.h>
@@ -23,7 +23,7 @@ std::vector<std::string> set_paths(const Discovery& discovery) {
   return paths;
 }
 
-// As an ordinary user, while it lives: nothing is unreadable to root.
+// Acts as an ordinary user during its lifetime, because root can read everything.
 class OrdinaryUser {
  public:
   OrdinaryUser() : changed_(::geteuid() == 0 && ::seteuid(65534) == 0) {}

@@ -1,4 +1,4 @@
-// Sets as the tools write them, each with the names that its documentation gives.
+// Sets with the names from the documentation of the tools that write them.
 #include <map>
 
 #include <catch2/catch.hpp>
@@ -182,7 +182,7 @@ TEST_CASE("read name: words inside other words and names of sets are none") {
   CHECK(reading_text("rough_wood_diff_2k") == "Poly Haven: diffuse");
   CHECK(stem("rough_wood_diff_2k") == "rough_wood");
   CHECK(stem("glossy_tiles_Roughness") == "glossy_tiles");
-  // A capital begins a word only where the habit joins words so.
+  // A capital begins a word only for habits with `camel_case`.
   CHECK(reading_text("heroArm") == "none");
   CHECK(reading_text("heroSpecRough") == "Mari: roughness");
   CHECK(reading_text("rusty_metal_rough_4k") == "Poly Haven: roughness");

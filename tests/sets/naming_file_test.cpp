@@ -1,4 +1,4 @@
-// Files that extend the habits, and the complaints about those that are not of the form.
+// Files that extend the habits, and the errors in such files.
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
