@@ -15,13 +15,13 @@ using remap::Error;
 using remap::ErrorKind;
 using remap::Range;
 
-constexpr double kRivalError = 1.01;    // as for the two-stage match
-constexpr double kRivalDistance = 0.1;  // relative, in a parameter
+constexpr double kJointRivalError = 1.01;    // as for the two-stage match
+constexpr double kJointRivalDistance = 0.1;  // relative, in a parameter
 // Relative change of the squared error at which a search ends: of one that gives the answer, and of one that
 // is only compared with it to 1 %.
 constexpr double kAnswerTolerance = 1e-10;
 constexpr double kRivalTolerance = 1e-7;
-constexpr double kSameError = 1e-4;       // errors below this are rounding of pictures
+constexpr double kJointSameError = 1e-4;  // errors below this are rounding of pictures
 constexpr double kBoundTolerance = 1e-6;  // share of the range
 
 // A small square matrix.
@@ -242,7 +242,7 @@ bool JointMatcher::apart(const JointMatch& a, const JointMatch& b) const {
     const double x = target_.value(a.points[unknown.channel], unknown.coordinate);
     const double y = target_.value(b.points[unknown.channel], unknown.coordinate);
     const Range& range = target_.coordinates()[unknown.coordinate].range;
-    return std::fabs(x - y) > kRivalDistance * std::max({x, y, 0.01 * range.max});
+    return std::fabs(x - y) > kJointRivalDistance * std::max({x, y, 0.01 * range.max});
   });
 }
 
@@ -258,11 +258,11 @@ bool JointMatcher::at_bound(const JointMatch& match) const {
 RowStatus JointMatcher::judge(const JointMatch& match, const std::vector<JointMatch>& rivals) const {
   if (!match.converged) return RowStatus::kUnstable;
   for (const JointMatch& rival : rivals) {
-    const bool better = kRivalError * rival.error + kSameError < match.error;
-    const bool as_good = rival.error < kRivalError * match.error + kSameError;
+    const bool better = kJointRivalError * rival.error + kJointSameError < match.error;
+    const bool as_good = rival.error < kJointRivalError * match.error + kJointSameError;
     if (better || (as_good && apart(rival, match))) return RowStatus::kUnstable;
   }
-  return at_bound(match) && match.error > kSameError ? RowStatus::kClamped : RowStatus::kOk;
+  return at_bound(match) && match.error > kJointSameError ? RowStatus::kClamped : RowStatus::kOk;
 }
 
 JointMatch JointMatcher::match_from(const RoleValues& guess) const {
