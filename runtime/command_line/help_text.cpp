@@ -227,7 +227,7 @@ std::string allowed_values(const CLI::Option& option) {
   const std::string least = checks.substr(open + 5, middle - open - 5),
                     most = checks.substr(middle + 3, checks.size() - middle - 4);
   constexpr std::size_t kDigitsOfLimits = 10;  // more are the limits of a type, which say nothing
-  return most.size() >= kDigitsOfLimits ? "from " + least : least + " to " + most;
+  return most.size() >= kDigitsOfLimits ? least + " or more" : least + " to " + most;
 }
 
 std::string wrapped(std::string_view text, std::size_t indent) {

@@ -71,9 +71,12 @@ std::string refused_value_text(const CLI::App& command, const std::string& what)
   if (const std::size_t end = what.find(choice); end != std::string::npos)
     return name + ": unknown value '" + what.substr(colon + 2, end - colon - 2) + "' (choose " + allowed +
            ")";
-  if (allowed.empty()) return what + see_help(command);
-  const std::string value = option->results().empty() ? "" : " '" + option->results().back() + "'";
-  return name + ": invalid value" + value + " (allowed: " + allowed + ")";
+  const std::string value = ": Value ", range = " not in range ";
+  const std::size_t start = what.find(value), end = what.find(range);
+  if (allowed.empty() || start == std::string::npos || end == std::string::npos)
+    return what + see_help(command);
+  return name + ": invalid value '" + what.substr(start + value.size(), end - start - value.size()) +
+         "' (allowed: " + allowed + ")";
 }
 
 }  // namespace

@@ -46,9 +46,9 @@ TEST_CASE("texremap: a full standard output is a failure") {
 
 TEST_CASE("texremap: an unknown command or option is answered with the nearest") {
   const Session session;
-  check_failure(session.texremap({"convrt"}), 2, "convrt: is no command of texremap; did you mean convert?");
+  check_failure(session.texremap({"convrt"}), 2, "unknown command 'convrt' (did you mean convert?)");
   check_failure(session.texremap({"convert", "--form", "mitsuba/ward"}), 2,
-                "--form: is no option of texremap convert; did you mean --from?");
+                "unknown option --form (did you mean --from?)");
 }
 
 TEST_CASE("texremap: an unknown model is answered with the nearest") {
