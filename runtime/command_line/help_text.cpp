@@ -20,7 +20,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-// `text` without `first` and `last` where it has both at its ends.
+// Removes `first` and `last` from the ends of `text` if both are there.
 std::string without_quotes(const std::string& text, char first, char last) {
   const bool quoted = text.size() >= 2 && text.front() == first && text.back() == last;
   return quoted ? text.substr(1, text.size() - 2) : text;
@@ -58,7 +58,7 @@ std::string entry(const std::string& name, const std::string& description) {
   return line + wrapped(description, kDescriptionColumn) + "\n";
 }
 
-// What CLI11 knows of the value: its type, then the descriptions of the checks, each behind a colon.
+// The type of the value, and the descriptions of its checks, as CLI11 joins them: `TYPE:CHECK`.
 std::pair<std::string, std::string> type_and_checks(const CLI::Option& option) {
   const std::string text = option.get_type_name();
   const std::size_t colon = text.find(':');

@@ -37,12 +37,12 @@ void lay_out_help(CLI::App& app);
 // The words that lead to a command: `texremap convert`.
 std::string command_words(const CLI::App& command);
 
-// What may follow an option, as the help says it: `auto, svr, mlp` for choices, `1 to 4096` for a range,
-// `above 0`; empty where anything may.
+// The allowed values of an option as the help prints them: `auto, svr, mlp`, `1 to 4096`, `above 0`; empty
+// where CLI11 knows of no limit.
 std::string allowed_values(const CLI::Option& option);
 
-// `text` with lines of more than 80 columns broken at blanks. All lines but the first are indented by
-// `indent`, and the first is taken to begin there, too. Lines that begin with a blank are not broken.
+// Breaks lines of more than 80 columns at blanks. Lines after the first are indented by `indent` columns,
+// where the first is assumed to begin, too. Lines that begin with a blank are not broken.
 std::string wrapped(std::string_view text, std::size_t indent);
 
 }  // namespace remap

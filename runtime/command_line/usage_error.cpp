@@ -46,7 +46,7 @@ bool ends_with_and_drop(std::string& text, const std::string& ending) {
   return true;
 }
 
-// An argument that no option took. CLI11 hands them over only as a list.
+// The message for arguments that no option took.
 std::string extra_text(const CLI::App& command, const std::vector<std::string>& extras) {
   const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
   const auto option = std::find_if(extras.begin(), extras.end(), is_option);

@@ -1,4 +1,4 @@
-// What is wrong with a command line, in words.
+// Messages for command lines that cannot be parsed.
 #pragma once
 
 #include <string>
