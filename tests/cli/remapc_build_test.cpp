@@ -65,7 +65,7 @@ TEST_CASE("remapc build: makes what the manifest asks for, and nothing twice") {
   CHECK(read_file(session.path("fits/pairs.svg")).find("<polyline") != std::string::npos);
   const ProcessResult card =
       session.remapc({"show", "mitsuba_ward_to_mitsuba_ward_duer", "--fits", session.path("fits")});
-  CHECK(card.output.find("There and back by mitsuba_ward_duer_to_mitsuba_ward\n  alpha   changes by") !=
+  CHECK(card.output.find("Round trip through mitsuba_ward_duer_to_mitsuba_ward\n  alpha   changes by") !=
         std::string::npos);
 
   // A header that was edited is made again by itself.

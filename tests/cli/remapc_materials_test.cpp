@@ -55,7 +55,7 @@ TEST_CASE("remapc sweep: wrong stages, diffuse and conductors are exit code 2") 
   const Session session;
   auto arguments = session.sweep("t.csv");
   arguments.insert(arguments.end(), {"--stages", "4"});
-  check_failure(session.remapc(arguments), 2, "--stages: Value 4 not in range 1 to 3");
+  check_failure(session.remapc(arguments), 2, "--stages: invalid value '4' (allowed: 1 to 3)");
   arguments = session.sweep("t.csv");
   arguments.insert(arguments.end(), {"--diffuse", "2"});
   check_failure(session.remapc(arguments), 2, "diffuse 2; expected 0 to 1");
@@ -98,7 +98,7 @@ TEST_CASE("remap-study dielectrics: compares one, two and three stages") {
 
 TEST_CASE("remapc study: wrong usage is exit code 2, help has an example") {
   const Session session;
-  check_failure(session.remapc({"study"}), 2, "command: is missing");
+  check_failure(session.remapc({"study"}), 2, "no command given (try --help)");
   check_failure(session.remapc({"study", "conductor"}), 2, "conductors");
   check_failure(session.remapc(study(session, "conductors", {"--alphas", "0.4,0.2"})), 2,
                 "--alphas: expected rising widths from 0.01 to 1");
@@ -126,11 +126,11 @@ TEST_CASE(
   CHECK(result.output.find("\"base_color_g1\"") != std::string::npos);
   CHECK(session.remapc({"check", session.path("t.csv")}).exit_code == 0);
   check_failure(session.remapc({"fit", session.path("t.csv")}), 2,
-                "is exact and needs no fit; expected --swap");
-  check_failure(session.remapc(sample), 1, "exists; --force replaces it");
+                "is exact by equation (2) and needs no fit (use --swap");
+  check_failure(session.remapc(sample), 1, "already exists (--force overwrites)");
   check_failure(session.remapc({"sample", "--source", "mitsuba/ggx", "--target", "mitsuba/ggx", "--range",
                                 "alpha=0.5", "-o", session.path("u.csv")}),
-                2, "expected NAME=MIN,MAX");
+                2, "(write NAME=MIN,MAX");
 }
 
 TEST_CASE("remapc sweep: parameters are cast and fixed from the command line") {
@@ -161,7 +161,7 @@ TEST_CASE("remapc sweep: parameters are cast and fixed from the command line") {
         std::string::npos);
   check_failure(sweep({"--source-set", "metalic=1"}), 2, "did you mean metallic?");
   check_failure(sweep({"--source-set", "metallic=1,0,0"}), 2, "has 3 values; expected one");
-  check_failure(sweep({"--target-set", "diffuse"}), 2, "has no =");
+  check_failure(sweep({"--target-set", "diffuse"}), 2, "'=' missing (write NAME=VALUE or NAME=R,G,B)");
 }
 
 TEST_CASE("remapc preview: pictures and figures of a committed fit") {
