@@ -62,7 +62,7 @@ struct ConvertOptions {
 
 void add_convert_options(CLI::App& command, ConvertOptions& options);
 
-// Throws kUsage: `option` got `word`, which is no `noun` among `known`.
+// Throws kUsage: `option` got `word`, but the `known` names of a `noun` are others.
 [[noreturn]] void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
                                const std::vector<std::string>& known);
 

@@ -46,7 +46,7 @@ struct JobReport {
   std::vector<std::string> tiles;  // converted tiles; empty where the set has no tiles
   std::vector<std::filesystem::path> inputs;
   std::vector<Result> results;                // the planned ones in a dry run and after a failure
-  std::vector<std::filesystem::path> copies;  // of files that are not converted; planned ones likewise
+  std::vector<std::filesystem::path> copies;  // files that are not converted; also planned ones
   Transfer specular_transfer = Transfer::kLinear;
   std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
   std::vector<std::string> warnings;

@@ -157,19 +157,19 @@ void check_images(const std::vector<AttributeImage>& images) {
 
 }  // namespace
 
-TEST_CASE("texremap attributes: all that an EXR says is kept, however it is stored") {
+TEST_CASE("texremap attributes: an EXR keeps all attributes in every kind of storage") {
   check_images(exr_storage_images());
 }
-TEST_CASE("texremap attributes: all that an EXR says is kept, whatever its windows, layers and parts") {
+TEST_CASE("texremap attributes: an EXR keeps all attributes with any windows, layers and parts") {
   check_images(exr_structure_images());
 }
-TEST_CASE("texremap attributes: all that a TIFF says is kept") { check_images(tiff_images()); }
-TEST_CASE("texremap attributes: all that a PNG says is kept") { check_images(png_images()); }
-TEST_CASE("texremap attributes: all that JPEG, Targa, BMP and Radiance files say is kept") {
+TEST_CASE("texremap attributes: a TIFF keeps all attributes") { check_images(tiff_images()); }
+TEST_CASE("texremap attributes: a PNG keeps all attributes") { check_images(png_images()); }
+TEST_CASE("texremap attributes: JPEG, Targa, BMP and Radiance files keep all attributes") {
   check_images(small_format_images());
 }
 
-TEST_CASE("texremap attributes: all that a texture says of its levels is kept") {
+TEST_CASE("texremap attributes: a mip-mapped texture keeps the attributes of its levels") {
   const TemporaryFolder folder;
   const fs::path plain = folder.path() / "plain.exr";
   write_image(plain, test_spec(40, 32, {"R", "G", "B"}, OIIO::TypeHalf), noise);
@@ -187,7 +187,7 @@ TEST_CASE("texremap attributes: all that a texture says of its levels is kept") 
   check_used(all, {"tif", "tx"});
 }
 
-TEST_CASE("texremap attributes: what files of other programs say is kept, but for what cannot be written") {
+TEST_CASE("texremap attributes: files of other programs keep all attributes that can be written") {
   const fs::path folder = shared_data("textures");
   if (folder.empty()) return;
   Comparison all = comparison(kForeignExceptions);
@@ -205,7 +205,7 @@ TEST_CASE("texremap attributes: what files of other programs say is kept, but fo
   }
 }
 
-TEST_CASE("texremap attributes: a map without a date is not given that of the run") {
+TEST_CASE("texremap attributes: a map without a date does not get the date of the run") {
   const Session session;
   session.write_pair("exr", 16);
   for (const char* name :
@@ -221,7 +221,7 @@ TEST_CASE("texremap attributes: a map without a date is not given that of the ru
     CHECK(read_image(session.path(name + extension)).spec.find_attribute("DateTime") == nullptr);
 }
 
-TEST_CASE("texremap attributes: the comparison sees what is lost, added, and of another type or value") {
+TEST_CASE("texremap attributes: the comparison detects lost, added and changed attributes") {
   OIIO::ImageSpec before = test_spec(8, 8, {"R", "G"}, OIIO::TypeHalf), after = before;
   CHECK(differences(before, after).empty());
   before.attribute("lost", 1);
@@ -240,7 +240,7 @@ TEST_CASE("texremap attributes: the comparison sees what is lost, added, and of 
                                           "channels", "roles of channels"});
 }
 
-TEST_CASE("texremap attributes: a PNG without a color space is given none") {
+TEST_CASE("texremap attributes: a PNG without a color space gets none") {
   const Session session;
   const bool is_said = GENERATE(true, false);
   OIIO::ImageSpec spec = test_spec(16, 16, {"R", "G", "B"}, OIIO::TypeUInt8);

@@ -116,7 +116,7 @@ TEST_CASE("texremap: a file-size limit is a failure for every format and leaves 
   }
 }
 
-TEST_CASE("texremap: the last byte that does not fit is noticed") {
+TEST_CASE("texremap: a missing last byte is noticed") {
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
   write_pair_of(session, extension, 64);
@@ -131,7 +131,7 @@ TEST_CASE("texremap: the last byte that does not fit is noticed") {
   CHECK(session.convert(roughness, specular, {"--force"}, {size}).exit_code == 0);
 }
 
-TEST_CASE("texremap: a full disk is a failure that says so and leaves the old results") {
+TEST_CASE("texremap: a full disk is reported and keeps the old results") {
   const Session session;
   const SmallDisk disk(session.path("out"), "size=200k");
   if (!disk.is_mounted()) {
@@ -149,7 +149,7 @@ TEST_CASE("texremap: a full disk is a failure that says so and leaves the old re
   CHECK(read_file(session.path("out/r.exr")) == before);
 }
 
-TEST_CASE("texremap: terminated in mid-run, it takes its files away") {
+TEST_CASE("texremap: a terminated run removes its files") {
   const Session session;
   session.write_pair("exr", 1600);
   const std::string roughness = read_file(session.path("r.exr")), specular = read_file(session.path("s.exr"));
@@ -164,7 +164,7 @@ TEST_CASE("texremap: terminated in mid-run, it takes its files away") {
   CHECK(read_file(session.path("s.exr")) == specular);
 }
 
-TEST_CASE("texremap: killed in mid-run, no file has its final name") {
+TEST_CASE("texremap: a killed run leaves no file under its final name") {
   const Session session;
   session.write_pair("exr", 1600);
   const std::string roughness = read_file(session.path("r.exr")), specular = read_file(session.path("s.exr"));
@@ -175,7 +175,7 @@ TEST_CASE("texremap: killed in mid-run, no file has its final name") {
   CHECK(read_file(session.path("s.exr")) == specular);
 }
 
-TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and the others are whole") {
+TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and the others are complete") {
   const Tree tree;
   const std::string extension = GENERATE("exr", "png", "tif", "tga", "jpg");
   write_sets(tree, extension, 256);
@@ -188,7 +188,7 @@ TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and 
   }
 }
 
-TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the others are whole") {
+TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the others are complete") {
   const Tree tree;
   const SmallDisk disk(tree.path("out"), "size=100k");
   if (!disk.is_mounted()) {
@@ -202,7 +202,7 @@ TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the ot
   CHECK_THAT(result.errors, Contains("No space left on device"));
 }
 
-TEST_CASE("texremap: a full disk from the first byte on leaves no file") {
+TEST_CASE("texremap: a disk that is full from the start gets no file") {
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga", "bmp", "hdr");
   const bool is_hdr = extension == "hdr";
@@ -221,7 +221,7 @@ TEST_CASE("texremap: a full disk from the first byte on leaves no file") {
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("texremap: a folder that may not be written to is named, and nothing is left in it") {
+TEST_CASE("texremap: an unwritable folder is named, and nothing is left in it") {
   const Tree tree;
   if (!permissions_hold(tree)) return;
   write_sets(tree, "png", kTreeMapSize);
@@ -239,7 +239,7 @@ TEST_CASE("texremap: a folder that may not be written to is named, and nothing i
   fs::permissions(tree.path("out"), fs::perms::owner_all);
 }
 
-TEST_CASE("texremap: files and folders that may not be read are named, and the others are converted") {
+TEST_CASE("texremap: unreadable files and folders are named, and the others are converted") {
   const Tree tree;
   if (!permissions_hold(tree)) return;
   write_sets(tree, "png", kTreeMapSize);
@@ -255,7 +255,7 @@ TEST_CASE("texremap: files and folders that may not be read are named, and the o
   CHECK(tree.results() == std::vector<std::string>{"a_rough.png", "a_spec.png", "c_rough.png", "c_spec.png"});
 }
 
-TEST_CASE("texremap: a link that leads to itself is no input, and no output is written through one") {
+TEST_CASE("texremap: a link to itself is refused as input, and no output is written through a link") {
   const Session session;
   session.write_pair("png", 16, OIIO::TypeUInt8);
   fs::create_symlink("loop.png", session.path("loop.png"));

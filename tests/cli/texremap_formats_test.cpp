@@ -82,7 +82,7 @@ void check_same_kind(const OIIO::ImageSpec& in, const OIIO::ImageSpec& out) {
 
 }  // namespace
 
-TEST_CASE("texremap: every format keeps its kind and everything that is not converted") {
+TEST_CASE("texremap: every format keeps its storage and all unconverted channels") {
   for (const Case& format : cases()) {
     const Session session;
     const std::string r = "r." + format.extension, s = "s." + format.extension;
@@ -104,7 +104,7 @@ TEST_CASE("texremap: every format keeps its kind and everything that is not conv
   }
 }
 
-TEST_CASE("texremap: what was done is written into the metadata") {
+TEST_CASE("texremap: metadata records the conversion") {
   const Session session;
   session.write_pair("exr");
   REQUIRE(session.convert("r.exr", "s.exr", {"--format", GENERATE("exr", "png")}).exit_code == 0);
@@ -117,7 +117,7 @@ TEST_CASE("texremap: what was done is written into the metadata") {
   }
 }
 
-TEST_CASE("texremap: where a format has no metadata of one's own, the tag Software tells") {
+TEST_CASE("texremap: the tag Software records the conversion in formats without custom metadata") {
   const Session session;
   session.write_pair("exr");
   const std::string extension = GENERATE("tif", "jpg");
@@ -160,7 +160,7 @@ TEST_CASE("texremap: the windows of an EXR are kept") {
   check_converted(read_image(session.path("r.exr")), in, read_image(session.path("out/r.exr")), out);
 }
 
-TEST_CASE("texremap: channels of different pixel types keep them") {
+TEST_CASE("texremap: channels of different pixel types keep their types") {
   const Session session;
   write_image(session.path("r.exr"), test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeFloat), noise);
   OIIO::ImageSpec spec = test_spec(kWidth, kHeight, {"R", "G", "B", "id"}, OIIO::TypeFloat);
@@ -186,7 +186,7 @@ TEST_CASE("texremap: associated alpha in a TIFF is neither multiplied nor relabe
   check_converted(read_image(session.path("r.tif")), in, read_image(session.path("out/r.tif")), out);
 }
 
-TEST_CASE("texremap: another format takes the least lossy type that it has") {
+TEST_CASE("texremap: another format uses its least lossy type") {
   const Session session;
   const std::string extension = GENERATE("png", "tif", "exr");
   session.write_pair("exr", 64, OIIO::TypeHalf);
@@ -213,7 +213,7 @@ TEST_CASE("texremap: --type chooses the pixel type, and clipped values are count
                   read_image(session.path("out/r.tif")), out);
 }
 
-TEST_CASE("texremap: channels that a format has no place for are refused") {
+TEST_CASE("texremap: channels that a format cannot hold are refused") {
   const Session session;
   session.write_pair("exr");
   write_image(session.path("s.exr"), test_spec(64, 64, kWithMask, OIIO::TypeHalf), noise);
@@ -295,7 +295,7 @@ TEST_CASE("texremap: idiff finds the passed-through alpha unchanged") {
   CHECK(diff("R").exit_code != 0);
 }
 
-TEST_CASE("texremap formats: a large Targa is held in memory as a whole, and that is said") {
+TEST_CASE("texremap formats: a large Targa is held in memory, with a remark") {
   const Session session;
   for (const int height : {16, 3000}) {
     const std::string name = "s" + std::to_string(height) + ".tga";

@@ -49,7 +49,7 @@ bool same_channel(const TestImage& a, const TestImage& b, int channel) {
 
 }  // namespace
 
-TEST_CASE("texremap inputs: one channel of a packed map is converted, the others stay bit for bit") {
+TEST_CASE("texremap inputs: one channel of a packed map is converted, the others keep every bit") {
   const Session session;
   write_image(session.path("orm.png"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
   require_success(convert(session, {"--roughness", session.path("orm.png") + ":G", "--specular", "0.4",
@@ -104,7 +104,7 @@ TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data t
     }
 }
 
-TEST_CASE("texremap inputs: a constant roughness becomes a map beside the specular one") {
+TEST_CASE("texremap inputs: a constant roughness becomes a map of the size of the specular map") {
   const Session session;
   session.write_pair("exr", kSize);
   require_success(convert(
@@ -137,7 +137,7 @@ TEST_CASE("texremap inputs: numbers alone are converted and printed") {
         Approx(std::sqrt(static_cast<double>(expected[0]))).epsilon(1e-6));
 }
 
-TEST_CASE("texremap inputs: factors are baked in once") {
+TEST_CASE("texremap inputs: factors are applied once") {
   const Session session;
   session.write_pair("exr", kSize);
   std::vector<std::string> words = maps(session, "r.exr", "s.exr");
@@ -154,7 +154,7 @@ TEST_CASE("texremap inputs: factors are baked in once") {
   }
 }
 
-TEST_CASE("texremap inputs: color in sRGB is converted as light and written in sRGB again") {
+TEST_CASE("texremap inputs: sRGB color is converted as linear light and written as sRGB") {
   const Session session;
   OIIO::ImageSpec spec = test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8);
   spec.attribute("oiio:ColorSpace", "sRGB");
@@ -183,7 +183,7 @@ TEST_CASE("texremap inputs: color in sRGB is converted as light and written in s
   }
 }
 
-TEST_CASE("texremap inputs: bad texels are kept, clamped, or the end") {
+TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
   const Session session;
   session.write_pair("exr", kSize);
   write_image(session.path("s.exr"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat),
@@ -236,7 +236,7 @@ TEST_CASE("texremap inputs: the mask marks the texels that were counted") {
   CHECK(nlohmann::json::parse(result.output)["out_of_domain"] == marked);
 }
 
-TEST_CASE("texremap inputs: a map that was converted is not converted again") {
+TEST_CASE("texremap inputs: a converted map is not converted again") {
   const Session session;
   const std::string extension = GENERATE("exr", "tif");
   session.write_pair(extension, kSize);
@@ -257,7 +257,7 @@ TEST_CASE("texremap inputs: a map that was converted is not converted again") {
   CHECK(convert(session, again).exit_code == 0);
 }
 
-TEST_CASE("texremap inputs: what does not fit together is wrong usage") {
+TEST_CASE("texremap inputs: contradicting options are refused") {
   const Session session;
   session.write_pair("exr", kSize);
   const auto refused = [&](std::vector<std::string> words, const std::string& message) {

@@ -93,7 +93,7 @@ TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every 
     }
 }
 
-TEST_CASE("texremap layouts: nothing is lost or made up unsaid") {
+TEST_CASE("texremap layouts: lost channels are an error, and missing maps give a warning") {
   const Session session;
   write_image(session.path("in.png"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
   const auto refused = [&](const std::vector<std::string>& words, const std::string& message) {

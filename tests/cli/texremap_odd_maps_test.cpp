@@ -109,7 +109,7 @@ TEST_CASE("texremap odd maps: one to five channels where three are expected") {
   }
 }
 
-TEST_CASE("texremap odd maps: two results of one name are refused before anything is written") {
+TEST_CASE("texremap odd maps: two results with one name are refused before anything is written") {
   const Session session;
   fs::create_directories(session.path("a"));
   for (const char* name : {"map.png", "a/map.png", "map.tif", "specular.png"})

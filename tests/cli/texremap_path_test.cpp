@@ -64,7 +64,7 @@ PathRequest detour() {
 
 }  // namespace
 
-TEST_CASE("texremap path: tells steps, errors, domain and reason") {
+TEST_CASE("texremap path: prints steps, errors, domain and reason") {
   const Session session;
   const ProcessResult result = session.texremap(path_words("mitsuba/ward", "mitsuba/as"));
   CHECK(result.exit_code == 0);
@@ -92,7 +92,7 @@ TEST_CASE("texremap path: --json holds what the text says") {
   for (const auto& other : json["alternatives"]) CHECK(other["expected_error"] >= json["expected_error"]);
 }
 
-TEST_CASE("texremap path: its help ends with an example, and models are asked for") {
+TEST_CASE("texremap path: its help ends with an example, and models are required") {
   const Session session;
   CHECK_THAT(session.texremap({"path", "--help"}).output, Contains("Example:\n  texremap path"));
   check_refused(session.texremap({"path", "--from", "mitsuba/ward"}), "--to");
@@ -108,7 +108,7 @@ TEST_CASE("texremap path: a cycle is wrong usage, in path and in convert") {
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("texremap path: unknown models are answered with the nearest") {
+TEST_CASE("texremap path: an unknown model is refused with the nearest name") {
   const Session session;
   check_refused(session.texremap(path_words("mitsuba/wrad", "mitsuba/as")), "did you mean mitsuba/ward?");
   check_refused(session.texremap(path_words("mitsuba/ward", "mitsuba/as", {"--via", "mitsuba/wrad"})),

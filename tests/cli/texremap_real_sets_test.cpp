@@ -102,7 +102,7 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king") {
   }
 }
 
-TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps what JPEG would not") {
+TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps the precision that JPEG loses") {
   const fs::path map = shared_data("textures/king_black_roughness.jpg");
   if (map.empty()) return;
   const Tree tree;

@@ -36,7 +36,7 @@ float largest_difference(const TestImage& a, const TestImage& b) {
 
 }  // namespace
 
-TEST_CASE("texremap --resample: the smaller map has the values that OpenImageIO finds between its texels") {
+TEST_CASE("texremap --resample: the smaller map is interpolated as OpenImageIO does") {
   const Session session;
   const bool tiled = GENERATE(false, true);
   const auto [small, large] = GENERATE(std::pair{16, 64}, std::pair{40, 100}, std::pair{1, 70});
@@ -82,7 +82,7 @@ TEST_CASE("texremap --resample: bands of tall maps meet without a seam") {
   }
 }
 
-TEST_CASE("texremap --resample: color in sRGB is interpolated as light") {
+TEST_CASE("texremap --resample: sRGB color is interpolated as linear light") {
   const Session session;
   write_image(session.path("s.png"), test_spec(2, 1, {"R", "G", "B"}, OIIO::TypeUInt8),
               [](int x, int, int) { return x == 0 ? 0.0f : 1.0f; });
@@ -99,7 +99,7 @@ TEST_CASE("texremap --resample: color in sRGB is interpolated as light") {
   CHECK(out.at(1, 0, 0) == as_stored(static_cast<float>(stored), OIIO::TypeUInt8));
 }
 
-TEST_CASE("texremap --resample: packed channels beside the roughness are brought along") {
+TEST_CASE("texremap --resample: all channels of a packed roughness map are resampled") {
   const Session session;
   write_image(session.path("orm.png"), test_spec(20, 20, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
   write_image(session.path("s.png"), test_spec(40, 40, {"Y"}, OIIO::TypeUInt8), noise);
@@ -115,7 +115,7 @@ TEST_CASE("texremap --resample: packed channels beside the roughness are brought
       REQUIRE(std::fabs(out.at(x, y, 0) - expected.at(x, y, 0)) <= 0.501f / 255.0f);
 }
 
-TEST_CASE("texremap --resample: what cannot be, and sizes that differ without it") {
+TEST_CASE("texremap --resample: cropped maps, and different sizes without the option, are refused") {
   const Session session;
   session.write_pair("exr", 32);
   write_image(session.path("large.exr"), test_spec(64, 64, {"Y"}, OIIO::TypeHalf), noise);

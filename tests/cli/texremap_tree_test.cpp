@@ -20,7 +20,7 @@ using Names = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("texremap tree: sets of every habit are converted, each by the meaning of its names") {
+TEST_CASE("texremap tree: sets of every habit are converted by the meaning of their names") {
   const Tree tree;
   tree.map("in/hero_Roughness.png", kGrey);
   tree.map("in/hero_Specular.png", kColor);
@@ -69,7 +69,7 @@ TEST_CASE("texremap tree: sets of every habit are converted, each by the meaning
   }
 }
 
-TEST_CASE("texremap tree: one that fails does not stop the others, and the exit code tells") {
+TEST_CASE("texremap tree: a failed set does not stop the others and makes the exit code 1") {
   const Tree tree;
   tree.map("in/a_rough.png", kGrey);
   tree.map("in/a_spec.png", kGrey);
@@ -97,7 +97,7 @@ TEST_CASE("texremap tree: one that fails does not stop the others, and the exit 
   CHECK_THAT(result.last_error(), Contains("4 of 6 sets failed"));
 }
 
-TEST_CASE("texremap tree: results inside the tree are not found again, and kept") {
+TEST_CASE("texremap tree: results inside the tree are neither read nor overwritten") {
   const Tree tree;
   tree.map("in/a_rough.png", kGrey);
   tree.map("in/a_spec.png", kGrey);
@@ -113,7 +113,7 @@ TEST_CASE("texremap tree: results inside the tree are not found again, and kept"
   CHECK_THAT(again.last_error(), Contains("1 of 1 sets failed"));
 }
 
-TEST_CASE("texremap tree: names of one's own") {
+TEST_CASE("texremap tree: --names adds file-name habits") {
   const Tree tree;
   tree.map("in/a_zzz.png", kGrey);
   write_file(tree.path("names.json"),
@@ -161,7 +161,7 @@ TEST_CASE("texremap tree: the tiles of a set are one set") {
   CHECK(fs::exists(tree.path("missing/hero_Specular.1002.exr")));
 }
 
-TEST_CASE("texremap tree: six tiles as a UDIM set has them") {
+TEST_CASE("texremap tree: six tiles of a real UDIM set") {
   const fs::path tiles = shared_data("textures/grid_udim");
   if (tiles.empty()) return;
   const Tree tree;
@@ -193,7 +193,7 @@ TEST_CASE("texremap tree: the number of threads changes no bit") {
   CHECK(tree.results().size() == 14);
 }
 
-TEST_CASE("texremap tree: options that do not go together are wrong usage") {
+TEST_CASE("texremap tree: contradicting options are refused") {
   const Tree tree;
   tree.map("in/a_rough.png", kGrey);
   const auto refused = [&](const std::vector<std::string>& more, const std::string& message) {
@@ -210,7 +210,7 @@ TEST_CASE("texremap tree: options that do not go together are wrong usage") {
   CHECK_THAT(result.last_error(), Contains("--recursive requires a folder of sets (give DIR)"));
 }
 
-TEST_CASE("texremap tree: --resume makes what is missing, what changed, and nothing else") {
+TEST_CASE("texremap tree: --resume makes only missing and changed sets") {
   const Tree tree;
   const std::string extension = GENERATE("exr", "png", "tif");
   const auto named = [&](const std::string& name) { return name + "." + extension; };
@@ -244,8 +244,7 @@ TEST_CASE("texremap tree: --resume makes what is missing, what changed, and noth
   CHECK(read_file(tree.path(named("out/d_spec"))) == "precious");
 }
 
-TEST_CASE(
-    "texremap tree: killed at any moment, it leaves whole files, and --resume ends as an unbroken run") {
+TEST_CASE("texremap tree: a killed run leaves complete files, and --resume ends like an unbroken run") {
   const Tree tree;
   for (int i = 0; i < 12; ++i) {
     const std::string name = "in/" + std::to_string(i);
@@ -275,7 +274,7 @@ TEST_CASE(
   CHECK(whole == 24);
 }
 
-TEST_CASE("texremap tree: names with spaces, Unicode and line breaks; links that go round") {
+TEST_CASE("texremap tree: names with spaces, Unicode and line breaks; circular links") {
   const Tree tree;
   const std::string odd = "in/sp ace/\xc3\xbc \n\xe6\x9c\xa8";
   tree.map(odd + "_rough.png", kGrey);

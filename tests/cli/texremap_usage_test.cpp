@@ -44,27 +44,27 @@ TEST_CASE("texremap: a full standard output is a failure") {
   check_failure(result, 1, "standard output: cannot be written");
 }
 
-TEST_CASE("texremap: an unknown command or option is answered with the nearest") {
+TEST_CASE("texremap: an unknown command or option is refused with the nearest name") {
   const Session session;
   check_failure(session.texremap({"convrt"}), 2, "unknown command 'convrt' (did you mean convert?)");
   check_failure(session.texremap({"convert", "--form", "mitsuba/ward"}), 2,
                 "unknown option --form (did you mean --from?)");
 }
 
-TEST_CASE("texremap: an unknown model is answered with the nearest") {
+TEST_CASE("texremap: an unknown model is refused with the nearest name") {
   const Session session;
   check_failure(session.texremap({"convert", "--from", "mitsuba/wrad", "--to", "mitsuba/as", "--roughness",
                                   "r", "--specular", "s", "-o", "out"}),
                 2, "did you mean mitsuba/ward?");
 }
 
-TEST_CASE("texremap: a conversion without models is wrong usage") {
+TEST_CASE("texremap: a conversion without models is refused") {
   const Session session;
   check_failure(session.texremap({"convert", "--roughness", "r", "--specular", "s", "-o", "out"}), 2,
                 "--from is required (or --fit)");
 }
 
-TEST_CASE("texremap: unknown values of options are wrong usage") {
+TEST_CASE("texremap: unknown values of options are refused") {
   const Session session;
   session.write_pair("exr");
   check_failure(session.convert("r.exr", "s.exr", {"--type", "hlaf"}), 2,
@@ -81,7 +81,7 @@ TEST_CASE("texremap: a missing input is named with the reason") {
   check_failure(session.convert("r.exr", "s.exr"), 1, "r.exr: cannot be read: No such file or directory");
 }
 
-TEST_CASE("texremap: an input that is no image is refused") {
+TEST_CASE("texremap: an input that is not an image is refused") {
   const Session session;
   session.write_pair("exr");
   std::ofstream(session.path("r.exr")) << "not an image";
@@ -103,7 +103,7 @@ TEST_CASE("texremap: a truncated input is refused and leaves no result") {
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("texremap: a file without the channels is answered with those it has") {
+TEST_CASE("texremap: a file without the needed channels is refused with its channels") {
   const Session session;
   session.write_pair("exr");
   write_image(session.path("s.exr"), test_spec(64, 64, {"U", "V"}, OIIO::TypeHalf), noise);
@@ -135,7 +135,7 @@ TEST_CASE("texremap: a roughness map that is not grey needs a channel") {
                   OIIO::TypeHalf));
 }
 
-TEST_CASE("texremap: an output folder that cannot be is refused") {
+TEST_CASE("texremap: an impossible output folder is refused") {
   const Session session;
   session.write_pair("exr");
   std::vector<std::string> words = session.conversion("r.exr", "s.exr");
@@ -207,7 +207,7 @@ TEST_CASE("texremap: NaN, infinite and negative texels are converted and counted
   CHECK(std::isnan(read_image(session.path("out/s.exr")).at(1, 0, 1)));
 }
 
-TEST_CASE("texremap: --quiet says nothing") {
+TEST_CASE("texremap: --quiet prints nothing") {
   const Session session;
   session.write_pair("jpg", 64, OIIO::TypeUInt8);
   const ProcessResult result = session.convert("r.jpg", "s.jpg", {"--quiet"});
@@ -278,7 +278,7 @@ TEST_CASE("texremap: every instruction set writes the same files") {
   }
 }
 
-TEST_CASE("texremap: an instruction set that there is not is answered with the nearest") {
+TEST_CASE("texremap: an unknown instruction set is refused with the nearest name") {
   const Session session;
   session.write_pair("exr", 16);
   check_failure(session.convert("r.exr", "s.exr", {"--instructions", "axv2"}), 2, "did you mean avx2?");

@@ -36,7 +36,7 @@ struct WarpSession : Session {
 
 }  // namespace
 
-TEST_CASE("texremap warps: a folder becomes what the warp says of each texel") {
+TEST_CASE("texremap warps: every texel of a folder equals the warp") {
   const WarpSession session;
   const std::string set = GENERATE("baseline", "avx2");
   const ProcessResult result =
@@ -91,7 +91,7 @@ TEST_CASE("texremap warps: grey maps become colors under their names") {
   }
 }
 
-TEST_CASE("texremap warps: what means nothing to them is refused, and nothing is written") {
+TEST_CASE("texremap warps: options without meaning are refused, and nothing is written") {
   const WarpSession session;
   const auto refused = [&](const std::vector<std::string>& more, const std::string& message) {
     std::vector<std::string> words = {"convert", session.path("wood"), "--fit", session.path("stony.json"),
@@ -114,7 +114,7 @@ TEST_CASE("texremap warps: what means nothing to them is refused, and nothing is
   CHECK_THAT(damaged.errors, Contains("stony.json"));
 }
 
-TEST_CASE("texremap warps: a set that was converted to what the warp takes needs no --force") {
+TEST_CASE("texremap warps: a set converted to the source of the warp needs no --force") {
   const WarpSession session("mitsuba/ggx");
   std::filesystem::create_directories(session.path("metal"));
   write_image(session.path("metal/oak_basecolor.exr"),
@@ -190,7 +190,7 @@ TEST_CASE("texremap warps: a diffuse map alone becomes a set of three maps") {
     }
 }
 
-TEST_CASE("texremap warps: of a diffuse map alone, what has more is refused; tiles go along") {
+TEST_CASE("texremap warps: a warp of a diffuse map alone refuses other maps and converts tiles") {
   const AlbedoSession session;
   const auto run = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"convert", "--fit", session.path("stony.json"), "-o",
@@ -219,7 +219,7 @@ TEST_CASE("texremap warps: of a diffuse map alone, what has more is refused; til
   CHECK(std::filesystem::exists(session.path("out/oak_roughness.1002.png")));
 }
 
-TEST_CASE("texremap warps: texels that are not finite harm no other") {
+TEST_CASE("texremap warps: texels that are not finite do not change other texels") {
   const WarpSession session("mitsuba/ggx");
   write_image(session.path("wood/oak_diffuse.exr"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat),
               [](int x, int y, int c) { return x == 7 && y < 9 ? std::nanf("") : noise(x, y, c); });

@@ -77,7 +77,7 @@ std::vector<std::string> with(std::vector<std::string> words, const std::vector<
 
 }  // namespace
 
-TEST_CASE("texremap workflows: metallic to specular is equation (2), by hand") {
+TEST_CASE("texremap workflows: metallic to specular is equation (2)") {
   const Session session;
   write_metallic(session);
   const bool is_gltf = GENERATE(true, false);
@@ -169,7 +169,7 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
     }
 }
 
-TEST_CASE("texremap workflows: metallic to metallic of another BRDF, files as they were") {
+TEST_CASE("texremap workflows: metallic to metallic of another BRDF keeps the files") {
   const Session session;
   write_metallic(session);
   require_success(convert(session, metallic_words(session, "gltf", "cycles-5/principled")));
@@ -200,7 +200,7 @@ TEST_CASE("texremap workflows: glossiness in alpha leaves the colors of a PNG al
   }
 }
 
-TEST_CASE("texremap workflows: alpha of diffuse goes along, and what it masks does not count") {
+TEST_CASE("texremap workflows: alpha of diffuse is kept, and transparent texels do not count") {
   const Session session;
   write_specular(session);
   write_image(session.path("d.exr"), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeFloat),
@@ -217,7 +217,7 @@ TEST_CASE("texremap workflows: alpha of diffuse goes along, and what it masks do
   for (int x = 0; x < kSize; ++x) REQUIRE(base.at(x, 3, 3) == (x < 10 ? 0.0f : 0.3f));
 }
 
-TEST_CASE("texremap workflows: a mask of metal chooses between answers that look alike") {
+TEST_CASE("texremap workflows: a metal mask chooses between ambiguous answers") {
   const Session session;
   // A dark blend: metallic 0.69 with base color 0.04, or 0 with 0.0125, gives the same picture.
   write_colors(session, "d.exr", [](int, int, int) { return 0.0125f; });
@@ -231,7 +231,7 @@ TEST_CASE("texremap workflows: a mask of metal chooses between answers that look
   CHECK(metal.at(30, 3, 0) < 0.01f);
 }
 
-TEST_CASE("texremap workflows: metallic that is a guess follows the texels around it that can tell") {
+TEST_CASE("texremap workflows: undetermined metallic follows the reliable texels around it") {
   constexpr int kWide = 96, kDark = 32, kPlastic = 64;  // columns: metal, then dark texels, then plastic
   const Session session;
   const auto bytes = [&](const std::string& name, int metal, int dark, float spread, int plastic) {
@@ -282,7 +282,7 @@ TEST_CASE("texremap workflows: metallic that is a guess follows the texels aroun
   CHECK(smooth_jumps < 0.5 * jumps);
 }
 
-TEST_CASE("texremap workflows: maps that cannot be meant so are warned of, with the reason") {
+TEST_CASE("texremap workflows: implausible maps give a warning with the reason") {
   const Session session;
   const auto warned = [&](const std::vector<std::string>& words, const std::string& message) {
     const ProcessResult result = convert(session, with(words, {"--force"}));
@@ -307,7 +307,7 @@ TEST_CASE("texremap workflows: maps that cannot be meant so are warned of, with 
   warned(metallic_words(session, "metallic", "specular"), "base_color is black in every sampled texel");
 }
 
-TEST_CASE("texremap workflows: the F0 of the maps is used where that is asked for") {
+TEST_CASE("texremap workflows: the estimated F0 of the maps is used on request") {
   const Session session;
   write_specular(session, 0.5f, 0.055f);
   const ProcessResult result = convert(session, with(specular_words(session, "specular", "metallic"),
@@ -319,7 +319,7 @@ TEST_CASE("texremap workflows: the F0 of the maps is used where that is asked fo
   CHECK(metal.at(5, 5, 0) < 0.01f);
 }
 
-TEST_CASE("texremap workflows: what does not fit together is refused, and nothing is written") {
+TEST_CASE("texremap workflows: contradicting options are refused, and nothing is written") {
   const Session session;
   write_specular(session);
   write_metallic(session);
@@ -377,7 +377,7 @@ TEST_CASE("texremap workflows: a folder of sets goes from one workflow to anothe
   CHECK(std::filesystem::exists(session.path("out/wood_base_color.png")));
 }
 
-TEST_CASE("texremap workflows: two sets of one name in a folder are refused before anything is written") {
+TEST_CASE("texremap workflows: two sets with one name are refused before anything is written") {
   const Session session;
   std::filesystem::create_directories(session.path("in/wood"));
   for (const std::string set : {"", "wood_"}) {
@@ -405,7 +405,7 @@ TEST_CASE("texremap workflows: two sets of one name in a folder are refused befo
   CHECK(convert(session, with({session.path("in"), "--recursive"}, to_ward)).exit_code == 0);
 }
 
-TEST_CASE("texremap workflows: occlusion packed beside metallic of a folder's set gets a file of its own") {
+TEST_CASE("texremap workflows: occlusion packed with metallic becomes a separate file") {
   const Session session;
   std::filesystem::create_directories(session.path("sets"));
   write_colors(session, "sets/box_base_color.png", base_color, OIIO::TypeUInt8);
@@ -417,7 +417,7 @@ TEST_CASE("texremap workflows: occlusion packed beside metallic of a folder's se
   for (int x = 0; x < kSize; ++x) REQUIRE(occlusion.at(x, 5, 0) == static_cast<float>(x) / 255.0f);
 }
 
-TEST_CASE("texremap workflows: list and path know them") {
+TEST_CASE("texremap workflows: list and path show them") {
   const Session session;
   const ProcessResult list = session.texremap({"list", "--workflows", "--json"});
   require_success(list);

@@ -86,7 +86,7 @@ TEST_CASE("convert_maps: strided, padded, flipped and shared buffers, on any num
   CHECK(result.values.back() == -7.0f);  // padding
 }
 
-TEST_CASE("convert_maps: the mask marks each texel that the converter counts by itself") {
+TEST_CASE("convert_maps: the mask marks each texel that the converter counts as outside") {
   const auto converter = make_interpreted_converter(example_fit());
   Buffer from = noisy_buffer(), to;
   for (std::size_t x = 3; x < kWidth; x += 7) from.at(x, x % kHeight, 0) = 2.0f;
@@ -109,7 +109,7 @@ TEST_CASE("convert_maps: the mask marks each texel that the converter counts by 
   CHECK(statistics.out_of_domain_count == marked);
 }
 
-TEST_CASE("convert_maps: statistics are those of all values, whatever the threads") {
+TEST_CASE("convert_maps: statistics cover all values, for any number of threads") {
   const auto converter = make_interpreted_converter(example_fit());
   Buffer from = noisy_buffer(), to;
   from.at(50, 20, 2) = NAN;
@@ -139,7 +139,7 @@ TEST_CASE("convert_maps: statistics are those of all values, whatever the thread
     CHECK(static_cast<double>(count) == Approx(3.0 * kWidth * kHeight / 32.0).epsilon(0.3));
 }
 
-TEST_CASE("convert_maps: widths in every encoding are the same widths") {
+TEST_CASE("convert_maps: every encoding of roughness gives the same result") {
   const auto converter = make_interpreted_converter(example_fit());
   const RoughnessConvention own = converter->info().source.roughness,
                             target = converter->info().target.roughness;
@@ -190,7 +190,7 @@ TEST_CASE("convert_maps: dithering keeps the mean and is the same in every run a
   CHECK(std::fabs(mean(plain) - exact) > 0.05);  // otherwise the line before proves nothing
 }
 
-TEST_CASE("convert_maps: what does not fit together is refused") {
+TEST_CASE("convert_maps: channels that do not match the converter are refused") {
   const auto converter = make_interpreted_converter(example_fit());
   Buffer from = noisy_buffer(), to;
   const auto refused = [&](auto change, const std::string& message) {
@@ -211,7 +211,7 @@ TEST_CASE("convert_maps: what does not fit together is refused") {
       "more factors than channels");
 }
 
-TEST_CASE("copy_channel: bits stay where the types are the same, values where they are not") {
+TEST_CASE("copy_channel: equal types keep bits, other types keep values") {
   const std::vector<std::uint32_t> bits = {0, 0x7fc12345u, 0xffffffffu, 1};  // a NaN with a payload
   std::vector<std::uint32_t> copy(4);
   const auto* first = reinterpret_cast<const std::byte*>(bits.data());
@@ -227,7 +227,7 @@ TEST_CASE("copy_channel: bits stay where the types are the same, values where th
   CHECK(clipped == 2);
 }
 
-TEST_CASE("transfer: sRGB goes back and forth, and meets at its joint") {
+TEST_CASE("transfer: sRGB is invertible and continuous") {
   for (float value = -0.5f; value < 2.0f; value += 0.00711f) {
     float changed = value;
     to_linear(Transfer::kSrgb, {&changed, 1});
@@ -240,7 +240,7 @@ TEST_CASE("transfer: sRGB goes back and forth, and meets at its joint") {
   CHECK(half == Approx(0.5029).margin(1e-4));
 }
 
-TEST_CASE("transfer: widths that no convention has are held") {
+TEST_CASE("transfer: invalid roughness is clamped") {
   float width = -0.5f;
   change_convention(RoughnessConvention::kRoughness, RoughnessConvention::kAlpha, {&width, 1});
   CHECK(width == 0.0f);

@@ -88,7 +88,7 @@ MapStatistics convert(const std::string& roughness, const std::string& specular,
 
 }  // namespace
 
-TEST_CASE("image planes: every mip level is converted by itself") {
+TEST_CASE("image planes: every mip level is converted separately") {
   const auto converter = make_interpreted_converter(example_fit());
   const TemporaryFolder folder;
   const std::string extension = GENERATE("exr", "tif");
@@ -121,7 +121,7 @@ TEST_CASE("image planes: every mip level is converted by itself") {
   CHECK(level >= 6);
 }
 
-TEST_CASE("image planes: maps whose levels do not match are refused") {
+TEST_CASE("image planes: maps with different numbers of levels are refused") {
   const auto converter = make_interpreted_converter(example_fit());
   const TemporaryFolder folder;
   write_levels(folder.path() / "r.exr", {"Y"}, 64, 64);
@@ -135,7 +135,7 @@ TEST_CASE("image planes: maps whose levels do not match are refused") {
   CHECK(read_plane(folder.path() / "out" / "specular.exr", 0, 3).spec.width == 8);
 }
 
-TEST_CASE("image planes: parts hold parameters, and the others stay") {
+TEST_CASE("image planes: parts with parameters are converted, the others are unchanged") {
   const auto converter = make_interpreted_converter(example_fit());
   const TemporaryFolder folder;
   const std::string extension = GENERATE("exr", "tif");

@@ -85,7 +85,7 @@ void check_every_texel(const Scene& scene, const Converter& converter) {
 
 }  // namespace
 
-TEST_CASE("texture pass: equals the converter texel by texel, whatever the threads and the bands") {
+TEST_CASE("texture pass: equals the converter for each texel, for any threads and bands") {
   const auto converter = make_interpreted_converter(example_fit());
   const int tile = GENERATE(0, 48);
   const Scene scene(tile);
@@ -107,7 +107,7 @@ TEST_CASE("texture pass: equals the converter texel by texel, whatever the threa
   }
 }
 
-TEST_CASE("texture pass: the compiled converters give in a map what they give alone") {
+TEST_CASE("texture pass: compiled converters give the same results in a map as alone") {
   const Scene scene;
   for (const auto& converter : compiled_converters()) {
     scene.pass(*converter, {});
@@ -198,7 +198,7 @@ TEST_CASE("texture pass: odd values are counted by texel") {
   CHECK(std::isfinite(out.at(0, 8, 1)));
 }
 
-TEST_CASE("texture pass: cancelled, it says so and leaves no file") {
+TEST_CASE("texture pass: a cancelled pass throws and leaves no file") {
   const Scene scene;
   const auto converter = make_interpreted_converter(example_fit());
   const std::atomic<bool> cancelled{true};

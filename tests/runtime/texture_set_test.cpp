@@ -60,7 +60,7 @@ TEST_CASE("texture set: numbers are constants, anything else a file") {
     CHECK_THROWS_WITH(constants(bad), Contains("--specular: invalid value ") && Contains("give a file"));
 }
 
-TEST_CASE("texture set: a file and its channels are told apart at the last colon") {
+TEST_CASE("texture set: the last colon separates a file from its channels") {
   CHECK(map("orm.png:G").file == "orm.png");
   CHECK(map("orm.png:G").channels == std::vector<std::string>{"G"});
   CHECK(map("a:b/c.exr:R,G,B").file == "a:b/c.exr");
@@ -107,7 +107,7 @@ TEST_CASE("texture set: a packed file is opened once") {
         std::vector<ChannelPlace>{{0, 0}, {0, 1}, {0, 2}});
 }
 
-TEST_CASE("texture set: a missing channel is answered with those that are there") {
+TEST_CASE("texture set: a missing channel is refused with the existing ones") {
   const Files files;
   const auto odd = files.image("odd.exr", {"first", "second"});
   const auto plain = files.image("plain.exr", {"Y"});
@@ -126,7 +126,7 @@ TEST_CASE("texture set: maps of different size are refused with both sizes") {
                     Contains("size 8x6 does not match") && Contains("(4x3)"));
 }
 
-TEST_CASE("texture set: color in whole numbers tagged sRGB is read as such, and said") {
+TEST_CASE("texture set: integer color tagged sRGB is read as sRGB, with a remark") {
   const Files files;
   auto spec = test_spec(4, 3, {"R", "G", "B"}, OIIO::TypeUInt8);
   const auto png = files.folder.path() / "s.png";
@@ -144,7 +144,7 @@ TEST_CASE("texture set: color in whole numbers tagged sRGB is read as such, and 
   CHECK(remarks(opened(MapName{roughness, {}}, MapName{files.image("s.exr", {"R", "G", "B"}), {}})).empty());
 }
 
-TEST_CASE("image reader: folders and parts that are not there are refused with the reason") {
+TEST_CASE("image reader: folders and missing parts are refused with the reason") {
   const Files files;
   CHECK_THROWS_WITH(ImageReader(files.folder.path()), Contains("is a folder"));
   CHECK_THROWS_WITH(ImageReader(files.image("one.exr", {"Y"}), 1),

@@ -55,7 +55,7 @@ TEST_CASE("find sets: several in a folder and in a tree, in the order of their p
   CHECK(set_paths(session.find(excluding)) == std::vector<std::string>{"a", "a/x", "b"});
 }
 
-TEST_CASE("find sets: images by extension, whatever its case") {
+TEST_CASE("find sets: images by extension, ignoring case") {
   const SetSession session{"a_rough.EXR", "b_rough.tif", "c_rough.TIFF", "d_rough.Jpg",  "e_rough.jpeg",
                            "f_rough.tga", "g_rough.bmp", "h_rough.hdr",  "i_rough.tx",   "j_rough.png",
                            "k_rough.txt", "l_rough",     "m_rough.psd",  "n_rough.json", "o_rough.png.bak"};
@@ -63,13 +63,13 @@ TEST_CASE("find sets: images by extension, whatever its case") {
         std::vector<std::string>{"a", "b", "c", "d", "e", "f", "g", "h", "i", "j"});
 }
 
-TEST_CASE("find sets: hidden files and unfinished results are left out") {
+TEST_CASE("find sets: hidden files and unfinished results are skipped") {
   const SetSession session{".a_rough.png", ".hidden/b_rough.png", "c_rough.png"};
   session.add(unfinished_name("d_rough.png").string());
   CHECK(set_paths(session.find()) == std::vector<std::string>{"c"});
 }
 
-TEST_CASE("find sets: two candidates for a role are a fault of their set alone") {
+TEST_CASE("find sets: two candidates for a role make only their set faulty") {
   const SetSession session{"a_rough.png",    "a_Roughness.exr", "b_roughness.png", "b_glossiness.png",
                            "c_orm.png",      "c_roughness.png", "d_rough.png",     "d_spec.png",
                            "d_specular.exr", "e_rough.png",     "f_rough_2k.png",  "f_rough_4k.png"};
@@ -105,7 +105,7 @@ TEST_CASE("find sets: a set without roughness or glossiness is skipped with the 
   CHECK(set_at(found, "rough_wood").bystanders.size() == 2);
 }
 
-TEST_CASE("find sets: a name that can be read in two ways is read as its neighbours are") {
+TEST_CASE("find sets: an ambiguous name is read like its neighbours") {
   const SetSession session{"dark_metallic_roughness.png",   "dark_metallic_base_color.png",
                            "helmet_metallic_roughness.png", "helmet_base_color.png",
                            "red_coat_roughness.png",        "red_coat_base_color.png",
@@ -121,7 +121,7 @@ TEST_CASE("find sets: a name that can be read in two ways is read as its neighbo
   CHECK(width("car") == "roughness of car_roughness.png");
 }
 
-TEST_CASE("find sets: a word that names things too needs a neighbour, a resolution or capitals") {
+TEST_CASE("find sets: an ordinary word needs a neighbour, a resolution or capitals") {
   const SetSession session{"robot_arm.png",   "left_Arm.png",    "brick_arm.png",  "brick_diff.png",
                            "tile_arm_2k.png", "T_Crate_ARM.png", "water_color.png"};
   const Discovery found = session.find();
@@ -130,7 +130,7 @@ TEST_CASE("find sets: a word that names things too needs a neighbour, a resoluti
   CHECK(use_text(set_at(found, "brick"), set_at(found, "brick").width) == "roughness in G of brick_arm.png");
 }
 
-TEST_CASE("find sets: a number before the word is a resolution, unless it tells sets apart") {
+TEST_CASE("find sets: a number before the word is a resolution, unless it distinguishes sets") {
   const SetSession same{"wood_1024_rough.png", "wood_2048_spec.png", "wood_normal.png"};
   CHECK(set_paths(same.find()) == std::vector<std::string>{"wood"});
   const SetSession apart{"wood_128_rough.png", "wood_256_rough.png", "wood_256_spec.png",
@@ -153,7 +153,7 @@ TEST_CASE("find sets: tiles that one map lacks") {
   CHECK(set.bystanders[1].missing_tiles == std::vector{1002, 1011});
 }
 
-TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are no text") {
+TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are not text") {
   const SetSession session{
       "old wood rough 2K.png", "old wood spec 2K.png", "K\xc3\xb6nig\xe2\x99\x9a_rough.png",
       "\xff\xfe_rough.png",    "a\nb_rough.png",       "a\nb_Roughness.png",
@@ -169,7 +169,7 @@ TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are no text") {
   CHECK(shown("tab\there\x1b") == "tab\\x09here\\x1b");
 }
 
-TEST_CASE("find sets: links that go round end, and a folder is found once, by its own name") {
+TEST_CASE("find sets: circular links end, and a folder is found once, by its own name") {
   const SetSession session{"a_rough.png", "z_real/b_rough.png", "z_real/deep/c_rough.png"};
   fs::create_directory_symlink(session.root(), session.root() / "z_real/deep/up");
   fs::create_directory_symlink(session.root() / "z_real", session.root() / "a_link");
@@ -187,7 +187,7 @@ TEST_CASE("find sets: a folder outside is found through its link") {
   CHECK(set_paths(session.find()) == std::vector<std::string>{"a", "library/b"});
 }
 
-TEST_CASE("find sets: a link to nothing and a pipe are problems, the rest is found") {
+TEST_CASE("find sets: a broken link and a pipe are problems, the rest is found") {
   const SetSession session{"a_rough.png"};
   fs::create_symlink("nowhere.png", session.root() / "b_rough.png");
   REQUIRE(::mkfifo((session.root() / "c_rough.png").c_str(), 0600) == 0);
@@ -220,7 +220,7 @@ TEST_CASE("find sets: an unreadable folder is a problem, the rest is found") {
   fs::permissions(session.root() / "locked", fs::perms::owner_all);
 }
 
-TEST_CASE("find sets: a root that is none is refused") {
+TEST_CASE("find sets: a missing root is refused") {
   const SetSession session{"a_rough.png"};
   CHECK_THROWS_AS(find_sets(session.root() / "none", {}), Error);
   CHECK_THROWS_AS(find_sets(session.root() / "a_rough.png", {}), Error);

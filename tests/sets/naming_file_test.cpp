@@ -26,7 +26,7 @@ std::string with_rule(const std::string& rule) {
 
 }  // namespace
 
-TEST_CASE("naming file: its words are known beside the built-in ones, and win over them") {
+TEST_CASE("naming file: its words extend the built-in ones and take precedence") {
   const Naming naming = parse_naming(R"({
     "habits": [{"name": "ours", "camel_case": true, "resolution": "after", "rules": [
       {"words": ["srgh"], "role": "roughness"},
@@ -55,7 +55,7 @@ TEST_CASE("naming file: is used by a search for sets") {
   CHECK(use_text(set, set.specular) == "specular of wall_shine.png");
 }
 
-TEST_CASE("naming file: complaints name the field and what was expected") {
+TEST_CASE("naming file: errors name the field and the expected value") {
   CHECK(complaint("[") != "none");
   CHECK(complaint("[]") == "names.json: expected an object, found []");
   CHECK(complaint("{}") == "names.json: has no field \"habits\"");
@@ -108,6 +108,6 @@ TEST_CASE("naming file: rules that contradict themselves are refused") {
   CHECK(complaint(with_rule(R"({"words": ["a_b", "aB"], "role": "ior"})")) == "none");
 }
 
-TEST_CASE("naming file: one that is missing says so") {
+TEST_CASE("naming file: a missing file is an error") {
   CHECK_THROWS_AS(read_naming("no/such/names.json"), Error);
 }
