@@ -83,7 +83,7 @@ TEST_CASE("fit file: complaints name the file and the field") {
   const std::string json = fit_to_json(sample_fit());
   const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
   CHECK_THROWS_WITH(read("{"), Catch::StartsWith("x.json: invalid JSON"));
-  CHECK_THROWS_WITH(read("[]"), "x.json: expected an object, found []");
+  CHECK_THROWS_WITH(read("[]"), Catch::StartsWith("x.json: expected "));
   CHECK_THROWS_WITH(read(replaced(json, "remap-fit", "other")), Catch::Contains("is no fit file"));
   CHECK_THROWS_WITH(read(replaced(json, "\"version\": 3", "\"version\": 2")),
                     Catch::Contains("format version 2; this program reads version 3"));
