@@ -1,10 +1,13 @@
-// `remapc emit`: fits to headers, and the check that the committed headers are what their fits give.
+// `remapc emit` writes the headers of fits, or checks that committed headers are current.
 #include "emit/emit.hpp"
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
+#include "command_line/help_text.hpp"
 #include "commands/commands.hpp"
 #include "manifest/fit_folder.hpp"
 #include "remap/error.hpp"
@@ -63,14 +66,15 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
   return files;
 }
 
-// Names every file that is not what the fits give, and every header without a fit.
+// A line for every file that is missing or differs from what its fit gives, and for every header without a
+// fit.
 std::vector<std::string> differences(const EmitCommand& options, const std::vector<GeneratedFile>& files) {
   std::vector<std::string> found;
   for (const GeneratedFile& file : files) {
     if (!std::filesystem::exists(file.path))
-      found.push_back(file.path.string() + ": is missing");
+      found.push_back(file.path.string() + ": missing");
     else if (remap::read_file(file.path) != file.content)
-      found.push_back(file.path.string() + ": differs from what its fit gives");
+      found.push_back(file.path.string() + ": differs from its fit");
   }
   if (!options.all || !std::filesystem::is_directory(options.output)) return found;
   for (const auto& entry : std::filesystem::directory_iterator(options.output)) {
@@ -78,14 +82,16 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
     const bool known = std::any_of(files.begin(), files.end(), [&](const GeneratedFile& file) {
       return file.path.filename() == entry.path().filename();
     });
-    if (!known) found.push_back(entry.path().string() + ": has no fit in " + options.fit_folder.string());
+    if (!known)
+      found.push_back(entry.path().string() + ": no fit of this name in " + options.fit_folder.string());
   }
   return found;
 }
 
 void run(const EmitCommand& options) {
   if (options.all == !options.fits.empty())
-    throw Error(ErrorKind::kUsage, "emit: expected either fits to emit, or --all");
+    throw Error(ErrorKind::kUsage, options.all ? "--all cannot be used with named fits"
+                                               : "no fits given (name fits, or use --all)");
   const std::vector<GeneratedFile> files = generate(options);
   if (!options.check) {
     for (const GeneratedFile& file : files) {
@@ -98,43 +104,51 @@ void run(const EmitCommand& options) {
   for (const std::string& difference : found) std::cout << difference << "\n";
   if (!found.empty())
     throw Error(ErrorKind::kInput, options.output.string() + ": " + std::to_string(found.size()) +
-                                       " files are not up to date; run `remapc emit --all`");
+                                       " files are out of date (run `remapc emit --all`)");
 }
 
 }  // namespace
 
 void add_emit_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("emit", "Write the C++ header of a fit, or of all fits with their registry");
+  CLI::App* command = app.add_subcommand(
+      "emit", "Write the C++ headers of fits, or of all fits together with their registry");
+  command->group(kCompileStage);
   auto options = std::make_shared<EmitCommand>();
   command->add_option("fits", options->fits, "Fits: files, or ids in the folder of fits");
-  command->add_flag("--all", options->all, "Every fit of the folder, and registry.hpp");
+  command->option_defaults()->group("Input");
+  command->add_flag("--all", options->all, "Emit every fit of the folder, and registry.hpp");
+  command->add_option("--fits", options->fit_folder, "Folder of fits")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->option_defaults()->group("Output");
+  command->add_option("-o,--output", options->output, "Folder for the headers")
+      ->type_name("FOLDER")
+      ->capture_default_str();
   command->add_flag("--check", options->check,
-                    "Write nothing; exit code 1 where a header is not what its fit gives");
-  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
-  command->add_option("-o,--output", options->output, "Folder for the headers")->capture_default_str();
+                    "Write nothing; exit code 1 if a header is missing or differs from its fit");
+  command->option_defaults()->group(remap::kRareOptions);
   CLI::Option* lower =
       command
           ->add_option(
               "--lower", options->tolerance,
-              "Lower the mapping to polynomials on few pieces, proven within this of the fit: absolute in "
-              "target alpha, ten times it relative to the largest target specular")
+              "Largest proven deviation of the header's polynomials from the fit: absolute for target "
+              "alpha, and ten times it relative to the largest target specular")
           ->check(CLI::PositiveNumber)
           ->capture_default_str();
   command
       ->add_flag("--exact", options->code.exact,
-                 "The mapping as it was fitted: loops over support vectors or layers, exponentials")
+                 "Emit the mapping as it was fitted: support vectors, layers or exponentials")
       ->excludes(lower);
   command
       ->add_option("--table-limit", options->code.lowering.table_limit,
-                   "Numbers that a lowered output may consist of; beyond, the fit is refused")
+                   "Most numbers of a lowered output; a fit that needs more is an error")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->footer(
-      "Fits of kind analytic or warp are emitted as they are: --lower, --exact and --table-limit change "
-      "nothing of them.\n\n"
-      "Example:\n  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n  remapc emit --all "
-      "--check");
+      "--lower, --exact and --table-limit do not affect fits of kind analytic or warp.\n\n"
+      "Example:\n"
+      "  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n"
+      "  remapc emit --all --check");
   command->callback([options] { run(*options); });
 }
 

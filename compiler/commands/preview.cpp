@@ -1,4 +1,4 @@
-// `remapc preview`: source and conversion side by side, as pictures and figures.
+// `remapc preview` compares a source with its conversion, as pictures and figures.
 #include "report/preview.hpp"
 
 #include <cmath>
@@ -6,8 +6,10 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "command_line/help_text.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
@@ -41,7 +43,7 @@ PreviewOptions preview_options(const PreviewCommand& command) {
   const std::vector<Light> lights = parse_lights(command.light, command.distance);
   if (lights.size() != 1)
     throw remap::Error(remap::ErrorKind::kUsage,
-                       "--light: " + std::to_string(lights.size()) + " lights; expected one");
+                       "--light: " + std::to_string(lights.size()) + " lights given (give one)");
   options.light = lights.front();
   options.resolution = command.resolution;
   options.samples_per_axis = command.pixel_samples;
@@ -76,7 +78,7 @@ void print_text(const remap::Fit& fit, const Preview& preview) {
     std::cout << std::left << std::setw(9) << shape_name(figure.shape) << std::setw(8) << std::defaultfloat
               << std::setprecision(3) << figure.alpha << std::fixed << std::setprecision(4) << std::setw(11)
               << figure.target_alpha << std::setw(8) << figure.ssim << std::setprecision(2)
-              << 100.0 * figure.rms << (figure.in_domain ? "" : "   out of domain") << "\n";
+              << 100.0 * figure.rms << (figure.in_domain ? "" : "   outside the domain") << "\n";
 }
 
 void run(const PreviewCommand& command) {
@@ -96,37 +98,53 @@ void run(const PreviewCommand& command) {
 
 void add_preview_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "preview", "Render a source and its conversion side by side, and say how alike they are");
+      "preview", "Render a source model and its conversion side by side, and print their similarity");
+  command->group(kLookStage);
   auto options = std::make_shared<PreviewCommand>();
-  command->add_option("fit", options->fit, "Fit: an id, or a file")->required();
-  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "PNG to write: a column a width; source, conversion, their difference four times");
+  command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
+  command->option_defaults()->group("Input");
+  command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->option_defaults()->group("Output");
+  command
+      ->add_option("-o,--output", options->output,
+                   "PNG to write: a column per alpha; source, conversion, and their difference times four")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
+  command->option_defaults()->group("Materials and pictures");
   command
       ->add_option("--alpha", options->alphas,
-                   "Widths of the source, comma-separated; four of its domain without")
+                   "Alphas of the source, comma-separated (default: four values of the fit's domain)")
+      ->type_name("ALPHA,...")
       ->delimiter(',');
   command
       ->add_option("--specular", options->specular,
-                   "Of the source: one value, or R,G,B; half of its domain without")
+                   "Specular of the source (default: half the maximum of the fit's domain)")
+      ->type_name("VALUE or R,G,B")
       ->delimiter(',');
-  command->add_option("--shape", options->shapes, "sphere, torus, comma-separated")
+  command->add_option("--shape", options->shapes, "Shapes, comma-separated: sphere, torus")
+      ->type_name("SHAPE,...")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--light", options->light, "headlight, or degrees from the camera")
-      ->capture_default_str();
-  command->add_option("--distance", options->distance, "Of the light, in sphere radii")
+  command->add_option("--light", options->light, "Light: headlight, or degrees from the camera")
+      ->type_name("LIGHT")
       ->capture_default_str();
   command->add_option("--resolution", options->resolution, "Width and height of each picture")
       ->check(CLI::Range(16, 2048))
       ->capture_default_str();
-  command->add_option("--pixel-samples", options->pixel_samples, "N x N samples in each pixel; 1: its centre")
+  command->option_defaults()->group(remap::kRareOptions);
+  command->add_option("--distance", options->distance, "Distance of the light, in sphere radii")
+      ->capture_default_str();
+  command
+      ->add_option("--pixel-samples", options->pixel_samples, "N x N samples per pixel; 1: the pixel center")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
   add_renderer_options(*command, options->renderers);
-  command->add_flag("--json", options->json, "Figures as JSON on standard output");
   command->footer(
-      "Example:\n  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 -o preview.png");
+      "Example:\n"
+      "  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 \\\n"
+      "    -o preview.png");
   command->callback([options] { run(*options); });
 }
 

@@ -39,14 +39,13 @@ std::vector<std::size_t> places_of(const Csv& csv, const std::vector<std::string
 
 }  // namespace
 
-bool is_material_table(std::string_view text, const std::string& name) {
-  return !parse_csv(text, name).comment(kSourceColumnsComment).empty();
+MaterialTable parse_material_table(std::string_view text, const std::string& name) {
+  return material_table_from_csv(parse_csv(text, name));
 }
 
-MaterialTable parse_material_table(std::string_view text, const std::string& name) {
-  const Csv csv = parse_csv(text, name);
+MaterialTable material_table_from_csv(const Csv& csv) {
   MaterialTable table;
-  table.name = name;
+  table.name = csv.name;
   for (const auto& comment : csv.comments)
     if (comment.first != kSourceColumnsComment && comment.first != kTargetColumnsComment)
       table.comments.push_back(comment);

@@ -26,11 +26,11 @@ struct MaterialTable {
   std::vector<NamedRow> rows;
 };
 
-// Whether CSV text is a table of named parameters rather than one of width and specular.
-bool is_material_table(std::string_view text, const std::string& name);
-
 // Parses what material_table_text writes and ignores other columns. Throws kInput with `name:line:column:`.
 MaterialTable parse_material_table(std::string_view text, const std::string& name);
+
+// The same from CSV text that parse_csv has split.
+MaterialTable material_table_from_csv(const Csv& csv);
 
 std::string material_table_text(const MaterialTable& table);
 

@@ -26,8 +26,7 @@ constexpr std::size_t kDiffuse1 = 4, kDiffuse2 = 5, kError = 6, kStatus = 7;
 // Parses one table.
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& name, const ColumnMap& map)
-      : csv_(parse_csv(text, name)), map_(map) {}
+  Reader(const Csv& csv, const ColumnMap& map) : csv_(csv), map_(map) {}
 
   Table read() {
     table_.name = csv_.name;
@@ -109,7 +108,7 @@ class Reader {
 
   static constexpr std::size_t kMissing = std::numeric_limits<std::size_t>::max();
 
-  const Csv csv_;
+  const Csv& csv_;
   const ColumnMap& map_;
   Table table_;
   std::vector<std::size_t> places_ = std::vector<std::size_t>(kColumns.size(), kMissing);
@@ -173,8 +172,10 @@ ColumnMap column_map(const std::string& text) {
 }
 
 Table parse_table(std::string_view text, const std::string& name, const ColumnMap& map) {
-  return Reader(text, name, map).read();
+  return table_from_csv(parse_csv(text, name), map);
 }
+
+Table table_from_csv(const Csv& csv, const ColumnMap& map) { return Reader(csv, map).read(); }
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map) {
   return parse_table(remap::read_file(path), path.string(), map);

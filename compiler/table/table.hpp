@@ -80,6 +80,9 @@ ColumnMap column_map(const std::string& text);
 // without rows.
 Table parse_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
+// The same from CSV text that parse_csv has split.
+Table table_from_csv(const Csv& csv, const ColumnMap& map);
+
 Table read_table(const std::filesystem::path& path, const ColumnMap& map = {});
 
 // Returns the rows of status ok.

@@ -1,4 +1,4 @@
-// The commands of texremap, one file each.
+// The commands of texremap. Each has a file of its own.
 #pragma once
 
 namespace CLI {

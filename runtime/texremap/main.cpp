@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
   remap::add_list_command(app);
   remap::add_path_command(app);
   app.footer(
-      "Example:\n  texremap convert --from mitsuba/ward --to mitsuba/as --roughness r.exr --specular s.exr "
-      "-o out");
+      "Example:\n"
+      "  texremap convert --from mitsuba/ward --to mitsuba/as \\\n"
+      "    --roughness r.exr --specular s.exr -o out");
   return remap::run_app(app, argc, argv);
 }

@@ -78,7 +78,7 @@ TEST_CASE("remapc build: makes the items of the manifest, and none twice") {
   CHECK(read_file(session.path("fits/pairs.svg")).find("<polyline") != std::string::npos);
   const ProcessResult card =
       session.remapc({"show", "mitsuba_ward_to_mitsuba_ward_duer", "--fits", session.path("fits")});
-  CHECK(card.output.find("There and back by mitsuba_ward_duer_to_mitsuba_ward\n  alpha   changes by") !=
+  CHECK(card.output.find("Round trip through mitsuba_ward_duer_to_mitsuba_ward\n  alpha   changes by") !=
         std::string::npos);
 
   // A header that was edited is remade alone.

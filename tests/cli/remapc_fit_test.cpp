@@ -64,8 +64,10 @@ TEST_CASE("remapc fit: each kind of regression can be asked for, and a form") {
 
   check_failure(fit({"--model", "spline"}), 2, "--model");
   check_failure(fit({"--form", "quartic/afine"}), 2, "did you mean quartic/affine?");
-  check_failure(fit({"--model", "svr", "--form", "paper"}), 2, "--form: is for --model parametric or auto");
-  check_failure(fit({"--model", "parametric", "--layers", "4"}), 2, "--layers: is for --model mlp or auto");
+  check_failure(fit({"--model", "svr", "--form", "paper"}), 2,
+                "--form cannot be used with --model svr (use parametric or auto)");
+  check_failure(fit({"--model", "parametric", "--layers", "4"}), 2,
+                "--layers cannot be used with --model parametric (use mlp or auto)");
   check_failure(fit({"--activation", "step"}), 2, "--activation");
 }
 
@@ -147,11 +149,11 @@ TEST_CASE("remapc compare: a fit of other models, an unknown one, and a table wi
   const std::string fit = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
   session.write("other.csv", "# source: a/b\n# target: c/d\n" + kHeader + "0.1,0.2,0.3,0.4,0,ok\n");
   check_failure(session.remapc({"compare", session.path("other.csv"), fit}), 1,
-                "expected a fit of a/b to c/d");
+                "but the table is of a/b to c/d");
   check_failure(session.remapc({"compare", session.path("t.csv"), "nix", "--fits", session.path("fits")}), 2,
                 "neither a file nor a fit");
   session.write("none.csv", "# source: a/b\n# target: c/d\n" + kHeader + "0.1,0.2,0.3,0.4,0,flat\n");
-  check_failure(session.remapc({"compare", session.path("none.csv")}), 1, "has no usable row");
+  check_failure(session.remapc({"compare", session.path("none.csv")}), 1, "no usable rows");
 }
 
 TEST_CASE("remapc fit: an output folder that cannot be is named") {
@@ -179,11 +181,11 @@ TEST_CASE("remapc fit: numbers that no regression can use are wrong usage") {
   const auto fit = [&](const std::string& option, const std::string& value) {
     return session.remapc({"fit", session.path("t.csv"), "-o", session.path("fits"), option, value});
   };
-  check_failure(fit("--layers", "0"), 2, "--layers: Value 0 not in range 1 to 4096");
-  check_failure(fit("--layers", "8,-2"), 2, "--layers: Value -2 not in range");
-  check_failure(fit("--starts", "-1"), 2, "--starts: Value -1 not in range 1 to 1000");
-  check_failure(fit("--seed", "-1"), 2, "--seed: Value -1 not in range");
-  check_failure(fit("--jobs", "-1"), 2, "--jobs: is -1, which is no value for it");
+  check_failure(fit("--layers", "0"), 2, "--layers: invalid value '0' (allowed: 1 to 4096)");
+  check_failure(fit("--layers", "8,-2"), 2, "--layers: invalid value '-2' (allowed: 1 to 4096)");
+  check_failure(fit("--starts", "-1"), 2, "--starts: invalid value '-1' (allowed: 1 to 1000)");
+  check_failure(fit("--seed", "-1"), 2, "--seed: invalid value '-1' (allowed: 0 or more)");
+  check_failure(fit("--jobs", "-1"), 2, "--jobs: invalid value '-1'");
   check_failure(fit("--held-out", "2"), 2, "held-out share: 2 is out of range (0 to 0.9)");
   check_failure(fit("--id", "a-b"), 2, "use a C++ identifier");
   CHECK_FALSE(fs::exists(session.path("fits/mitsuba_ward_to_mitsuba_as.json")));

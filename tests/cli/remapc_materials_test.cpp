@@ -55,7 +55,7 @@ TEST_CASE("remapc sweep: invalid stages, diffuse and conductors give exit code 2
   const Session session;
   auto arguments = session.sweep("t.csv");
   arguments.insert(arguments.end(), {"--stages", "4"});
-  check_failure(session.remapc(arguments), 2, "--stages: Value 4 not in range 1 to 3");
+  check_failure(session.remapc(arguments), 2, "--stages: invalid value '4' (allowed: 1 to 3)");
   arguments = session.sweep("t.csv");
   arguments.insert(arguments.end(), {"--diffuse", "2"});
   check_failure(session.remapc(arguments), 2, "diffuse 2 is out of range (0 to 1)");
@@ -101,7 +101,7 @@ TEST_CASE("remap-study: wrong usage gives exit code 2, help has an example") {
   const auto fails = [&](const std::vector<std::string>& arguments, const std::string& message) {
     check_failure(session.study(arguments), 2, message, "remap-study");
   };
-  fails({}, "command");
+  fails({}, "no command given (try --help)");
   fails({"conductor"}, "conductors");
   fails(study(session, "conductors", {"--alphas", "0.4,0.2"}),
         "--alphas: values must increase and lie between 0.01 and 1");
@@ -127,11 +127,11 @@ TEST_CASE("remapc sample: a table of named columns that check reads and fit --sw
   CHECK(result.output.find("\"base_color_g1\"") != std::string::npos);
   CHECK(session.remapc({"check", session.path("t.csv")}).exit_code == 0);
   check_failure(session.remapc({"fit", session.path("t.csv")}), 2,
-                "is exact and needs no fit; expected --swap");
-  check_failure(session.remapc(sample), 1, "exists; --force replaces it");
+                "is exact by equation (2) and needs no fit (use --swap");
+  check_failure(session.remapc(sample), 1, "already exists (--force overwrites)");
   check_failure(session.remapc({"sample", "--source", "mitsuba/ggx", "--target", "mitsuba/ggx", "--range",
                                 "alpha=0.5", "-o", session.path("u.csv")}),
-                2, "expected NAME=MIN,MAX");
+                2, "(write NAME=MIN,MAX");
 }
 
 TEST_CASE("remapc sweep: roles and fixed values of parameters are given on the command line") {
@@ -162,7 +162,7 @@ TEST_CASE("remapc sweep: roles and fixed values of parameters are given on the c
         std::string::npos);
   check_failure(sweep({"--source-set", "metalic=1"}), 2, "did you mean metallic?");
   check_failure(sweep({"--source-set", "metallic=1,0,0"}), 2, "has 3 values; expected one");
-  check_failure(sweep({"--target-set", "diffuse"}), 2, "has no =");
+  check_failure(sweep({"--target-set", "diffuse"}), 2, "'=' missing (write NAME=VALUE or NAME=R,G,B)");
 }
 
 TEST_CASE("remapc preview: writes pictures and figures of a committed fit") {

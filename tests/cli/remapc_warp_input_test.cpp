@@ -143,7 +143,7 @@ TEST_CASE("remapc warp: a diffuse map alone is a source, distinguished by its co
   const ProcessResult result = session.remapc(warp_words(session, mask_words(session)));
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
-  CHECK(result.errors.find("the source is diffuse alone") != std::string::npos);
+  CHECK(result.errors.find("the source has a diffuse map only") != std::string::npos);
   const WarpMapFit fit = read_warp(session);
   CHECK(is_of_diffuse_alone(fit));
   CHECK(error_of(fit, albedo_texel) < 0.25);

@@ -151,7 +151,8 @@ TEST_CASE("remapc warp: invalid tables are refused with their name") {
     CHECK(result.errors.find(message) != std::string::npos);
   };
   const std::vector<std::string> copy = {"--copy", session.path("copied")};
-  refused("yellow", {"-o", session.path("x.json")}, 2, "is a table, of which there is no fit");
+  refused("yellow", {"-o", session.path("x.json")}, 2,
+          "a table cannot be fitted (use --copy FOLDER instead of --output)");
   refused("yellow", {"--copy", session.path("copied"), "--distance", "relative"}, 2, "choose plain");
   session.write("nameless/profiles.csv", "a,b\n1,2\n");
   refused("nameless", copy, 1, "requires columns R@<radius>");

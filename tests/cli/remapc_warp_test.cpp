@@ -43,7 +43,7 @@ TEST_CASE("remapc warp: a fit is emitted as a header, alone and with the registr
   CHECK(std::holds_alternative<CopiedNodes>(fit.warp.table.entries));
   const std::string card = session.remapc({"show", session.path("stony.json")}).output;
   CHECK(card.find("256 nodes each, nearest copied") != std::string::npos);
-  CHECK(card.find("spread from an exact copy") != std::string::npos);
+  CHECK(card.find("difference to an exact copy") != std::string::npos);
 
   REQUIRE(session.remapc({"emit", session.path("stony.json"), "-o", session.path("alone")}).exit_code == 0);
   const std::string header = read_file(session.path("alone/stony.hpp"));

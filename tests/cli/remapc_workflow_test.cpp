@@ -81,9 +81,10 @@ TEST_CASE("remapc fit of random metallic materials: a network of whole materials
               .remapc({"sample", "--source", "mitsuba/ggx-metallic", "--vary", "metallic", "--target",
                        "mitsuba/ggx", "--resolution", "16", "--count", "60", "-o", table})
               .exit_code == 0);
-  check_failure(session.remapc({"fit", table, "-o", session.path("fits")}), 2, "expected --swap");
+  check_failure(session.remapc({"fit", table, "-o", session.path("fits")}), 2,
+                "use --swap to fit the inverse");
   check_failure(session.remapc({"fit", table, "--swap", "--model", "svr", "-o", session.path("fits")}), 2,
-                "expected mlp");
+                "not available for a table of materials (use mlp)");
   const ProcessResult fitted = session.remapc(
       {"fit", table, "--swap", "--layers", "8", "--id", "back", "--json", "-o", session.path("fits")});
   INFO(fitted.errors);

@@ -1,4 +1,4 @@
-// Maps that do not fit the memory texremap may take. Slow: run by `texremap_test "[large]"`.
+// Maps that do not fit into the memory limit of texremap. Slow: run with `texremap_test "[large]"`.
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSize = 8192, kBand = 64;
 
-// Writes noise a band at a time.
+// Writes noise band by band.
 void write_large(const std::string& path, const std::vector<std::string>& channels, int size = kSize) {
   OIIO::ImageSpec spec = test_spec(size, size, channels, OIIO::TypeHalf);
   spec.attribute("Compression", "zip");
@@ -22,7 +22,7 @@ void write_large(const std::string& path, const std::vector<std::string>& channe
     auto value = band.begin();
     for (int y = top; y < top + kBand; ++y)
       for (int x = 0; x < size; ++x)
-        for (int c = 0; c < spec.nchannels; ++c)  // as smooth as textures are, with noise on top
+        for (int c = 0; c < spec.nchannels; ++c)  // smooth like a texture, with added noise
           *value++ = static_cast<float>(x + 2 * y) / (3.0f * static_cast<float>(size)) * 0.9f +
                      0.1f * noise(x, y, c);
     REQUIRE(output->write_scanlines(top, top + kBand, 0, OIIO::TypeFloat, band.data()));
@@ -115,5 +115,5 @@ TEST_CASE("texremap: 4096 x 4096 through a warp in 300 MB, equal to the warp in 
       largest = std::max(largest, std::abs(static_cast<double>(r_out[i] * r_out[i] - expected[6])));
     }
   }
-  CHECK(largest < 2e-3);  // halves
+  CHECK(largest < 2e-3);  // rounding of half pixels
 }

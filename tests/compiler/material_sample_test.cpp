@@ -112,7 +112,7 @@ TEST_CASE("material sample: a parameter that cannot vary is refused") {
   };
   MaterialSampleOptions options = random_options("mitsuba/ggx-metallic", "mitsuba/ggx", 1);
   options.varied = {"metalic"};
-  refused(options, "has no parameter metalic; did you mean metallic?");
+  refused(options, "has no parameter metalic (did you mean metallic?)");
   options.varied = {"base_color"};
   refused(options, "base_color is the specular and varies anyway");
   options.varied = {};

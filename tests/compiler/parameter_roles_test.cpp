@@ -127,7 +127,7 @@ TEST_CASE("roles: invalid roles are refused with the parameter") {
   };
   ParameterRoles roles;
   roles.specular = "metalic";
-  refused(roles, "has no parameter metalic; did you mean metallic?");
+  refused(roles, "has no parameter metalic (did you mean metallic?)");
   roles.specular = "metallic";
   refused(roles, "base_color no longer has a role and needs a value (add base_color=VALUE");
   roles.fixed = {{"metallic", 0.5}, {"base_color", 0.5}};

@@ -81,5 +81,5 @@ TEST_CASE(
 
 TEST_CASE("shape: the error for an unknown name names the nearest") {
   for (const Shape shape : kShapes) CHECK(shape_from_name(shape_name(shape)) == shape);
-  CHECK_THROWS_WITH(shape_from_name("tours"), "shape: unknown shape tours; did you mean torus?");
+  CHECK_THROWS_WITH(shape_from_name("tours"), "shape: unknown shape tours (did you mean torus?)");
 }

@@ -257,11 +257,11 @@ TEST_CASE("path: an unknown model is answered with the nearest") {
   Converters converters;
   converters.add("mitsuba/ward", "mitsuba/as", 0.1);
   CHECK(refusal(converters, {"mitsuba/wrad", "mitsuba/as", {}}) ==
-        "mitsuba/wrad: is no source of a converter; did you mean mitsuba/ward?");
+        "mitsuba/wrad: is no source of a converter (did you mean mitsuba/ward?)");
   CHECK_THAT(refusal(converters, {"mitsuba/ward", "mitsuba/sa", {}}),
              Catch::Contains("mitsuba/sa: is no target of a converter"));
   CHECK_THAT(refusal(converters, {"mitsuba/ward", "mitsuba/as", {"mitsuba/wrd"}}),
-             Catch::Contains("mitsuba/wrd: is no model of a converter; did you mean mitsuba/ward?"));
+             Catch::Contains("mitsuba/wrd: is no model of a converter (did you mean mitsuba/ward?)"));
 }
 
 TEST_CASE("path: of what ships, one step is what one converter gives") {

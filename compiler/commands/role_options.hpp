@@ -1,12 +1,14 @@
-// The options by which a command takes the roles of two models.
+// The options that choose which parameters of two models are roughness, specular and diffuse.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "probe/parameter_roles.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace remapc {
 
@@ -14,7 +16,7 @@ class RoleOptions {
  public:
   void add_options(CLI::App& app);
 
-  // Throw kUsage.
+  // Throw kUsage for a setting that cannot be read or has more than one value.
   ParameterRoles source() const { return source_.roles("--source"); }
   ParameterRoles target() const { return target_.roles("--target"); }
 
@@ -23,7 +25,7 @@ class RoleOptions {
     std::string roughness, specular, diffuse;
     std::vector<std::string> settings;
 
-    void add_options(CLI::App& app, const std::string& prefix);
+    void add_options(CLI::App& app, const std::string& side);
     ParameterRoles roles(const std::string& prefix) const;
   };
 
