@@ -15,13 +15,13 @@ using remap::Error;
 using remap::ErrorKind;
 using remap::Range;
 
-constexpr double kRivalError = 1.01;    // as in match.cpp
-constexpr double kRivalDistance = 0.1;  // relative difference of a parameter
-// A search ends at this relative change of the squared error. Rivals are only compared with the answer to 1
-// %, so they need less precision.
+constexpr double kJointRivalError = 1.01;    // as in match.cpp
+constexpr double kJointRivalDistance = 0.1;  // relative difference of a parameter
+// A search ends at this relative change of the squared error. Rivals are compared with the answer to one
+// percent only, so they need less precision.
 constexpr double kAnswerTolerance = 1e-10;
 constexpr double kRivalTolerance = 1e-7;
-constexpr double kSameError = 1e-4;       // smaller errors are rounding errors of pictures
+constexpr double kJointSameError = 1e-4;  // smaller errors are rounding errors of pictures
 constexpr double kBoundTolerance = 1e-6;  // share of the range
 
 // A small square matrix.
@@ -244,7 +244,7 @@ bool JointMatcher::apart(const JointMatch& a, const JointMatch& b) const {
     const double x = target_.value(a.points[unknown.channel], unknown.coordinate);
     const double y = target_.value(b.points[unknown.channel], unknown.coordinate);
     const Range& range = target_.coordinates()[unknown.coordinate].range;
-    return std::fabs(x - y) > kRivalDistance * std::max({x, y, 0.01 * range.max});
+    return std::fabs(x - y) > kJointRivalDistance * std::max({x, y, 0.01 * range.max});
   });
 }
 
@@ -260,11 +260,11 @@ bool JointMatcher::at_bound(const JointMatch& match) const {
 RowStatus JointMatcher::judge(const JointMatch& match, const std::vector<JointMatch>& rivals) const {
   if (!match.converged) return RowStatus::kUnstable;
   for (const JointMatch& rival : rivals) {
-    const bool better = kRivalError * rival.error + kSameError < match.error;
-    const bool as_good = rival.error < kRivalError * match.error + kSameError;
+    const bool better = kJointRivalError * rival.error + kJointSameError < match.error;
+    const bool as_good = rival.error < kJointRivalError * match.error + kJointSameError;
     if (better || (as_good && apart(rival, match))) return RowStatus::kUnstable;
   }
-  return at_bound(match) && match.error > kSameError ? RowStatus::kClamped : RowStatus::kOk;
+  return at_bound(match) && match.error > kJointSameError ? RowStatus::kClamped : RowStatus::kOk;
 }
 
 JointMatch JointMatcher::match_from(const RoleValues& guess) const {

@@ -7,7 +7,7 @@
 namespace remapc {
 namespace {
 
-constexpr float kPaper = 0.97f, kLine = 0.85f;
+constexpr float kPlotPaper = 0.97f, kLine = 0.85f;
 
 // The first two coordinates of row `i`.
 std::array<double, 2> place_of(const Points& positions, Eigen::Index i) {
@@ -61,7 +61,8 @@ PlotBox box_around(const std::vector<PlottedPoints>& layers) {
 
 Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box, int width) {
   const double scale = 0.5 * static_cast<double>(width) / box.half_width;
-  Image picture = blank_picture(width, static_cast<int>(std::lround(2.0 * scale * box.half_height)), kPaper);
+  Image picture =
+      blank_picture(width, static_cast<int>(std::lround(2.0 * scale * box.half_height)), kPlotPaper);
   draw_lines(box, scale, &picture);
   for (const PlottedPoints& layer : layers)
     for (Eigen::Index i = 0; i < layer.positions.rows(); ++i) {

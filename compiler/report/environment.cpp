@@ -19,10 +19,10 @@ using remap::Error;
 using remap::ErrorKind;
 using std::numbers::pi;
 
-double dot(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double product(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 double angle_between(const Direction& a, const Direction& b) {
-  return std::acos(std::clamp(dot(a, b), -1.0, 1.0));
+  return std::acos(std::clamp(product(a, b), -1.0, 1.0));
 }
 
 // `elevation` above the horizon, `azimuth` from -z towards +x; degrees.

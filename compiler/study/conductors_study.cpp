@@ -21,7 +21,7 @@ namespace {
 
 using remap::number_text;
 
-const std::string kSource = "mitsuba/as", kTarget = "mitsuba/ward-conserving";
+const std::string kConductorSource = "mitsuba/as", kConductorTarget = "mitsuba/ward-conserving";
 
 double reflectance(const Conductor& metal, std::size_t channel) {
   return normal_reflectance({metal.eta[channel], metal.k[channel]});
@@ -101,12 +101,13 @@ void match_metal(const ExactMatching& matching, const Conductor& metal, double a
 }
 
 void match_exactly(const Renderer& renderer, const StudyOptions& options, ConductorsStudy* study) {
-  const SweepOptions setting = study_sweep_options(kSource, kTarget, {}, options.resolution);
+  const SweepOptions setting =
+      study_sweep_options(kConductorSource, kConductorTarget, {}, options.resolution);
   const PictureTaker picture_taker(renderer, setting.objective, options.resolution, 1);
-  const ModelDescription target = find_model(renderer, kTarget);
+  const ModelDescription target = find_model(renderer, kConductorTarget);
   const remap::Range alphas{options.alphas.front() / 4.0, target.alpha.max};
   const ProbedModel probed_model{target, probe_specular(picture_taker, target, alphas)};
-  const ExactMatching matching{picture_taker, find_model(renderer, kSource),
+  const ExactMatching matching{picture_taker, find_model(renderer, kConductorSource),
                                TargetBank(picture_taker, probed_model, alphas, kBankRatio)};
   const auto metals = measured_conductors();
   const std::size_t tasks = metals.size() * options.alphas.size();
@@ -160,7 +161,9 @@ void travel_back(const Renderer& renderer, const StudyOptions& options, const Sw
   std::vector<SamplePoint> samples;
   for (const TableRow& row : there) samples.push_back({row.alpha2, row.specular2});
   study->back = run_sweep(
-      renderer, study_sweep_options(kTarget, kSource, std::move(samples), options.resolution), execution);
+      renderer,
+      study_sweep_options(kConductorTarget, kConductorSource, std::move(samples), options.resolution),
+      execution);
   RoundTrip trip;
   std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < there.size(); ++i) {
@@ -205,7 +208,8 @@ ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& o
   ConductorsStudy study;
   SweepExecution execution;
   execution.jobs = options.jobs;
-  SweepOptions there = study_sweep_options(kSource, kTarget, metal_samples(options), options.resolution);
+  SweepOptions there =
+      study_sweep_options(kConductorSource, kConductorTarget, metal_samples(options), options.resolution);
   study.there = run_sweep(renderer, there, execution);
   if (options.progress) options.progress(0.2);
   there.target = "mitsuba/ward";
@@ -222,8 +226,8 @@ ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& o
 
 std::vector<std::string> conductors_words(const ConductorsStudy& study) {
   std::vector<std::string> words;
-  words.push_back(std::to_string(measured_conductors().size()) + " metals, three channels each, " + kSource +
-                  " to " + kTarget + ", light at 45 degrees:");
+  words.push_back(std::to_string(measured_conductors().size()) + " metals, three channels each, " +
+                  kConductorSource + " to " + kConductorTarget + ", light at 45 degrees:");
   double deviation = 0.0, shift = 0.0;
   for (const ConductorCurve& curve : study.curves) {
     words.push_back("alpha " + number_text(curve.alpha) + ": " + std::to_string(curve.ok) + " of " +
@@ -243,9 +247,10 @@ std::vector<std::string> conductors_words(const ConductorsStudy& study) {
   words.push_back("mitsuba/ward, which ends at 1, gives the same ok rows within " +
                   short_text(study.plain_difference));
   const RoundTrip& trip = study.round_trip;
-  words.push_back("figure 7: the " + std::to_string(trip.rows) + " ok rows back to " + kSource + ": slope " +
-                  short_text(trip.slope, 6) + ", offset " + short_text(trip.offset) + ", F0 within " +
-                  short_text(trip.f0_deviation) + ", alpha within " + short_text(trip.alpha_deviation));
+  words.push_back("figure 7: the " + std::to_string(trip.rows) + " ok rows back to " + kConductorSource +
+                  ": slope " + short_text(trip.slope, 6) + ", offset " + short_text(trip.offset) +
+                  ", F0 within " + short_text(trip.f0_deviation) + ", alpha within " +
+                  short_text(trip.alpha_deviation));
   const auto worst = std::max_element(
       study.fresnel.begin(), study.fresnel.end(),
       [](const FresnelDifference& a, const FresnelDifference& b) { return a.error < b.error; });
@@ -279,8 +284,10 @@ std::vector<std::string> write_conductors(const ConductorsStudy& study, const st
   remap::write_file(folder / "as_to_ward.csv", table_text(study.there));
   remap::write_file(folder / "ward_to_as.csv", table_text(study.back));
 
-  StudyPlot there{
-      "Figure 6: metals, one curve a width; open: flagged", "F0 of " + kSource, "specular of " + kTarget, {}};
+  StudyPlot there{"Figure 6: metals, one curve a width; open: flagged",
+                  "F0 of " + kConductorSource,
+                  "specular of " + kConductorTarget,
+                  {}};
   for (const ConductorCurve& curve : study.curves) {
     StudyCurve ok{"alpha " + number_text(curve.alpha), {}, false}, flagged{"", {}, true};
     for (const TableRow& row : rows_of_alpha(study.there, curve.alpha))

@@ -50,10 +50,10 @@ struct Strip {
   std::vector<float> diffuse, dark, slope, source;
 };
 
-class Search {
+class MetallicSearch {
  public:
-  Search(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
-         const MetallicReflection& reflection)
+  MetallicSearch(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
+                 const MetallicReflection& reflection)
       : reflection_(reflection), guess_(source.diffuse) {
     for (std::size_t c = 0; c < 3; ++c) guess_[c] = std::clamp(source.diffuse[c] + source.f0[c], 0.0, 1.0);
     for (std::size_t light = 0; light < lit.environment_count(); ++light) {
@@ -174,7 +174,7 @@ Reflectances reflectances_of(const MetallicSurface& surface, const MetallicRefle
 
 MetallicSurface best_metallic(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
                               const MetallicReflection& reflection) {
-  return Search(lit, alpha, source, reflection).best();
+  return MetallicSearch(lit, alpha, source, reflection).best();
 }
 
 }  // namespace remapc

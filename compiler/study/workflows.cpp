@@ -64,7 +64,7 @@ Reflectances scaled_surface(Reflectances surface) {
 }
 
 // One convention: which materials are rendered, and what is held against them.
-struct Run {
+struct WorkflowRun {
   std::string convention;
   bool scaled = false;
   std::vector<WorkflowMethod> methods;
@@ -90,7 +90,8 @@ double mean_rmse(const WorkflowPictures& pictures, std::size_t environment_count
 }
 
 // The pictures of one material by every method, and by the least error.
-std::vector<WorkflowPictures> compared(const Studio& studio, const Run& run, const StudyMaterial& material) {
+std::vector<WorkflowPictures> compared(const Studio& studio, const WorkflowRun& run,
+                                       const StudyMaterial& material) {
   const Reflectances& maps = material.surface;
   const Reflectances shown = run.scaled ? scaled_surface(maps) : maps;
   const double alpha = studio.options.alphas[material.alpha];
@@ -118,7 +119,7 @@ std::vector<WorkflowPictures> compared(const Studio& studio, const Run& run, con
   return all;
 }
 
-WorkflowComparison comparison_of(const Studio& studio, const Run& run) {
+WorkflowComparison comparison_of(const Studio& studio, const WorkflowRun& run) {
   WorkflowComparison comparison{run.convention, {}, {}};
   for (const WorkflowMethod& method : run.methods) comparison.methods.push_back(method.name);
   comparison.methods.push_back(kLeastErrorMethod);
@@ -142,7 +143,7 @@ std::vector<std::size_t> sheet_rows(const std::vector<StudyMaterial>& materials)
   return rows;
 }
 
-void add_sheets(const Studio& studio, const Run& run, const WorkflowComparison& comparison,
+void add_sheets(const Studio& studio, const WorkflowRun& run, const WorkflowComparison& comparison,
                 WorkflowsResult* result) {
   const std::vector<StudyMaterial>& materials = studio.options.materials;
   const std::vector<std::size_t> rows = sheet_rows(materials);
@@ -228,8 +229,8 @@ WorkflowsResult study_workflows(const WorkflowsOptions& options) {
   const LitReflectances lit(options.environments, options.alphas, sampling);
   const Studio studio{options, lit};
   WorkflowsResult result;
-  const Run plain{"plain", false, plain_methods(options.learned), {remap::kCommonDielectricF0, 1.0}};
-  const Run gltf{
+  const WorkflowRun plain{"plain", false, plain_methods(options.learned), {remap::kCommonDielectricF0, 1.0}};
+  const WorkflowRun gltf{
       "gltf", true, gltf_methods(), {remap::kCommonDielectricF0, 1.0 - remap::kCommonDielectricF0}};
   result.comparisons.push_back(comparison_of(studio, plain));
   result.comparisons.push_back(comparison_of(studio, gltf));

@@ -25,7 +25,7 @@ using remap::ErrorKind;
 using remap::number_text;
 using remap::Range;
 
-constexpr int kSampleDigits = 9, kMatchDigits = 9, kErrorDigits = 6;
+constexpr int kRandomDigits = 9, kMatchDigits = 9, kMatchErrorDigits = 6;
 constexpr std::array kChannelSuffixes = {"_r", "_g", "_b"};
 
 // A source parameter that varies.
@@ -95,7 +95,7 @@ std::vector<std::vector<double>> draw(const MaterialSampleOptions& options,
       for (int c = 0; c < (parameter.color ? 3 : 1); ++c) {
         const double share = static_cast<double>(generator() >> 11) * 0x1p-53;
         const Range& range = parameter.range;
-        sample.push_back(remap::rounded(range.min + share * (range.max - range.min), kSampleDigits));
+        sample.push_back(remap::rounded(range.min + share * (range.max - range.min), kRandomDigits));
       }
   return samples;
 }
@@ -182,7 +182,7 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
   guesses.front().alpha = source_alpha(matching, material);
   for (const RoleValues& shares : JointMatcher::other_guesses()) guesses.push_back(matcher.point_of(shares));
   const JointMatch match = matcher.best_match(guesses);
-  return {sample, target_values(matching, match.points), remap::rounded(match.error, kErrorDigits),
+  return {sample, target_values(matching, match.points), remap::rounded(match.error, kMatchErrorDigits),
           match.status, 0};
 }
 

@@ -14,9 +14,9 @@ using remap::number_text;
 // The fewest random samples for each source column from which something can be learned.
 constexpr std::size_t kFewestRowsAColumn = 10;
 
-class Linter {
+class MaterialLinter {
  public:
-  explicit Linter(const MaterialTable& table) : table_(table) {}
+  explicit MaterialLinter(const MaterialTable& table) : table_(table) {}
 
   std::vector<Finding> run() {
     check_values();
@@ -90,6 +90,6 @@ class Linter {
 
 }  // namespace
 
-std::vector<Finding> check_material_table(const MaterialTable& table) { return Linter(table).run(); }
+std::vector<Finding> check_material_table(const MaterialTable& table) { return MaterialLinter(table).run(); }
 
 }  // namespace remapc

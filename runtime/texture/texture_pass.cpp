@@ -30,7 +30,7 @@ struct Band {
   std::vector<std::vector<std::byte>> maps;
 };
 
-bool same_storage(const ImageLayout& a, const ImageLayout& b) {
+bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) {
   return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
                     [](const Channel& x, const Channel& y) { return x.type == y.type; });
 }
@@ -162,7 +162,7 @@ int Pass::map_in_place(const Target& target) const {
   const auto is_constant = [](const TargetChannel& c) { return c.content == Content::kConstant; };
   if (std::any_of(channels.begin(), channels.end(), is_constant)) return -1;
   const auto follows = [&](std::size_t map) {
-    if (!same_storage(set_.maps[map].layout(), target.writer->layout())) return false;
+    if (!same_pixel_types(set_.maps[map].layout(), target.writer->layout())) return false;
     for (std::size_t c = 0; c < channels.size(); ++c)
       if (channels[c].content == Content::kCopy && channels[c].from != ChannelPlace{map, c}) return false;
     return true;

@@ -37,8 +37,9 @@ struct ModelDeleter {
 };
 
 // The samples as libsvm wants them: one list of (index, value) a sample, ended by index -1.
-struct Problem {
-  Problem(const SvrSamples& samples, const std::vector<remap::Scaling>& scalings) : outputs(samples.outputs) {
+struct OwnedProblem {
+  OwnedProblem(const SvrSamples& samples, const std::vector<remap::Scaling>& scalings)
+      : outputs(samples.outputs) {
     const std::size_t width = samples.input_count + 1;
     nodes.reserve(samples.count() * width);
     for (std::size_t i = 0; i < samples.count(); ++i) {
@@ -51,8 +52,8 @@ struct Problem {
     for (std::size_t i = 0; i < samples.count(); ++i) lists.push_back(&nodes[i * width]);
     problem = {static_cast<int>(samples.count()), outputs.data(), lists.data()};
   }
-  Problem(const Problem&) = delete;
-  Problem& operator=(const Problem&) = delete;
+  OwnedProblem(const OwnedProblem&) = delete;
+  OwnedProblem& operator=(const OwnedProblem&) = delete;
 
   std::vector<double> outputs;
   std::vector<svm_node> nodes;
@@ -111,7 +112,7 @@ std::optional<remap::KernelExpansion> train_expansion(const SvrSamples& samples,
   std::call_once(listening, [] { svm_set_print_string_function(listen); });
 
   const std::vector<remap::Scaling> scalings = input_scalings(samples, parameters);
-  const Problem problem(samples, scalings);
+  const OwnedProblem problem(samples, scalings);
   const svm_parameter settings = parameters_of(parameters);
   if (const char* refusal = svm_check_parameter(&problem.problem, &settings); refusal != nullptr)
     throw remap::Error(remap::ErrorKind::kUsage,
