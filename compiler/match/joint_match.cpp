@@ -17,8 +17,8 @@ using remap::Range;
 
 constexpr double kJointRivalError = 1.01;    // as in match.cpp
 constexpr double kJointRivalDistance = 0.1;  // relative difference of a parameter
-// A search ends at this relative change of the squared error. Rivals are only compared with the answer to 1
-// %, so they need less precision.
+// A search ends at this relative change of the squared error. Rivals are compared with the answer to one
+// percent only, so they need less precision.
 constexpr double kAnswerTolerance = 1e-10;
 constexpr double kRivalTolerance = 1e-7;
 constexpr double kJointSameError = 1e-4;  // smaller errors are rounding errors of pictures

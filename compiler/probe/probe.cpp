@@ -194,9 +194,9 @@ EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescr
   const double full = model.parameter(ParameterRole::kSpecular).range.max;
   const auto responds = [&](double alpha, double neighbour) {
     const Picture here = picture_taker.take(model, RoleValues{alpha, full, 0.0});
-    const Picture beside = picture_taker.take(model, RoleValues{neighbour, full, 0.0});
-    if (is_black(here) || is_black(beside)) return false;
-    return line_deviation(beside, here, 0.0, here) > picture_tolerance(model);
+    const Picture nearby = picture_taker.take(model, RoleValues{neighbour, full, 0.0});
+    if (is_black(here) || is_black(nearby)) return false;
+    return line_deviation(nearby, here, 0.0, here) > picture_tolerance(model);
   };
   // Bisects from a clamped end towards a width that is not clamped: the middle, or else the other end.
   const double middle = std::sqrt(alphas.min * alphas.max);

@@ -121,11 +121,11 @@ class ModelCheck {
       add("highlight", Verdict::kWrong, "the picture at full specular is black under a headlight");
       return;
     }
-    const double beside = brightest(front, true);
-    add("background", beside > 1e-6 * top ? Verdict::kWrong : Verdict::kGood,
-        beside > 1e-6 * top ? "pixels outside the sphere are up to " + number_text(beside) +
-                                  ", not 0: wrong field of view, or an environment"
-                            : "black");
+    const double outside = brightest(front, true);
+    add("background", outside > 1e-6 * top ? Verdict::kWrong : Verdict::kGood,
+        outside > 1e-6 * top ? "pixels outside the sphere are up to " + number_text(outside) +
+                                   ", not 0: wrong field of view, or an environment"
+                             : "black");
     const double rows = difference(front, flipped(front, true)),
                  columns = difference(front, flipped(front, false));
     const double uneven = model_.noise ? 0.0 : std::max(rows, columns);

@@ -46,12 +46,12 @@ void for_sphere(const Image& a, const Image& b, const Use& use) {
 
 }  // namespace
 
-double brightest(const Image& image, bool beside) {
+double brightest(const Image& image, bool outside) {
   const std::vector<float> cosines = view_cosines(image.width, 1);
   double most = 0.0;
   for (int row = 0; row < image.height; ++row)
     for (int column = 0; column < image.width; ++column)
-      if (!beside || cosines[static_cast<std::size_t>(row * image.width + column)] <= 0.0f)
+      if (!outside || cosines[static_cast<std::size_t>(row * image.width + column)] <= 0.0f)
         most = std::max(most, std::fabs(value(image, row, column)));
   return most;
 }

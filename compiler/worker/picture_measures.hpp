@@ -10,8 +10,8 @@
 
 namespace remapc {
 
-// Returns the largest value of the first channel; with `beside`, of the pixels that do not show the sphere.
-double brightest(const Image& image, bool beside = false);
+// Returns the largest value of the first channel; with `outside`, of the pixels that do not show the sphere.
+double brightest(const Image& image, bool outside = false);
 
 // The mean position of the light in x and y, from -1 (left, bottom) to 1; 0, 0 for a black picture.
 struct Centroid {
