@@ -14,6 +14,7 @@
 #include "model/fit_json.hpp"
 #include "study/environments_report.hpp"
 #include "study/lit_sphere.hpp"
+#include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 #include "sweep/image_file.hpp"
 #include "sweep/scene.hpp"
@@ -257,10 +258,8 @@ TEST_CASE("environment: files that are no map are refused with what was expected
 
 TEST_CASE("environment: maps of Blender are read") {
   const std::filesystem::path folder = "/usr/share/blender/datafiles/studiolights/world";
-  if (!std::filesystem::is_directory(folder)) {
-    std::cout << "skipped: Debian's blender-data is not installed\n";
-    return;
-  }
+  if (!std::filesystem::is_directory(folder))
+    return remap::skip("blender-data", "Debian's blender-data is not installed");
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".exr") CHECK(mean_luminance(load_environment(entry.path())) > 0.0);
 }
