@@ -15,5 +15,6 @@ for python in python3 /usr/bin/python3; do
     exec "$python" "$script" 512 "$folder/ggx.csv" "$folder/beckmann.csv"
   fi
 done
-echo "skipped: no python3 with NumPy (Debian: python3-numpy)"
+echo "skipped: numpy: no python3 with NumPy (Debian: python3-numpy)"
+[[ ,${REMAP_REQUIRE-}, == *,numpy,* ]] && exit 1
 exit 77
