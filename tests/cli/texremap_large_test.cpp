@@ -13,6 +13,9 @@ namespace {
 
 constexpr int kBand = 64;
 
+// For texremap, which takes 170 MB whatever the size. Half of the maps as floats would go beyond it.
+long most_megabytes() { return is_full_campaign() ? 300 : 220; }
+
 // Writes noise a band at a time.
 void write_large(const std::string& path, const std::vector<std::string>& channels, int size) {
   OIIO::ImageSpec spec = test_spec(size, size, channels, OIIO::TypeHalf);
@@ -51,7 +54,7 @@ class BandReader {
 
 }  // namespace
 
-TEST_CASE("texremap: large maps in 300 MB, equal to the converter texel by texel", "[.][large]") {
+TEST_CASE("texremap: large maps in bounded memory, equal to the converter texel by texel", "[.][large]") {
   // As floats, in and out: 512 MB, and 2 GB in a full campaign.
   const int size = is_full_campaign() ? 8192 : 4096;
   const Session session;
@@ -61,7 +64,7 @@ TEST_CASE("texremap: large maps in 300 MB, equal to the converter texel by texel
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
   WARN(result.errors << result.peak_kilobytes / 1024 << " MB at most");
-  CHECK(result.peak_kilobytes < 300 * 1024);
+  CHECK(result.peak_kilobytes < most_megabytes() * 1024);
 
   BandReader roughness(session.path("r.exr")), specular(session.path("s.exr"));
   BandReader roughness_out(session.path("out/r.exr")), specular_out(session.path("out/s.exr"));
@@ -79,7 +82,8 @@ TEST_CASE("texremap: large maps in 300 MB, equal to the converter texel by texel
   CHECK(different == 0);
 }
 
-TEST_CASE("texremap: large maps through a warp in 300 MB, equal to the warp in some rows", "[.][large]") {
+TEST_CASE("texremap: large maps through a warp in bounded memory, equal to the warp in some rows",
+          "[.][large]") {
   const Session session;
   const int side = is_full_campaign() ? 4096 : 2048;
   std::filesystem::create_directories(session.path("wood"));
@@ -97,7 +101,7 @@ TEST_CASE("texremap: large maps through a warp in 300 MB, equal to the warp in s
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
   WARN(result.errors << result.peak_kilobytes / 1024 << " MB at most");
-  CHECK(result.peak_kilobytes < 300 * 1024);
+  CHECK(result.peak_kilobytes < most_megabytes() * 1024);
 
   const auto reader = [&](const std::string& name) { return BandReader(session.path(name)); };
   BandReader diffuse = reader("wood/oak_diffuse.exr"), specular = reader("wood/oak_specular.exr"),
