@@ -10,8 +10,8 @@ constexpr std::size_t kUnits = 1000;
 
 }  // namespace
 
-ShareProgress::ShareProgress(const std::string& command, const std::string& subject)
-    : command_(command), progress_(command + " " + subject, kUnits) {
+ShareProgress::ShareProgress(const std::string& command, const std::string& probed_model)
+    : command_(command), progress_(command + " " + probed_model, kUnits) {
   remap::watch_interruptions();
 }
 

@@ -7,11 +7,11 @@
 
 namespace remapc {
 
-// Shows a progress line `<command> <subject>` while it exists, and makes SIGINT and SIGTERM stop the work.
+// Shows a progress line `<command> <probed_model>` while it exists, and makes SIGINT and SIGTERM stop the work.
 // Pass it by std::ref where a FitProgress is expected.
 class ShareProgress {
  public:
-  ShareProgress(const std::string& command, const std::string& subject);
+  ShareProgress(const std::string& command, const std::string& probed_model);
 
   // `share` of the work is finished, 0 to 1. Throws kInterrupted after a signal.
   void operator()(double share);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_tree.hpp"
+#include "support/skip.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -71,13 +72,13 @@ ProcessLimits ordinary_user() {
   return limits;
 }
 
-// Whether file modes apply to programs that the tests start. Warns if they do not.
+// Whether the modes of files hold for programs that the tests start. Else skips.
 bool permissions_hold(const Session& session) {
   const std::string file = session.path("unreadable");
   write_file(file, "");
   fs::permissions(file, fs::perms::none);
   if (run({"/bin/cat", file}, ordinary_user()).exit_code != 0) return true;
-  WARN("skipped: root reads and writes every file, and cannot be kept from it here");
+  skip("permissions", "root reads and writes every file, and cannot be kept from it here");
   return false;
 }
 
@@ -134,10 +135,7 @@ TEST_CASE("texremap: a missing last byte is noticed") {
 TEST_CASE("texremap: a full disk is reported and keeps the old results") {
   const Session session;
   const SmallDisk disk(session.path("out"), "size=200k");
-  if (!disk.is_mounted()) {
-    WARN("skipped: a file system cannot be mounted here");
-    return;
-  }
+  if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
   write_pair_of(session, "exr", 64);
   REQUIRE(session.convert("r.exr", "s.exr").exit_code == 0);
   const std::string before = read_file(session.path("out/r.exr"));
@@ -191,10 +189,7 @@ TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and 
 TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the others are complete") {
   const Tree tree;
   const SmallDisk disk(tree.path("out"), "size=100k");
-  if (!disk.is_mounted()) {
-    WARN("skipped: a file system cannot be mounted here");
-    return;
-  }
+  if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
   write_sets(tree, "exr", 512);
   // One set at a time: other sets would find the disk full while the large one fills it.
   const ProcessResult result = tree.convert_tree({"--json", "--threads", "1"});

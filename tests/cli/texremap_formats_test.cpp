@@ -6,6 +6,7 @@
 
 #include "cli/texremap_session.hpp"
 #include "support/shared_data.hpp"
+#include "support/skip.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -283,10 +284,7 @@ TEST_CASE("texremap: idiff finds the passed-through alpha unchanged") {
   write_image(session.path("s.png"), test_spec(kWidth, kHeight, kWithAlpha, OIIO::TypeUInt16), noise);
   REQUIRE(session.convert("r.png", "s.png").exit_code == 0);
   const std::string tool = REMAP_OIIOTOOL;
-  if (!fs::exists(tool)) {
-    WARN("skipped: oiiotool is not installed");
-    return;
-  }
+  if (!fs::exists(tool)) return skip("oiiotool", "not installed");
   const auto diff = [&](const std::string& channel) {
     return run({tool, "-iconfig", "oiio:UnassociatedAlpha", "1", session.path("s.png"), "--ch", channel,
                 session.path("out/s.png"), "--ch", channel, "--diff"});

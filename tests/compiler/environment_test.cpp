@@ -15,6 +15,8 @@
 #include "renderer/scene.hpp"
 #include "report/lit_sphere.hpp"
 #include "study/environments_report.hpp"
+#include "report/lit_sphere.hpp"
+#include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
 
@@ -257,10 +259,8 @@ TEST_CASE("environment: files that do not hold a map are refused") {
 
 TEST_CASE("environment: maps of Blender are read") {
   const std::filesystem::path folder = "/usr/share/blender/datafiles/studiolights/world";
-  if (!std::filesystem::is_directory(folder)) {
-    std::cout << "skipped: Debian's blender-data is not installed\n";
-    return;
-  }
+  if (!std::filesystem::is_directory(folder))
+    return remap::skip("blender-data", "Debian's blender-data is not installed");
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".exr") CHECK(mean_luminance(load_environment(entry.path())) > 0.0);
 }

@@ -13,6 +13,7 @@
 #include "fit/network/network_training.hpp"
 #include "model/evaluate.hpp"
 #include "support/build_speed.hpp"
+#include "support/skip.hpp"
 
 using namespace remapc;
 using Eigen::Index;
@@ -157,7 +158,7 @@ TEST_CASE("network training: six inputs and four outputs are learned by both opt
   const Samples seen = metallic_samples(kSlowBuild ? 400 : 1500, 1), unseen = metallic_samples(500, 2);
   for (const std::size_t units : {std::size_t{12}, std::size_t{60}}) {
     if (kSlowBuild && units > 12) {
-      std::cout << "skipped under a sanitizer: network of " << units << " units\n";
+      remap::skip("speed", "the large network trains too slowly under a sanitizer");
       continue;
     }
     TrainingOptions options;

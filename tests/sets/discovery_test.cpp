@@ -10,7 +10,7 @@
 #include "remap/error.hpp"
 #include "sets/set_session.hpp"
 #include "support/shared_data.hpp"
-#include "system/files.hpp"
+#include "support/skip.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;
@@ -206,7 +206,7 @@ TEST_CASE("find sets: an unreadable folder is a problem, the rest is found") {
   {
     const OrdinaryUser user;
     if (::access(session.root().c_str(), R_OK | X_OK) != 0 || ::geteuid() == 0) {
-      std::cout << "skipped: root reads every folder, and this process cannot be anybody else\n";
+      skip("permissions", "root reads every folder, and this process cannot be anybody else");
     } else {
       const Discovery found = session.find();
       CHECK(set_paths(found) == std::vector<std::string>{"a", "open/c"});

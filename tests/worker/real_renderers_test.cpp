@@ -1,15 +1,15 @@
-// Real renderers against the built-in hub. Tests of renderers that are not installed (scripts/renderers) are
-// skipped with a message. REMAP_REQUIRE_RENDERERS names those whose absence is a failure.
+// The proof: real renderers against the built-in hub. Skipped, with a message, where one is not installed
+// (scripts/renderers); REMAP_REQUIRE names those whose absence is a failure.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
+#include "support/skip.hpp"
 #include "sweep/sweep.hpp"
 #include "worker/renderer_set.hpp"
 #include "worker/worker_list.hpp"
@@ -24,19 +24,14 @@ WorkerSettings settings() {
   return settings;
 }
 
-bool is_required(const std::string& name) {
-  const char* required = std::getenv("REMAP_REQUIRE_RENDERERS");
-  return required != nullptr && std::string(required).find(name) != std::string::npos;
-}
-
-// Whether a model of the worker `name` can be rendered; prints the reason if not.
+// Where a model of the worker `name` can be rendered. Else skips.
 bool is_here(const RendererSet& renderers, const std::string& name, const std::string& model) {
   try {
     find_model(renderers, name + "/" + model);
     return true;
   } catch (const remap::Error& error) {
-    if (error.kind() != remap::ErrorKind::kInput || is_required(name)) throw;
-    std::cout << "skipped: " << error.what() << "\n";
+    if (error.kind() != remap::ErrorKind::kInput) throw;
+    remap::skip(name, error.what());
     return false;
   }
 }
