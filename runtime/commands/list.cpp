@@ -10,6 +10,7 @@
 #include "commands/commands.hpp"
 #include "commands/converter_text.hpp"
 #include "convert/path.hpp"
+#include "convert/shipped_converters.hpp"
 #include "error.hpp"
 #include "workflow/workflow_models.hpp"
 
@@ -47,7 +48,7 @@ void print_converter(const Converter& converter) {
 void list_converters(const ListOptions& options) {
   Json all = Json::array();
   std::string failed;
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     if (options.json)
       all.push_back(converter_json(*converter));
     else
@@ -61,7 +62,7 @@ void list_converters(const ListOptions& options) {
 
 // The two parameters of a model, as a converter to or from it knows them.
 ModelSide side_of(const std::string& model) {
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     if (converter->info().source.model == model) return converter->info().source;
     if (converter->info().target.model == model) return converter->info().target;
   }

@@ -1,4 +1,5 @@
 #include "convert/path.hpp"
+#include "convert/shipped_converters.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -176,7 +177,7 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
 
 ConverterGraph compiled_graph(InstructionSet set) {
   std::vector<const Converter*> converters;
-  for (const auto& converter : compiled_converters(set)) converters.push_back(converter.get());
+  for (const auto& converter : shipped_converters(set)) converters.push_back(converter.get());
   return ConverterGraph(std::move(converters), Detours::kRefused);
 }
 

@@ -6,6 +6,7 @@
 
 #include "cli/texremap_session.hpp"
 #include "convert/path.hpp"
+#include "convert/shipped_converters.hpp"
 #include "number_text.hpp"
 
 using namespace remap;
@@ -54,8 +55,8 @@ PathRequest missing_pair() {
 
 // The first path of two steps, the model between them given; empty names where there is none.
 PathRequest detour() {
-  for (const auto& first : compiled_converters())
-    for (const auto& second : compiled_converters()) {
+  for (const auto& first : shipped_converters())
+    for (const auto& second : shipped_converters()) {
       const ConverterInfo &a = first->info(), &b = second->info();
       if (a.target == b.source && a.source.model != b.target.model)
         return {a.source.model, b.target.model, {a.target.model}};

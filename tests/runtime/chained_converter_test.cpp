@@ -23,7 +23,8 @@ class InTurn final : public Converter {
   explicit InTurn(Steps steps) : Converter(steps.front()->info()), steps_(std::move(steps)) {}
 
   std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out) const override {
+                      float* roughness_out, std::span<float* const> specular_out,
+                      std::uint8_t* flags) const override {
     std::vector<bool> outside(count, false);
     std::vector<const float*> in(specular.begin(), specular.end());
     const float* width = roughness;
@@ -34,6 +35,7 @@ class InTurn final : public Converter {
       width = roughness_out;
       in.assign(specular_out.begin(), specular_out.end());
     }
+    if (flags != nullptr) std::copy(outside.begin(), outside.end(), flags);
     return static_cast<std::size_t>(std::count(outside.begin(), outside.end(), true));
   }
   bool self_test() const override { return true; }
