@@ -1,5 +1,5 @@
-// The domain rule as C++: the text of runtime/convert/code, which texremap runs over vectors of texels, with what it is
-// written over.
+// The domain rule as C++: the text of runtime/convert/code, which texremap runs over vectors of texels, with
+// what it is written over.
 #include "emit/block_code.hpp"
 
 #include "emit/code_text.hpp"
@@ -213,13 +213,12 @@ std::string block_code(const Fit& fit, const MappingCode& code) {
   std::string functions = mapping_functions(code, fit);
   if (!functions.empty()) functions.erase(0, 1);
   return std::string(kLanes) + rule(kDomainText) +
-         fill_template(kMapping,
-                       {{"in_roughness", std::string(remap::convention_name(fit.source.roughness))},
-                        {"in_specular", fit.source.specular},
-                        {"inverse_edge", literal(1.0 / remap::specular_range(fit).max)},
-                        {"to_alpha", to_alpha_code(fit.source.roughness)},
-                        {"from_alpha", from_alpha_code(fit.target.roughness)},
-                        {"functions", functions}}) +
+         fill_template(kMapping, {{"in_roughness", std::string(remap::convention_name(fit.source.roughness))},
+                                  {"in_specular", fit.source.specular},
+                                  {"inverse_edge", literal(1.0 / remap::specular_range(fit).max)},
+                                  {"to_alpha", to_alpha_code(fit.source.roughness)},
+                                  {"from_alpha", from_alpha_code(fit.target.roughness)},
+                                  {"functions", functions}}) +
          std::string(kCountOutside) + loops(code.form);
 }
 

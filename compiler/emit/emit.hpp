@@ -1,5 +1,5 @@
-// From a fit to C++: the generated header of one fit, and the data of all for texremap. Pure: the same fit and options
-// give the same bytes on every machine.
+// From a fit to C++: the generated header of one fit, and the data of all for texremap. Pure: the same fit
+// and options give the same bytes on every machine.
 #pragma once
 
 #include <string>

@@ -69,7 +69,7 @@ void choose_brdf(const ConvertOptions& options, const GivenFit& fit, Instruction
                                          ": is missing; expected --from and --to, or --fit");
     if (workflow.is_material() && workflow.source_brdf == workflow.target_brdf && options.via.empty()) return;
     chosen.path =
-        compiled_graph(set).find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
+        shipped_graph(set).find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
     if (chosen.path.steps.size() > 1) chosen.owned = make_chained_converter(chosen.path.steps);
   }
   chosen.brdf = chosen.owned ? chosen.owned.get() : chosen.path.steps.front();

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "commands/converters_option.hpp"
 #include "commands/workflow_choice.hpp"
 #include "error.hpp"
 #include "named_values.hpp"
@@ -144,6 +145,7 @@ void add_output_options(CLI::App& command, ConvertOptions& options) {
       "--output-encoding", options.output_encoding,
       "What the roughness results hold; the default is what --roughness-encoding or the name of the "
       "map says, else the target model's own");
+  add_converters_option(command);
   command.add_option("--mask", options.mask, "Name of a map to write as well: 1 for texels out of domain");
   command.add_option(
       "--residual", options.residual,

@@ -1,4 +1,4 @@
-// `texremap list`: the converters that were compiled in, and whether they still compute what they should; or
+// `texremap list`: the converters, and whether they still compute what they should; or
 // the models that they join.
 #include <cstdio>
 #include <iostream>
@@ -9,6 +9,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/converter_text.hpp"
+#include "commands/converters_option.hpp"
 #include "convert/path.hpp"
 #include "convert/shipped_converters.hpp"
 #include "error.hpp"
@@ -70,7 +71,7 @@ ModelSide side_of(const std::string& model) {
 }
 
 void list_models(const ListOptions& options) {
-  const ConverterGraph graph = compiled_graph();
+  const ConverterGraph graph = shipped_graph();
   Json all = Json::array();
   for (const std::string& model : graph.models()) {
     Json entry = side_json(side_of(model));
@@ -136,12 +137,13 @@ void list_workflows(const ListOptions& options) {
 
 void add_list_command(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
-  CLI::App* command = app.add_subcommand("list", "List the converters that are compiled in, or their models");
+  CLI::App* command = app.add_subcommand("list", "List the converters, or their models");
   command->add_flag("--models", options->models, "The models instead, and which others each one reaches");
   command->add_flag(
       "--workflows", options->workflows,
       "The workflows that have a name instead, with their conventions; every model of --models is "
       "one, too, by --from-workflow and --to-workflow");
+  add_converters_option(*command);
   command->add_flag("--json", options->json, "Machine-readable result on standard output");
   command->footer("Example:\n  texremap list --json\n  texremap list --workflows");
   command->callback([options] {

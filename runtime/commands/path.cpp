@@ -11,6 +11,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/converter_text.hpp"
+#include "commands/converters_option.hpp"
 #include "commands/workflow_choice.hpp"
 #include "convert/chained_converter.hpp"
 
@@ -126,7 +127,7 @@ void explain(const PathOptions& asked) {
       std::cout << Json{{"stages", stages}, {"path", Json::array()}, {"expected_error", 0.0}}.dump(2) << '\n';
     return;
   }
-  const ConverterGraph graph = compiled_graph();
+  const ConverterGraph graph = shipped_graph();
   const std::vector<ConverterPath> paths = graph.find_paths(options.request, kPathsShown);
   const ConverterInfo whole = make_chained_converter(paths.front().steps)->info();
   if (options.json)
@@ -147,6 +148,7 @@ void add_path_command(CLI::App& app) {
       ->add_option("--via", options->request.via,
                    "Model that the path must go through; give it again for more, in their order")
       ->allow_extra_args(false);
+  add_converters_option(*command);
   command->add_flag("--json", options->json, "Machine-readable result on standard output");
   command->footer(
       "Example:\n  texremap path --from mitsuba/ward --to mitsuba/as\n"

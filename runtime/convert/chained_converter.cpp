@@ -116,10 +116,10 @@ class ChainedConverter final : public Converter {
   }
 
  private:
-  // A texel is out of domain where it is for any step: `outside` gets their flags together. Steps write to two
-  // copies by turns, as what a step is given must stay while it runs.
-  void convert_block(std::size_t count, std::size_t channels, const ReadRows& given, const WrittenRows& result,
-                     std::uint8_t* outside) const {
+  // A texel is out of domain where it is for any step: `outside` gets their flags together. Steps write to
+  // two copies by turns, as what a step is given must stay while it runs.
+  void convert_block(std::size_t count, std::size_t channels, const ReadRows& given,
+                     const WrittenRows& result, std::uint8_t* outside) const {
     std::array<Between, 2> between;
     std::array<std::uint8_t, kBlock> of_step;
     ReadRows from = given;
@@ -130,7 +130,8 @@ class ChainedConverter final : public Converter {
           steps_[k]->convert(count, from.roughness, {from.specular.data(), channels}, to.roughness,
                              {to.specular.data(), channels}, of_step.data());
       if (outside_count > 0)
-        for (std::size_t i = 0; i < count; ++i) outside[i] = static_cast<std::uint8_t>(outside[i] | of_step[i]);
+        for (std::size_t i = 0; i < count; ++i)
+          outside[i] = static_cast<std::uint8_t>(outside[i] | of_step[i]);
       from = read(to);
     }
   }

@@ -1,5 +1,5 @@
-// A converter as the texture pass sees it: rows of planar floats in, rows of planar floats out. Behind it stand
-// polynomials that a fit was lowered to, or the interpreter.
+// A converter as the texture pass sees it: rows of planar floats in, rows of planar floats out. Behind it
+// stand polynomials that a fit was lowered to, or the interpreter.
 #pragma once
 
 #include <cstddef>
@@ -64,14 +64,16 @@ class Converter {
 // slower than the others.
 std::unique_ptr<Converter> make_interpreted_converter(Fit fit);
 
-// A converter of what `fit` is lowered to (lower/lower.hpp, tolerances of LoweringOptions). Takes up to a second to
-// make. Throws kNumeric where the mapping cannot be lowered.
-std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, InstructionSet set = best_instruction_set());
+// A converter of what `fit` is lowered to (lower/lower.hpp, tolerances of LoweringOptions). Takes up to a
+// second to make. Throws kNumeric where the mapping cannot be lowered.
+std::unique_ptr<Converter> make_lowered_converter(const Fit& fit,
+                                                  InstructionSet set = best_instruction_set());
 // The same, `lowered` being what lower() made of the fit.
 std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, const Lowered& lowered, InstructionSet set);
 
-// A converter that runs `data` as it is, at about the speed of its generated header and with the same bits. Throws
-// kNumeric for a domain that is empty or negative.
-std::unique_ptr<Converter> make_converter(const ConverterData& data, InstructionSet set = best_instruction_set());
+// A converter that runs `data` as it is, at about the speed of its generated header and with the same bits.
+// Throws kNumeric for a domain that is empty or negative.
+std::unique_ptr<Converter> make_converter(const ConverterData& data,
+                                          InstructionSet set = best_instruction_set());
 
 }  // namespace remap

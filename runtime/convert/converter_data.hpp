@@ -1,4 +1,5 @@
-// A converter of width and specular as data: what texremap needs of a fit, and the file that holds it for many.
+// A converter of width and specular as data: what texremap needs of a fit, and the file that holds it for
+// many.
 #pragma once
 
 #include <optional>
@@ -11,8 +12,8 @@
 
 namespace remap {
 
-// A texel and what the fit gives for it in double precision, with the error that a converter may have. Width and
-// specular are the models' own parameters.
+// A texel and what the fit gives for it in double precision, with the error that a converter may have. Width
+// and specular are the models' own parameters.
 struct GoldenTexel {
   float width = 0.0f, specular = 0.0f;
   float width_out = 0.0f, specular_out = 0.0f;
@@ -20,8 +21,8 @@ struct GoldenTexel {
   bool operator==(const GoldenTexel&) const = default;
 };
 
-// Texels over and beyond the domain of the fit, with its edges. The errors are bounds of target alpha and, within the
-// domain, of target specular.
+// Texels over and beyond the domain of the fit, with its edges. The errors are bounds of target alpha and,
+// within the domain, of target specular.
 std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, double specular_error);
 
 struct ConverterData {
@@ -38,7 +39,8 @@ struct ConverterData {
 // What `lowered` makes of `fit`.
 ConverterData converter_data(const Fit& fit, const Lowered& lowered);
 
-// A file of converters, in the order given: the same converters give the same bytes, and floats are read back exactly.
+// A file of converters, in the order given: the same converters give the same bytes, and floats are read back
+// exactly.
 std::string converters_to_json(const std::vector<ConverterData>& converters);
 // Throws kInput, opened by `place`, for anything else than such a file.
 std::vector<ConverterData> converters_from_json(std::string_view text, const std::string& place);

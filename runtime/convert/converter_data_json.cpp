@@ -30,8 +30,8 @@ Json optional_json(const std::optional<double>& value) { return value ? Json(*va
 
 // The coefficients of a cell and a power a line.
 std::string polynomial_text(const PiecewisePolynomial& polynomial) {
-  Json head = {{"pole", decimal(polynomial.pole)},     {"scale", decimal(polynomial.scale)},
-               {"start", decimal(polynomial.start)},   {"middle", decimal(polynomial.middle)},
+  Json head = {{"pole", decimal(polynomial.pole)},    {"scale", decimal(polynomial.scale)},
+               {"start", decimal(polynomial.start)},  {"middle", decimal(polynomial.middle)},
                {"cell_count", polynomial.cell_count}, {"degrees", polynomial.degrees}};
   std::string text = head.dump();
   text.back() = ',';
@@ -88,8 +88,9 @@ float read_float(const Field& field) {
 
 int read_whole(const Field& field, std::int64_t least, std::int64_t most) {
   const Json& json = field.json();
-  field.require(json.is_number_integer() && json.get<std::int64_t>() >= least && json.get<std::int64_t>() <= most,
-                "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  field.require(
+      json.is_number_integer() && json.get<std::int64_t>() >= least && json.get<std::int64_t>() <= most,
+      "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return static_cast<int>(json.get<std::int64_t>());
 }
 
@@ -111,7 +112,8 @@ PiecewisePolynomial read_polynomial(const Field& field) {
   for (std::size_t line = 0; line < line_count; ++line) {
     const auto count = static_cast<std::size_t>(polynomial.degrees[line % powers] + 1);
     const Field numbers = lines.at(line, line_count);
-    for (std::size_t k = 0; k < count; ++k) polynomial.coefficients.push_back(read_float(numbers.at(k, count)));
+    for (std::size_t k = 0; k < count; ++k)
+      polynomial.coefficients.push_back(read_float(numbers.at(k, count)));
   }
   return polynomial;
 }
@@ -145,8 +147,9 @@ ConverterData read_converter(const Field& field) {
 }  // namespace
 
 std::string converters_to_json(const std::vector<ConverterData>& converters) {
-  std::string text = "{\n  \"format\": \"remap-converters\",\n  \"version\": " + std::to_string(kFormatVersion) +
-                     ",\n  \"converters\": [";
+  std::string text =
+      "{\n  \"format\": \"remap-converters\",\n  \"version\": " + std::to_string(kFormatVersion) +
+      ",\n  \"converters\": [";
   const char* separator = "\n";
   for (const ConverterData& data : converters) {
     text += separator + converter_text(data);

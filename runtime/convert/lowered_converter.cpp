@@ -69,8 +69,8 @@ class DataConverter final : public Converter {
                       float* roughness_out, std::span<float* const> specular_out,
                       std::uint8_t* outside) const override {
     if (specular.size() != 1 && specular.size() != 3)
-      throw Error(ErrorKind::kUsage,
-                  "converter: got " + std::to_string(specular.size()) + " specular channels; expected 1 or 3");
+      throw Error(ErrorKind::kUsage, "converter: got " + std::to_string(specular.size()) +
+                                         " specular channels; expected 1 or 3");
     TexelRows rows{count, specular.size(), roughness, {}, roughness_out, {}, outside};
     for (std::size_t c = 0; c < specular.size(); ++c) {
       rows.specular[c] = specular[c];
@@ -102,18 +102,25 @@ class DataConverter final : public Converter {
     Row roughness, specular;
     for (std::size_t i = 0; i < kCount; ++i) {
       const float share = static_cast<float>(i) / (kCount - 1), other = static_cast<float>(i % 17) / 16.0f;
-      roughness[i] = pass_.roughness_min + (1.2f * share - 0.1f) * (pass_.roughness_max - pass_.roughness_min);
+      roughness[i] =
+          pass_.roughness_min + (1.2f * share - 0.1f) * (pass_.roughness_max - pass_.roughness_min);
       specular[i] = pass_.specular_max * 1.2f * other;
     }
     const auto run = [&](LoweredKernel kernel, std::size_t channels) {
       std::array<Row, 4> results{};
       const float* in = specular.data();
-      kernel(pass_, {kCount, channels, roughness.data(), {in, in, in}, results[0].data(),
-                     {results[1].data(), results[2].data(), results[3].data()}, nullptr});
+      kernel(pass_, {kCount,
+                     channels,
+                     roughness.data(),
+                     {in, in, in},
+                     results[0].data(),
+                     {results[1].data(), results[2].data(), results[3].data()},
+                     nullptr});
       return results;
     };
     for (const std::size_t channels : {1u, 3u}) {
-      const auto found = run(kernel_, channels), expected = run(lowered_kernel(InstructionSet::kBaseline), channels);
+      const auto found = run(kernel_, channels),
+                 expected = run(lowered_kernel(InstructionSet::kBaseline), channels);
       if (std::memcmp(&found, &expected, sizeof found) != 0) return false;
     }
     return true;
@@ -136,7 +143,8 @@ std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, InstructionSet
   return make_lowered_converter(fit, lower(fit.mapping, fit.domain), set);
 }
 
-std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, const Lowered& lowered, InstructionSet set) {
+std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, const Lowered& lowered,
+                                                  InstructionSet set) {
   return make_converter(converter_data(fit, lowered), set);
 }
 

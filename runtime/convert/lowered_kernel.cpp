@@ -22,14 +22,9 @@ OwnedPolynomialRows::OwnedPolynomialRows(const PiecewisePolynomial& polynomial)
 }
 
 PolynomialRows OwnedPolynomialRows::rows() const {
-  return {shape_.pole,
-          shape_.scale,
-          shape_.start,
-          shape_.middle,
-          shape_.cell_count,
-          static_cast<int>(shape_.degrees.size()),
-          shape_.degrees.data(),
-          numbers_.data()};
+  return {shape_.pole,           shape_.scale,      shape_.start,
+          shape_.middle,         shape_.cell_count, static_cast<int>(shape_.degrees.size()),
+          shape_.degrees.data(), numbers_.data()};
 }
 
 LoweredKernel lowered_kernel(InstructionSet set) {

@@ -1,9 +1,9 @@
 #include "convert/path.hpp"
-#include "convert/shipped_converters.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "convert/shipped_converters.hpp"
 #include "error.hpp"
 #include "nearest_name.hpp"
 
@@ -175,7 +175,7 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
                                      "path without a cycle");
 }
 
-ConverterGraph compiled_graph(InstructionSet set) {
+ConverterGraph shipped_graph(InstructionSet set) {
   std::vector<const Converter*> converters;
   for (const auto& converter : shipped_converters(set)) converters.push_back(converter.get());
   return ConverterGraph(std::move(converters), Detours::kRefused);

@@ -55,8 +55,9 @@ std::vector<ConverterData> load_data() {
   std::vector<ConverterData> data =
       path.empty() ? converters_from_json(shipped_text(), "converters.json") : read_converters(path);
   if (data.empty())
-    throw Error(ErrorKind::kInput, path.string() + ": holds no converter (name a file of `remapc emit --all`, a fit or "
-                                                   "a folder of fits)");
+    throw Error(ErrorKind::kInput, path.string() +
+                                       ": holds no converter (name a file of `remapc emit --all`, a fit or "
+                                       "a folder of fits)");
   std::sort(data.begin(), data.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return data;
 }
@@ -71,8 +72,9 @@ ConverterVector make_converters(InstructionSet set) {
 
 void use_converters(const fs::path& path) {
   if (!fs::exists(path))
-    throw Error(ErrorKind::kInput, path.string() + ": does not exist (name a file of converters, a fit or a folder "
-                                                   "of fits)");
+    throw Error(ErrorKind::kInput, path.string() +
+                                       ": does not exist (name a file of converters, a fit or a folder "
+                                       "of fits)");
   chosen_path() = path;
 }
 

@@ -1,5 +1,5 @@
-// The converters that a program has without being given a fit: those of generated/converters.json, which is part of the
-// library, or of a file that a user names instead.
+// The converters that a program has without being given a fit: those of generated/converters.json, which is
+// part of the library, or of a file that a user names instead.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@
 
 namespace remap {
 
-// Reads converters from `path` instead: a file as `remapc emit --all` writes it, a fit, or a folder of fits. Call it
-// before anything else of this header, from one thread. Throws kInput.
+// Reads converters from `path` instead: a file as `remapc emit --all` writes it, a fit, or a folder of fits.
+// Call it before anything else of this header, from one thread. Throws kInput.
 void use_converters(const std::filesystem::path& path);
 
 // The data of every shipped converter, in the order of their ids.

@@ -53,8 +53,8 @@ class WarpConverter final : public MaterialConverter {
     return is_color(parameter) ? 3 : 1;
   }
 
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in,
-                      const MaterialRows<float>& out, std::uint8_t* outside) const override {
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
+                      std::uint8_t* outside) const override {
     const auto block = to_specular_ ? std::make_unique<Block>() : nullptr;
     std::size_t outside_count = 0;
     for (std::size_t start = 0; start < count; start += kBlock) {

@@ -112,8 +112,8 @@ class WorkflowConverter final : public MaterialConverter {
   std::size_t target_channels(Parameter parameter, std::size_t) const override {
     return is_color(parameter) ? 3 : 1;
   }
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in,
-                      const MaterialRows<float>& out, std::uint8_t* outside) const override;
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
+                      std::uint8_t* outside) const override;
 
  private:
   SpecularBlock read(std::size_t count, std::size_t start, const MaterialRows<const float>& in,

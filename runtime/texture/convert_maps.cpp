@@ -64,7 +64,7 @@ class SegmentRows {
 struct Scratch {
   SegmentRows source, target;
   std::array<std::uint8_t, kSegment> outside;  // what a mask is written from
-  FloatRow first, other;       // copies of one value; what is stored
+  FloatRow first, other;                       // copies of one value; what is stored
   FloatRow coverage;
 };
 

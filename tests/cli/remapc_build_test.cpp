@@ -137,7 +137,7 @@ TEST_CASE("remapc build: what vanished from the manifest is told, and removed wh
        {"fits/" + id + ".json", "fits/tables/" + id + ".csv", "generated/" + id + ".hpp"})
     CHECK_FALSE(std::filesystem::exists(session.path(file)));
   CHECK(read_file(session.path("fits/README.md")).find(id + ".json") == std::string::npos);
-  CHECK(read_file(session.path("generated/registry.hpp")).find(id + ".hpp") == std::string::npos);
+  CHECK(read_file(session.path("generated/converters.json")).find("\"" + id + "\"") == std::string::npos);
 }
 
 TEST_CASE("remapc build: a manifest that is wrong is refused with the place") {

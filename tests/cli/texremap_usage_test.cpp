@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
+#include "convert/shipped_converters.hpp"
 #include "model/fit_json.hpp"
 #include "support/example_fit.hpp"
 

@@ -1,13 +1,13 @@
 // Converters behind their interface: the compiled ones against their fits' domain, the interpreted one
 // against the interpreter.
 #include "convert/converter.hpp"
-#include "convert/shipped_converters.hpp"
 
 #include <array>
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
+#include "convert/shipped_converters.hpp"
 #include "error.hpp"
 #include "model/interpreter.hpp"
 #include "runtime/texel_rows.hpp"

@@ -1,6 +1,5 @@
 // Paths through graphs of converters that only say what they are: against every path there is, and refusals.
 #include "convert/path.hpp"
-#include "convert/shipped_converters.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "convert/shipped_converters.hpp"
 #include "error.hpp"
 
 using namespace remap;
@@ -268,7 +268,7 @@ TEST_CASE("path: an unknown model is answered with the nearest") {
 TEST_CASE("path: of what ships, one step is what one converter gives") {
   for (const auto& converter : shipped_converters()) {
     const ConverterInfo& info = converter->info();
-    const auto paths = compiled_graph().find_paths({info.source.model, info.target.model, {}});
+    const auto paths = shipped_graph().find_paths({info.source.model, info.target.model, {}});
     CHECK(paths.front().steps.size() == 1);
     if (info.image_rms_error) CHECK(paths.front().steps.front()->info().id == info.id);
     CHECK(path_models(paths.front()).front() == info.source.model);

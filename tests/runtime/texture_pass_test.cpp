@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "convert/shipped_converters.hpp"
 #include "error.hpp"
 #include "support/example_fit.hpp"
 #include "support/temporary_folder.hpp"
