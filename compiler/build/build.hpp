@@ -1,4 +1,4 @@
-// From a manifest to tables, fits, headers, their registry and the report: only what is not there yet.
+// From a manifest to tables, fits, headers, the data of all converters and the report: only what is not there yet.
 #pragma once
 
 #include <atomic>
@@ -41,7 +41,7 @@ struct BuildResult {
 };
 
 // Makes every item of `manifest` whose recipe changed, whose inputs changed, or whose files are not those
-// that the last build left; then the registry of all fits in the folder, and the report. Items are
+// that the last build left; then the data of all converters of the folder, and the report. Items are
 // independent of each other but for their inputs: each is swept and fitted by one thread. Throws what
 // sweeping, fitting and lowering throw, opened by the item's id; what other items made stays. Where a
 // renderer is not here, even `force` keeps a table that was made by the same recipe; without one it is an
