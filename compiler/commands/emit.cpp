@@ -54,15 +54,25 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
   code.lowering.alpha_tolerance = options.tolerance;
   code.lowering.specular_tolerance = 10.0 * options.tolerance;
   std::vector<GeneratedFile> files;
-  for (const remap::Fit& fit : chosen.fits)
-    files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit, code)});
+  std::vector<remap::ConverterData> converters;
+  for (const remap::Fit& fit : chosen.fits) {
+    const auto header = [&](const std::string& text) {
+      files.push_back({options.output / (fit.id + ".hpp"), text});
+    };
+    if (code.exact) {
+      header(emit_header(fit, code));
+      if (!options.all) continue;
+    }
+    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain, code.lowering);
+    if (!code.exact) header(emit_lowered_header(fit, lowered));
+    converters.push_back(remap::converter_data(fit, lowered));
+  }
   for (const remap::WorkflowFit& fit : chosen.analytic)
     files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
   for (const remap::WarpMapFit& fit : chosen.warps)
     files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
   if (options.all)
-    files.push_back(
-        {options.output / "registry.hpp", emit_registry(chosen.fits, chosen.analytic, chosen.warps)});
+    files.push_back({options.output / kConverterListName, emit_converter_list(std::move(converters))});
   return files;
 }
 
@@ -111,12 +121,12 @@ void run(const EmitCommand& options) {
 
 void add_emit_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "emit", "Write the C++ headers of fits, or of all fits together with their registry");
+      "emit", "Write the C++ headers of fits, or of all fits together with the data of texremap");
   command->group(kCompileStage);
   auto options = std::make_shared<EmitCommand>();
   command->add_option("fits", options->fits, "Fits: files, or ids in the folder of fits");
   command->option_defaults()->group("Input");
-  command->add_flag("--all", options->all, "Emit every fit of the folder, and registry.hpp");
+  command->add_flag("--all", options->all, "Emit every fit of the folder, and converters.json");
   command->add_option("--fits", options->fit_folder, "Folder of fits")
       ->type_name("FOLDER")
       ->capture_default_str();

@@ -30,6 +30,15 @@ namespace fs = std::filesystem;
 using remap::Error;
 using remap::ErrorKind;
 
+// Whether the file of converters has one for each fit of the folder.
+bool lists(const fs::path& path, const FitFolder& folder) {
+  if (!fs::is_regular_file(path)) return false;
+  const auto listed = remap::converters_from_json(remap::read_file(path), path.string());
+  return std::equal(
+      listed.begin(), listed.end(), folder.fits.begin(), folder.fits.end(),
+      [](const remap::ConverterData& data, const remap::Fit& fit) { return data.id == fit.id; });
+}
+
 class Builder {
  public:
   Builder(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
@@ -60,7 +69,7 @@ class Builder {
       waiting = later;
     }
     const FitFolder folder = load_fit_folder(folders_.fits);
-    write_registry(folder);
+    write_converters(folder);
     write_report(folder);
     if (lock_ != load_lock(folders_.fits)) save_lock(folders_.fits, lock_);
     std::sort(built_.begin(), built_.end(),
@@ -263,12 +272,16 @@ class Builder {
     return composed_fit(steps, id);
   }
 
-  void write_registry(const FitFolder& folder) const {
-    // Warps are made from textures and strokes, so no item of a manifest makes one.
+  void write_converters(const FitFolder& folder) const {
+    // Warps are made from textures and strokes, so no item of a manifest is one.
     for (const remap::WarpMapFit& fit : folder.warps)
       write_changed(paths_of(folders_, fit.id).header, emit_header(fit));
-    write_changed(folders_.generated / "registry.hpp",
-                  emit_registry(folder.fits, folder.analytic, folder.warps));
+    const fs::path path = folders_.generated / kConverterListName;
+    if (built_.empty() && lists(path, folder)) return;
+    std::vector<remap::ConverterData> converters;
+    for (const remap::Fit& fit : folder.fits)
+      converters.push_back(remap::converter_data(fit, remap::lower(fit.mapping, fit.domain)));
+    write_changed(path, emit_converter_list(std::move(converters)));
   }
 
   // The report takes a second to compute, so it is written only if it changed.
@@ -325,6 +338,8 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
   if (!has_report(folders, lock))
     reasons.push_back((folders.fits / kReportName).string() + ": out of date with the fits of the folder");
   const FitFolder folder = load_fit_folder(folders.fits);
+  if (const fs::path list = folders.generated / kConverterListName; !lists(list, folder))
+    reasons.push_back(list.string() + ": does not list the converters of these fits");
   for (const remap::WarpMapFit& fit : folder.warps) {
     const fs::path header = paths_of(folders, fit.id).header;
     if (!fs::exists(header) || remap::read_file(header) != emit_header(fit))

@@ -1,5 +1,5 @@
-// Builds what a manifest describes: tables, fits, headers, their registry and the report. Only what is
-// missing or out of date is made.
+// Builds what a manifest describes: tables, fits, headers, the data of all converters and the report. Only
+// what is missing or out of date is made.
 #pragma once
 
 #include <atomic>

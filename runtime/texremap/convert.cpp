@@ -65,7 +65,7 @@ void choose_brdf(const ConvertOptions& options, const GivenFit& fit, Instruction
                   std::string(options.from.empty() ? "--from" : "--to") + " is required (or --fit)");
     if (workflow.is_material() && workflow.source_brdf == workflow.target_brdf && options.via.empty()) return;
     chosen.path =
-        compiled_graph(set).find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
+        shipped_graph(set).find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
     if (chosen.path.steps.size() > 1) chosen.owned = make_chained_converter(chosen.path.steps);
   }
   chosen.brdf = chosen.owned ? chosen.owned.get() : chosen.path.steps.front();

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "remap/error.hpp"
+#include "texremap/converters_option.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remap {
@@ -39,12 +40,13 @@ void add_source_options(CLI::App& command, ConvertOptions& options) {
       {{"DIR", &O::folder, "", "Folder of texture sets, found by the names of their maps"},
        {"--from", &O::from, "MODEL", "Source model, e.g. mitsuba/ward"},
        {"--to", &O::to, "MODEL", "Target model, e.g. mitsuba/as"},
-       {"--fit", &O::fit, "FILE", "Convert by this fit (JSON) instead of a compiled converter"},
+       {"--fit", &O::fit, "FILE", "Convert by this fit (JSON) instead of a shipped converter"},
        {"-r,--recursive", &O::recursive, "", "Convert the subfolders of DIR, too; results mirror the tree"}});
   command.add_option("--via", options.via, "Model that the path must pass through; repeatable, in order")
       ->allow_extra_args(false)
       ->excludes("--fit")
       ->type_name("MODEL");
+  add_converters_option(command);
 }
 
 // The footer of the command explains the value MAP.

@@ -6,7 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "commands/commands.hpp"
+#include "commands/converters_option.hpp"
 #include "convert/path.hpp"
+#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
@@ -46,7 +49,7 @@ void print_converter(const Converter& converter) {
 void list_converters(const ListOptions& options) {
   Json all = Json::array();
   std::string failed;
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     if (options.json)
       all.push_back(converter_json(*converter));
     else
@@ -60,7 +63,7 @@ void list_converters(const ListOptions& options) {
 
 // The two parameters of a model, as given by a converter from or to it.
 ModelSide side_of(const std::string& model) {
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     if (converter->info().source.model == model) return converter->info().source;
     if (converter->info().target.model == model) return converter->info().target;
   }
@@ -68,7 +71,7 @@ ModelSide side_of(const std::string& model) {
 }
 
 void list_models(const ListOptions& options) {
-  const ConverterGraph graph = compiled_graph();
+  const ConverterGraph graph = shipped_graph();
   Json all = Json::array();
   for (const std::string& model : graph.models()) {
     Json entry = side_json(side_of(model));
@@ -138,6 +141,7 @@ void add_list_command(CLI::App& app) {
   command->add_flag("--workflows", options->workflows,
                     "List the named workflows with their conventions. `convert` combines other models with a "
                     "workflow by --from-workflow and --to-workflow");
+  add_converters_option(*command);
   command->add_flag("--json", options->json, "Print JSON");
   command->footer("Example:\n  texremap list --json\n  texremap list --workflows");
   command->callback([options] {

@@ -12,6 +12,7 @@
 #include "convert/chained_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
+#include "texremap/converters_option.hpp"
 #include "texremap/workflow_choice.hpp"
 
 namespace remap {
@@ -126,7 +127,7 @@ void explain(const PathOptions& asked) {
       std::cout << Json{{"stages", stages}, {"path", Json::array()}, {"expected_error", 0.0}}.dump(2) << '\n';
     return;
   }
-  const ConverterGraph graph = compiled_graph();
+  const ConverterGraph graph = shipped_graph();
   const std::vector<ConverterPath> paths = graph.find_paths(options.request, kPathsShown);
   const ConverterInfo whole = make_chained_converter(paths.front().steps)->info();
   if (options.json)
@@ -151,6 +152,7 @@ void add_path_command(CLI::App& app) {
                    "Model that the path must pass through; repeatable, in order")
       ->allow_extra_args(false)
       ->type_name("MODEL");
+  add_converters_option(*command);
   command->add_flag("--json", options->json, "Print JSON");
   command->footer(
       "Example:\n  texremap path --from mitsuba/ward --to mitsuba/as\n"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "convert/path.hpp"
+#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
 
@@ -19,7 +20,7 @@ std::optional<WorkflowKind> kind_named(const std::string& option, const std::str
 // The roughness parameter of a model of the graph. An unknown model is refused later, by the search for a
 // path.
 RoughnessConvention width_of_brdf(const std::string& model) {
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     if (converter->info().source.model == model) return converter->info().source.roughness;
     if (converter->info().target.model == model) return converter->info().target.roughness;
   }

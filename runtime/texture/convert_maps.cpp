@@ -64,8 +64,8 @@ class SegmentRows {
 // The parameters of one segment as rows of floats.
 struct Scratch {
   SegmentRows source, target;
-  SegmentRows given, ignored;  // inputs and outputs of the search for a mask
-  FloatRow first, other;       // copies of one value; what is stored
+  std::array<std::uint8_t, kSegment> outside;  // what a mask is written from
+  FloatRow first, other;                       // copies of one value; what is stored
   FloatRow coverage;
 };
 
@@ -86,7 +86,7 @@ class Conversion {
   void meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
   [[noreturn]] void fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const;
   void clamp_bad(std::size_t count, Scratch& scratch) const;
-  void write_mask(const Segment& segment, std::size_t begin, std::size_t end, Scratch& scratch) const;
+  void write_mask(const Segment& segment, Scratch& scratch) const;
   std::size_t store_parameter(const TargetParameter& parameter, std::size_t channel, const Segment& segment,
                               const float* values, FloatRow& stored) const;
   void store_targets(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
@@ -292,21 +292,9 @@ void Conversion::clamp_bad(std::size_t count, Scratch& scratch) const {
   }
 }
 
-// The converter only counts texels outside. A part is halved and converted again until all or none are
-// outside.
-void Conversion::write_mask(const Segment& segment, std::size_t begin, std::size_t end,
-                            Scratch& scratch) const {
-  const std::size_t count = end - begin;
-  const std::size_t outside =
-      converter_.convert(count, scratch.given.all<const float>(begin), scratch.ignored.all<float>());
-  if (outside > 0 && outside < count) {
-    const std::size_t middle = begin + count / 2;
-    write_mask(segment, begin, middle, scratch);
-    write_mask(segment, middle, end, scratch);
-    return;
-  }
-  std::fill_n(scratch.other.data(), count, outside > 0 ? 1.0f : 0.0f);
-  store(*maps_.mask, {segment.x + begin, segment.y, count}, scratch.other.data());
+void Conversion::write_mask(const Segment& segment, Scratch& scratch) const {
+  for (std::size_t i = 0; i < segment.count; ++i) scratch.other[i] = scratch.outside[i] != 0 ? 1.0f : 0.0f;
+  store(*maps_.mask, segment, scratch.other.data());
 }
 
 std::size_t Conversion::store_parameter(const TargetParameter& parameter, std::size_t channel,
@@ -356,19 +344,14 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
   change_convention(maps_.source_convention.value_or(info.source.roughness), info.source.roughness,
                     {scratch.source.row(Parameter::kWidth, 0), count});
   if (maps_.bad_texels == BadTexels::kClamp) clamp_bad(count, scratch);
-  if (maps_.mask) scratch.given = scratch.ignored = scratch.source;
 
   const std::size_t specular = scratch.source.count(Parameter::kSpecular);
   for (const Parameter parameter : converter_.targets())
     if (is_made(parameter)) scratch.target.make(parameter, converter_.target_channels(parameter, specular));
   statistics.out_of_domain_count +=
-      converter_.convert(count, scratch.source.all<const float>(), scratch.target.all<float>());
-  if (maps_.mask) {
-    for (const Parameter parameter : converter_.targets())
-      if (!is_measure(parameter))
-        scratch.ignored.make(parameter, converter_.target_channels(parameter, specular));
-    write_mask(segment, 0, count, scratch);
-  }
+      converter_.convert(count, scratch.source.all<const float>(), scratch.target.all<float>(),
+                         maps_.mask ? scratch.outside.data() : nullptr);
+  if (maps_.mask) write_mask(segment, scratch);
   if (converter_.can_diagnose() && maps_.metallic_statistics)
     statistics.metallic += statistics_of(count, {{segment.x, maps_.first_row + segment.y},
                                                  scratch.target.row(Parameter::kResidual, 0),

@@ -150,7 +150,7 @@ TEST_CASE("remapc build: items that left the manifest are reported, and removed 
        {"fits/" + id + ".json", "fits/tables/" + id + ".csv", "generated/" + id + ".hpp"})
     CHECK_FALSE(std::filesystem::exists(session.path(file)));
   CHECK(read_file(session.path("fits/README.md")).find(id + ".json") == std::string::npos);
-  CHECK(read_file(session.path("generated/registry.hpp")).find(id + ".hpp") == std::string::npos);
+  CHECK(read_file(session.path("generated/converters.json")).find("\"" + id + "\"") == std::string::npos);
 }
 
 TEST_CASE("remapc build: a faulty manifest is refused with the place") {

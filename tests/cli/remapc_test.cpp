@@ -26,7 +26,7 @@ TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") 
   CHECK(load_fit(fit).table.comments.at("objective") == "natural");
   REQUIRE(session.remapc({"emit", "--all", "--fits", session.path("fits"), "-o", session.path("generated")})
               .exit_code == 0);
-  CHECK(fs::exists(session.path("generated/registry.hpp")));
+  CHECK(fs::exists(session.path("generated/converters.json")));
   result = session.remapc({"eval", fit, session.path("t.csv"), "--json"});
   CHECK(result.exit_code == 0);
   CHECK(result.output.find("\"rows\": 36") != std::string::npos);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
+#include "convert/shipped_converters.hpp"
 #include "fit_file/fit_json.hpp"
 #include "support/example_fit.hpp"
 
@@ -34,7 +35,7 @@ TEST_CASE("texremap: help, version and list answer on standard output") {
   }
   CHECK_THAT(session.texremap({"list"}).output, Contains("mitsuba_ward_to_mitsuba_as"));
   const auto json = nlohmann::json::parse(session.texremap({"list", "--json"}).output);
-  REQUIRE(json.size() == compiled_converters().size());
+  REQUIRE(json.size() == shipped_converters().size());
   CHECK(json[0]["self_test"] == true);
   CHECK(json[0]["source"]["model"].is_string());
 }

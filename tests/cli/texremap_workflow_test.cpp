@@ -9,6 +9,7 @@
 
 #include "cli/texremap_session.hpp"
 #include "convert/material_rows.hpp"
+#include "convert/shipped_converters.hpp"
 #include "support/skip.hpp"
 #include "workflow/conversion.hpp"
 #include "workflow/diagnosis.hpp"
