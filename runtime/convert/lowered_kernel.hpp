@@ -12,9 +12,6 @@
 
 namespace remap {
 
-// Powers of specular that a polynomial of a pass may have, 0 included.
-inline constexpr std::size_t kMostPowers = 16;
-
 // A piecewise polynomial as rows of texels read it.
 struct PolynomialRows {
   float pole = 0.0f, scale = 1.0f, start = 0.0f, middle = 0.0f;  // as in PiecewisePolynomial

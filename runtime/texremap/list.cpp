@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "commands/commands.hpp"
+#include "texremap/commands.hpp"
 #include "commands/converters_option.hpp"
 #include "convert/path.hpp"
 #include "convert/shipped_converters.hpp"
