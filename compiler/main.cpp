@@ -1,13 +1,12 @@
 // remapc compiles two BRDF models into a C++ header that converts the parameters of one into those of the
 // other.
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "remap/version.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  remap::Command app(
       "Measures how the parameters of one BRDF model convert to those of another, and compiles the result "
       "into a "
       "C++ header: sweep, check, fit, emit.",

@@ -5,10 +5,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "command_line/help_text.hpp"
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
@@ -100,12 +99,12 @@ void run(const BuildCommand& command) {
 
 }  // namespace
 
-void add_build_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_build_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "build", "Make every table, fit and header of fits/manifest.json that is out of date");
   command->group(kCompileStage);
   auto options = std::make_shared<BuildCommand>();
-  command->option_defaults()->group("Folders");
+  command->option_group("Folders");
   command
       ->add_option("--fits", options->folders.fits,
                    "Folder of fits, with manifest.json, tables/ and the report README.md")
@@ -114,14 +113,14 @@ void add_build_command(CLI::App& app) {
   command->add_option("-o,--output", options->folders.generated, "Folder for the headers")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->option_defaults()->group("What to make");
+  command->option_group("What to make");
   command->add_flag("--check", options->check,
                     "Write nothing, list the items that are out of date; exit code 1 if there are any");
   command->add_flag("--force", options->force, "Make every item anew");
   command->add_flag("--prune", options->prune,
                     "Remove files of items that the manifest no longer lists, unless they were edited");
   command->add_flag("--json", options->json, "Print the result as JSON to standard output");
-  command->option_defaults()->group(remap::kRareOptions);
+  command->option_group(remap::kRareOptions);
   command
       ->add_option("--jobs", options->jobs,
                    "Items made at a time, 0: one per core; the results do not depend on it")

@@ -2,9 +2,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/fit_table.hpp"
@@ -85,12 +85,12 @@ void run_invert(const ChainCommand& command) {
             << errors_text(inverse, "of the exact inverse held out") << "\n";
 }
 
-void add_new_fit_options(CLI::App& app, ChainCommand& command) {
-  app.option_defaults()->group("Input");
+void add_new_fit_options(remap::Command& app, ChainCommand& command) {
+  app.option_group("Input");
   app.add_option("--fits", command.fit_folder, "Folder where ids are looked up")
       ->type_name("FOLDER")
       ->capture_default_str();
-  app.option_defaults()->group("Output");
+  app.option_group("Output");
   app.add_option("-o,--output", command.output, "Folder for the new fit")
       ->type_name("FOLDER")
       ->capture_default_str();
@@ -100,8 +100,8 @@ void add_new_fit_options(CLI::App& app, ChainCommand& command) {
 
 }  // namespace
 
-void add_chain_command(CLI::App& app) {
-  CLI::App* command =
+void add_chain_command(remap::Command& app) {
+  remap::Command* command =
       app.add_subcommand("chain", "Compose several fits into one, whose header converts in a single pass");
   command->group(kCompileStage);
   auto options = std::make_shared<ChainCommand>();
@@ -117,8 +117,8 @@ void add_chain_command(CLI::App& app) {
   command->callback([options] { run_chain(*options); });
 }
 
-void add_invert_command(CLI::App& app) {
-  CLI::App* command =
+void add_invert_command(remap::Command& app) {
+  remap::Command* command =
       app.add_subcommand("invert", "Fit the inverse of a fit: from its target's parameters to its source's");
   command->group(kCompileStage);
   auto options = std::make_shared<ChainCommand>();

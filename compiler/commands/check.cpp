@@ -5,9 +5,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
 #include "remap/error.hpp"
@@ -68,12 +68,12 @@ void run(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("check", "Look for faults in a table before it is fitted");
+void add_check_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand("check", "Look for faults in a table before it is fitted");
   command->group(kMeasureStage);
   auto options = std::make_shared<CheckOptions>();
   options->table.add_options(*command);
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_flag("--json", options->json, "Print the findings as JSON to standard output");
   command->footer(
       "The exit code is 1 if the table cannot be fitted.\n\nExample:\n  remapc check ward_to_as.csv");

@@ -3,9 +3,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
@@ -175,8 +175,8 @@ void run(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app) {
-  CLI::App* command =
+void add_compare_command(remap::Command& app) {
+  remap::Command* command =
       app.add_subcommand("compare", "Compare fits and formulas in common use on the usable rows of a table");
   command->group(kFitStage);
   auto options = std::make_shared<CompareOptions>();
@@ -187,7 +187,7 @@ void add_compare_command(CLI::App& app) {
   command->add_option("--fits", options->fit_folder, "Folder of fits")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
   command->footer(
       "max is the largest error over all usable rows; chroma shift is the change of color beyond the domain. "

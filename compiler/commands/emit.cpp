@@ -5,9 +5,7 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
-#include "command_line/help_text.hpp"
+#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "manifest/fit_folder.hpp"
 #include "remap/error.hpp"
@@ -119,31 +117,31 @@ void run(const EmitCommand& options) {
 
 }  // namespace
 
-void add_emit_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_emit_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "emit", "Write the C++ headers of fits, or of all fits together with the data of texremap");
   command->group(kCompileStage);
   auto options = std::make_shared<EmitCommand>();
   command->add_option("fits", options->fits, "Fits: files, or ids in the folder of fits");
-  command->option_defaults()->group("Input");
+  command->option_group("Input");
   command->add_flag("--all", options->all, "Emit every fit of the folder, and converters.json");
   command->add_option("--fits", options->fit_folder, "Folder of fits")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_option("-o,--output", options->output, "Folder for the headers")
       ->type_name("FOLDER")
       ->capture_default_str();
   command->add_flag("--check", options->check,
                     "Write nothing; exit code 1 if a header is missing or differs from its fit");
-  command->option_defaults()->group(remap::kRareOptions);
-  CLI::Option* lower =
+  command->option_group(remap::kRareOptions);
+  remap::Option* lower =
       command
           ->add_option(
               "--lower", options->tolerance,
               "Largest proven deviation of the header's polynomials from the fit: absolute for target "
               "alpha, and ten times it relative to the largest target specular")
-          ->check(CLI::PositiveNumber)
+          ->positive()
           ->capture_default_str();
   command
       ->add_flag("--exact", options->code.exact,
@@ -152,7 +150,7 @@ void add_emit_command(CLI::App& app) {
   command
       ->add_option("--table-limit", options->code.lowering.table_limit,
                    "Most numbers of a lowered output; a fit that needs more is an error")
-      ->check(CLI::PositiveNumber)
+      ->positive()
       ->capture_default_str();
   command->footer(
       "--lower, --exact and --table-limit do not affect fits of kind analytic or warp.\n\n"

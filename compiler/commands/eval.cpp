@@ -2,9 +2,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
@@ -57,8 +57,9 @@ void run(const EvalOptions& options) {
 
 }  // namespace
 
-void add_eval_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("eval", "Print the errors of a fit on the usable rows of a table");
+void add_eval_command(remap::Command& app) {
+  remap::Command* command =
+      app.add_subcommand("eval", "Print the errors of a fit on the usable rows of a table");
   command->group(kLookStage);
   auto options = std::make_shared<EvalOptions>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
@@ -66,7 +67,7 @@ void add_eval_command(CLI::App& app) {
   command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
   command->footer("Example:\n  remapc eval fits/mitsuba_ward_to_mitsuba_as.json other.csv");
   command->callback([options] { run(*options); });

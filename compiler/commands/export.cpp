@@ -4,10 +4,9 @@
 #include <map>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "command_line/help_text.hpp"
+#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "commands/share_progress.hpp"
 #include "emit/lookup_table.hpp"
@@ -103,33 +102,33 @@ const char* const kFormat =
 
 }  // namespace
 
-void add_export_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_export_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "export", "Write a fit as a lookup table (CSV), for tools that cannot use the header");
   command->group(kCompileStage);
   auto options = std::make_shared<ExportCommand>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
-  command->option_defaults()->group("Input");
+  command->option_group("Input");
   command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->option_defaults()->group("Table");
+  command->option_group("Table");
   command->add_option("--size", options->options.size, "Samples on the axis of the source's width")
-      ->check(CLI::Range(2, static_cast<int>(kMostLookupRows)))
+      ->range(2, static_cast<int>(kMostLookupRows))
       ->capture_default_str();
   command
       ->add_option("--size-specular", options->options.specular_size,
                    "Samples on the axis of the source's specular, if the table has it")
-      ->check(CLI::Range(2, static_cast<int>(kMostLookupRows)))
+      ->range(2, static_cast<int>(kMostLookupRows))
       ->capture_default_str();
   command->add_option("--only", options->only, "Output to write")
-      ->check(CLI::IsMember({"both", "roughness", "specular"}))
+      ->one_of({"both", "roughness", "specular"})
       ->capture_default_str();
   command->add_flag(
       "--canonical", options->options.canonical,
       "Write widths as alpha instead of the models' own parameters; needed for exponents, where "
       "even steps put most materials into the first cell");
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_option("-o,--output", options->output, "Table to write (default: <id>.csv)")
       ->type_name("FILE");
   command->add_flag("--json", options->json, "Print axes, columns and errors as JSON to standard output");

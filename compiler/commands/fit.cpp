@@ -6,10 +6,9 @@
 #include <memory>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "command_line/help_text.hpp"
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/share_progress.hpp"
@@ -45,7 +44,7 @@ struct FitCommand {
 };
 
 // Options of one regression are errors together with another one.
-void require_consistent(const FitCommand& command, const CLI::App& app) {
+void require_consistent(const FitCommand& command, const remap::Command& app) {
   const auto require_model = [&](const std::string& option, const std::string& model) {
     if (app.count(option) != 0 && command.model != "auto" && command.model != model)
       throw Error(ErrorKind::kUsage,
@@ -98,7 +97,7 @@ void require_material_options(const FitCommand& command) {
     throw Error(ErrorKind::kUsage, "--plot: not available for a table of materials (remove it)");
 }
 
-MaterialNetworkOptions network_options(const FitCommand& command, const CLI::App& app) {
+MaterialNetworkOptions network_options(const FitCommand& command, const remap::Command& app) {
   const MlpOptions& mlp = command.options.regression.mlp;
   MaterialNetworkOptions options;
   options.id = command.options.id;
@@ -143,7 +142,7 @@ void require_output_folder(const std::filesystem::path& folder) {
 }
 
 void run_on(const MaterialTable& table, const std::string& bytes, const FitCommand& command,
-            const CLI::App& app) {
+            const remap::Command& app) {
   require_material_options(command);
   require_output_folder(command.folder);
   const remap::WorkflowFit fit = [&] {
@@ -155,7 +154,7 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
   report(command, path, fit);
 }
 
-void run_on(const Table& given, const std::string& bytes, const FitCommand& command, const CLI::App&) {
+void run_on(const Table& given, const std::string& bytes, const FitCommand& command, const remap::Command&) {
   const Table table = command.swap ? swapped(given) : given;
   require_output_folder(command.folder);
   if (!command.plot.empty()) require_plot(command.plot);
@@ -171,26 +170,26 @@ void run_on(const Table& given, const std::string& bytes, const FitCommand& comm
   report(command, path, fitted.fit);
 }
 
-void run(const FitCommand& command, const CLI::App& app) {
+void run(const FitCommand& command, const remap::Command& app) {
   require_consistent(command, app);
   std::string bytes;
   const AnyTable input = command.table.read_any(&bytes);
   std::visit([&](const auto& table) { run_on(table, bytes, command, app); }, input);
 }
 
-void add_regression_options(CLI::App& app, FitCommand& command) {
+void add_regression_options(remap::Command& app, FitCommand& command) {
   RegressionOptions& regression = command.options.regression;
-  app.option_defaults()->group("Regression");
+  app.option_group("Regression");
   app.add_option(
          "--model", command.model,
          "parametric: polynomials and exponentials; svr: support vectors; mlp: a small network; auto: the "
          "simplest of them that is as good as the best by cross-validation, in up to a minute")
-      ->check(CLI::IsMember({"auto", "parametric", "svr", "mlp"}))
+      ->one_of({"auto", "parametric", "svr", "mlp"})
       ->capture_default_str();
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
                "(remapc sample): a network from specular to metallic");
-  app.option_defaults()->group(remap::kRareOptions);
+  app.option_group(remap::kRareOptions);
   app.add_option("--form", regression.form,
                  "Parametric: paper, paper+pole or ROUGHNESS/SPECULAR, see below (default: chosen by "
                  "cross-validation)")
@@ -198,26 +197,26 @@ void add_regression_options(CLI::App& app, FitCommand& command) {
   app.add_option("--layers", regression.mlp.hidden, "Network: units of each hidden layer, as 16,16")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::Range(1, kMostUnits))
+      ->range(1, kMostUnits)
       ->capture_default_str();
   app.add_option("--activation", command.activation, "Network: activation function")
-      ->check(CLI::IsMember(remap::activation_names()))
+      ->one_of(remap::activation_names())
       ->capture_default_str();
   app.add_option("--starts", regression.mlp.starts, "Network: trainings, of which the best is kept")
-      ->check(CLI::Range(1, kMostStarts))
+      ->range(1, kMostStarts)
       ->capture_default_str();
   app.add_option("--held-out", command.options.held_out_fraction,
                  "Fraction of the rows held out to measure errors")
       ->capture_default_str();
   app.add_option("--seed", regression.seed, "Seed of the split, the folds and all other random choices")
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
+      ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max())
       ->capture_default_str();
   app.add_option("--jobs", regression.jobs, "Threads, 0: one per core; the fit does not depend on it")
       ->capture_default_str();
 }
 
-void add_output_options(CLI::App& app, FitCommand& command) {
-  app.option_defaults()->group("Output");
+void add_output_options(remap::Command& app, FitCommand& command) {
+  app.option_group("Output");
   app.add_option("-o,--output", command.folder, "Folder for the fit, <id>.json")
       ->type_name("FOLDER")
       ->capture_default_str();
@@ -230,8 +229,8 @@ void add_output_options(CLI::App& app, FitCommand& command) {
 
 }  // namespace
 
-void add_fit_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("fit", "Fit a table and write <id>.json");
+void add_fit_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand("fit", "Fit a table and write <id>.json");
   command->group(kFitStage);
   auto options = std::make_shared<FitCommand>();
   options->table.add_options(*command);

@@ -2,9 +2,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/fit_table.hpp"
@@ -70,21 +70,21 @@ void run(const ImportCommand& command) {
 
 }  // namespace
 
-void add_import_command(CLI::App& app) {
-  CLI::App* command =
+void add_import_command(remap::Command& app) {
+  remap::Command* command =
       app.add_subcommand("import", "Make a fit from libsvm model files (RBF regressions trained elsewhere)");
   command->group(kFitStage);
   auto options = std::make_shared<ImportCommand>();
   command->add_option("description", options->description, "JSON file that describes the models, see below")
       ->required();
-  command->option_defaults()->group("Input");
+  command->option_group("Input");
   command->add_option("--table", options->table, "Table (CSV) to measure errors on (default: errors unknown)")
       ->type_name("FILE");
   command
       ->add_option("--columns", options->columns,
                    "Names of columns in the table: sztrajman-2019 (the published table), or OWN=FILE,...")
       ->type_name("MAP");
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_option("-o,--output", options->folder, "Folder for the fit")
       ->type_name("FOLDER")
       ->capture_default_str();

@@ -3,9 +3,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "manifest/fit_folder.hpp"
@@ -86,17 +86,17 @@ void list_fits(const ListOptions& options) {
 
 }  // namespace
 
-void add_list_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("list", "List the fits of a folder, or the built-in models");
+void add_list_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand("list", "List the fits of a folder, or the built-in models");
   command->group(kLookStage);
   auto options = std::make_shared<ListOptions>();
-  command->option_defaults()->group("Input");
+  command->option_group("Input");
   command->add_flag("--models", options->models,
                     "List the models of the built-in renderer and their parameters");
   command->add_option("--fits", options->fit_folder, "Folder of fits")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_flag("--json", options->json, "Print the list as JSON to standard output");
   command->footer("Example:\n  remapc list --models");
   command->callback([options] { options->models ? list_models(options->json) : list_fits(*options); });

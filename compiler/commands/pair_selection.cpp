@@ -1,19 +1,17 @@
 #include "commands/pair_selection.hpp"
 
-#include <CLI/CLI.hpp>
-
-#include "command_line/help_text.hpp"
+#include "command_line/command.hpp"
 
 namespace remapc {
 
-void PairSelection::add_model_options(CLI::App& app) {
-  app.option_defaults()->group("Models");
+void PairSelection::add_model_options(remap::Command& app) {
+  app.option_group("Models");
   app.add_option("--source", source, "Model to convert from")->type_name("MODEL")->required();
   app.add_option("--target", target, "Model to convert to")->type_name("MODEL")->required();
 }
 
-void PairSelection::add_picture_options(CLI::App& app) {
-  app.option_defaults()->group("Pictures and how they are compared");
+void PairSelection::add_picture_options(remap::Command& app) {
+  app.option_group("Pictures and how they are compared");
   app.add_option("--objective", objective,
                  "natural: light at 60 degrees, relative weights; paper: headlight, uniform weights")
       ->type_name("NAME")
@@ -27,8 +25,8 @@ void PairSelection::add_picture_options(CLI::App& app) {
       ->capture_default_str();
 }
 
-void PairSelection::add_rare_options(CLI::App& app) {
-  app.option_defaults()->group(remap::kRareOptions);
+void PairSelection::add_rare_options(remap::Command& app) {
+  app.option_group(remap::kRareOptions);
   app.add_option("--distance", distance, "Distance of the lights, in sphere radii")->capture_default_str();
   app.add_flag("--no-irradiance-matching", keep_irradiance,
                "Do not correct for a constant factor between the lights of two renderers");

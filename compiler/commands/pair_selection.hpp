@@ -19,9 +19,9 @@ struct PairSelection {
   RoleOptions roles;
 
   // Add the options to `app`: the models; how pictures are made and compared; the rare ones.
-  void add_model_options(CLI::App& app);
-  void add_picture_options(CLI::App& app);
-  void add_rare_options(CLI::App& app);
+  void add_model_options(remap::Command& app);
+  void add_picture_options(remap::Command& app);
+  void add_rare_options(remap::Command& app);
   // Copies the choices to `options`. Throws kUsage for an unknown objective, weighting or light.
   void fill(PairOptions* options) const;
 };

@@ -1,6 +1,6 @@
 #include "commands/parameter_setting.hpp"
 
-#include <CLI/CLI.hpp>
+#include <sstream>
 
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
@@ -12,7 +12,8 @@ using remap::ErrorKind;
 
 std::vector<double> parse_values(const std::string& option, const std::string& text) {
   std::vector<double> values;
-  for (const std::string& item : CLI::detail::split(text, ',')) {
+  std::istringstream items(text);
+  for (std::string item; std::getline(items, item, ',');) {
     const auto value = remap::parse_number(item);
     if (!value) throw Error(ErrorKind::kUsage, option + ": '" + item + "' is not a number");
     values.push_back(*value);

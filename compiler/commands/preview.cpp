@@ -6,10 +6,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "command_line/help_text.hpp"
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
@@ -96,23 +95,23 @@ void run(const PreviewCommand& command) {
 
 }  // namespace
 
-void add_preview_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_preview_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "preview", "Render a source model and its conversion side by side, and print their similarity");
   command->group(kLookStage);
   auto options = std::make_shared<PreviewCommand>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
-  command->option_defaults()->group("Input");
+  command->option_group("Input");
   command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command
       ->add_option("-o,--output", options->output,
                    "PNG to write: a column per alpha; source, conversion, and their difference times four")
       ->type_name("FILE");
   command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
-  command->option_defaults()->group("Materials and pictures");
+  command->option_group("Materials and pictures");
   command
       ->add_option("--alpha", options->alphas,
                    "Alphas of the source, comma-separated (default: four values of the fit's domain)")
@@ -131,14 +130,14 @@ void add_preview_command(CLI::App& app) {
       ->type_name("LIGHT")
       ->capture_default_str();
   command->add_option("--resolution", options->resolution, "Width and height of each picture")
-      ->check(CLI::Range(16, 2048))
+      ->range(16, 2048)
       ->capture_default_str();
-  command->option_defaults()->group(remap::kRareOptions);
+  command->option_group(remap::kRareOptions);
   command->add_option("--distance", options->distance, "Distance of the light, in sphere radii")
       ->capture_default_str();
   command
       ->add_option("--pixel-samples", options->pixel_samples, "N x N samples per pixel; 1: the pixel center")
-      ->check(CLI::Range(1, 16))
+      ->range(1, 16)
       ->capture_default_str();
   add_renderer_options(*command, options->renderers);
   command->footer(

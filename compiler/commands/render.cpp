@@ -1,9 +1,7 @@
 // `remapc render` renders one picture of the sweep scene.
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
-#include "command_line/help_text.hpp"
+#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "commands/parameter_setting.hpp"
 #include "commands/renderer_options.hpp"
@@ -72,12 +70,12 @@ void run(const RenderOptions& options) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app) {
-  CLI::App* command =
+void add_render_command(remap::Command& app) {
+  remap::Command* command =
       app.add_subcommand("render", "Render one picture of the sweep scene: a sphere under a point light");
   command->group(kMeasureStage);
   auto options = std::make_shared<RenderOptions>();
-  command->option_defaults()->group("Material");
+  command->option_group("Material");
   command
       ->add_option("--model", options->model,
                    "Model, as mitsuba/ward (see remapc list --models, remapc renderers)")
@@ -86,11 +84,11 @@ void add_render_command(CLI::App& app) {
   command->add_option("--set", options->settings, "Parameter of the model; may be repeated")
       ->type_name("NAME=VALUE or NAME=R,G,B")
       ->allow_extra_args(false);
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_option("-o,--output", options->output, "EXR file to write (linear float)")
       ->type_name("FILE")
       ->required();
-  command->option_defaults()->group("Picture");
+  command->option_group("Picture");
   command->add_option("--light", options->light, "Light: headlight, or degrees from the camera")
       ->type_name("LIGHT")
       ->capture_default_str();
@@ -99,7 +97,7 @@ void add_render_command(CLI::App& app) {
   command
       ->add_option("--pixel-samples", options->pixel_samples, "N x N samples per pixel; 1: the pixel center")
       ->capture_default_str();
-  command->option_defaults()->group(remap::kRareOptions);
+  command->option_group(remap::kRareOptions);
   command->add_option("--distance", options->distance, "Distance of the light, in sphere radii")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of renderers with noise")->capture_default_str();

@@ -1,14 +1,13 @@
 #include "commands/renderer_options.hpp"
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "worker/worker_list.hpp"
 
 namespace remapc {
 
-void add_renderer_options(CLI::App& app, RendererOptions& options) {
-  app.option_defaults()->group("Rare: external renderers (remapc renderers lists them)");
+void add_renderer_options(remap::Command& app, RendererOptions& options) {
+  app.option_group("Rare: external renderers (remapc renderers lists them)");
   app.add_option(
          "--worker", options.workers,
          "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; may be "
@@ -18,7 +17,7 @@ void add_renderer_options(CLI::App& app, RendererOptions& options) {
   app.add_option("--worker-processes", options.processes, "Processes per worker, 0: one per core")
       ->capture_default_str();
   app.add_option("--worker-timeout", options.seconds, "Seconds to wait for an answer of a worker")
-      ->check(CLI::PositiveNumber)
+      ->positive()
       ->capture_default_str();
   app.add_option("--cache", options.cache,
                  "Folder for pictures of workers (default: remap/pictures in the user's cache)")

@@ -7,12 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "command_line/command.hpp"
 #include "command_line/progress.hpp"
 #include "worker/renderer_set.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace remapc {
 
@@ -25,7 +22,7 @@ struct RendererOptions {
 };
 
 // Adds the options as a rare group. `options` must outlive the callback of `app`.
-void add_renderer_options(CLI::App& app, RendererOptions& options);
+void add_renderer_options(remap::Command& app, RendererOptions& options);
 
 WorkerSettings worker_settings(const RendererOptions& options);
 

@@ -3,9 +3,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
@@ -70,12 +70,12 @@ void run(const RenderersCommand& command) {
 
 }  // namespace
 
-void add_renderers_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_renderers_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "renderers", "List the external renderers on this machine: versions, models, parameters");
   command->group(kRendererStage);
   auto options = std::make_shared<RenderersCommand>();
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_flag("--json", options->json,
                     "Print the list as JSON to standard output, with reasons for missing renderers");
   add_renderer_options(*command, options->renderers);

@@ -1,19 +1,18 @@
 #include "commands/role_options.hpp"
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "commands/parameter_setting.hpp"
 #include "remap/error.hpp"
 
 namespace remapc {
 
-void RoleOptions::add_options(CLI::App& app) {
-  app.option_defaults()->group("Rare: parameters of models (remapc list --models, remapc renderers)");
+void RoleOptions::add_options(remap::Command& app) {
+  app.option_group("Rare: parameters of models (remapc list --models, remapc renderers)");
   source_.add_options(app, "source");
   target_.add_options(app, "target");
 }
 
-void RoleOptions::Side::add_options(CLI::App& app, const std::string& side) {
+void RoleOptions::Side::add_options(remap::Command& app, const std::string& side) {
   const std::string prefix = "--" + side;
   app.add_option(prefix + "-roughness", roughness,
                  "Parameter of the " + side + " that is its roughness (default: as the model declares it)")

@@ -4,17 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "command_line/command.hpp"
 #include "probe/parameter_roles.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace remapc {
 
 class RoleOptions {
  public:
-  void add_options(CLI::App& app);
+  void add_options(remap::Command& app);
 
   // Throw kUsage for a setting that cannot be read or has more than one value.
   ParameterRoles source() const { return source_.roles("--source"); }
@@ -25,7 +22,7 @@ class RoleOptions {
     std::string roughness, specular, diffuse;
     std::vector<std::string> settings;
 
-    void add_options(CLI::App& app, const std::string& side);
+    void add_options(remap::Command& app, const std::string& side);
     ParameterRoles roles(const std::string& prefix) const;
   };
 

@@ -3,10 +3,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "command_line/help_text.hpp"
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/pair_selection.hpp"
@@ -93,18 +92,18 @@ void run(const SampleCommand& command) {
 
 constexpr std::size_t kMostSamples = 1'000'000;
 
-void add_options(CLI::App& app, SampleCommand& command) {
+void add_options(remap::Command& app, SampleCommand& command) {
   command.pair.add_model_options(app);
-  app.option_defaults()->group("Output");
+  app.option_group("Output");
   app.add_option("-o,--output", command.output, "Table to write (CSV, a column per parameter and channel)")
       ->type_name("FILE")
       ->required();
   app.add_flag("--force", command.force, "Overwrite the table");
   app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
   app.add_flag("--quiet", command.quiet, "Print no progress and no summary");
-  app.option_defaults()->group("Materials");
+  app.option_group("Materials");
   app.add_option("--count", command.count, "Number of random materials")
-      ->check(CLI::Range(std::size_t{1}, kMostSamples))
+      ->range(std::size_t{1}, kMostSamples)
       ->capture_default_str();
   app.add_option("--seed", command.seed, "Seed of the random materials")->capture_default_str();
   app.add_option("--vary", command.varied,
@@ -132,8 +131,8 @@ void add_options(CLI::App& app, SampleCommand& command) {
 
 }  // namespace
 
-void add_sample_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_sample_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "sample", "Match random materials of many parameters with the target model, and write the table");
   command->group(kMeasureStage);
   auto options = std::make_shared<SampleCommand>();

@@ -4,8 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/rows/split.hpp"
@@ -264,16 +263,17 @@ void show(const ShowOptions& options) {
 
 }  // namespace
 
-void add_show_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("show", "Show a fit: models, domain, errors, mapping and its table");
+void add_show_command(remap::Command& app) {
+  remap::Command* command =
+      app.add_subcommand("show", "Show a fit: models, domain, errors, mapping and its table");
   command->group(kLookStage);
   auto options = std::make_shared<ShowOptions>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
-  command->option_defaults()->group("Input");
+  command->option_group("Input");
   command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_flag("--json", options->json, "Print the fit file itself");
   command->footer("Example:\n  remapc show mitsuba_ward_to_mitsuba_as");
   command->callback([options] { show(*options); });

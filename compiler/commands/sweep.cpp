@@ -5,10 +5,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "command_line/help_text.hpp"
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/pair_selection.hpp"
@@ -126,13 +125,13 @@ void run(const SweepCommand& command) {
 
 constexpr int kMostSamples = 4096;  // of each axis
 
-void add_sample_options(CLI::App& app, SweepCommand& command) {
-  app.option_defaults()->group("Samples");
+void add_sample_options(remap::Command& app, SweepCommand& command) {
+  app.option_group("Samples");
   app.add_option("--roughness-samples", command.roughness_samples, "Number of source alphas")
-      ->check(CLI::Range(1, kMostSamples))
+      ->range(1, kMostSamples)
       ->capture_default_str();
   app.add_option("--specular-samples", command.specular_samples, "Number of source speculars for each alpha")
-      ->check(CLI::Range(1, kMostSamples))
+      ->range(1, kMostSamples)
       ->capture_default_str();
   app.add_option("--roughness-range", command.roughness_range, "Range of the source's alpha")
       ->type_name("MIN,MAX")
@@ -150,9 +149,9 @@ void add_sample_options(CLI::App& app, SweepCommand& command) {
       ->type_name("FILE");
 }
 
-void add_options(CLI::App& app, SweepCommand& command) {
+void add_options(remap::Command& app, SweepCommand& command) {
   command.pair.add_model_options(app);
-  app.option_defaults()->group("Output");
+  app.option_group("Output");
   app.add_option("-o,--output", command.output, "Table to write (CSV)")->type_name("FILE")->required();
   app.add_flag("--force", command.force, "Overwrite the table");
   app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
@@ -160,7 +159,7 @@ void add_options(CLI::App& app, SweepCommand& command) {
   add_sample_options(app, command);
   command.pair.add_picture_options(app);
   command.pair.add_rare_options(app);
-  app.option_defaults()->group(remap::kRareOptions);
+  app.option_group(remap::kRareOptions);
   app.add_option("--columns", command.columns,
                  "Names of columns in the table of --samples-of: sztrajman-2019, or OWN=FILE,...")
       ->type_name("MAP");
@@ -168,7 +167,7 @@ void add_options(CLI::App& app, SweepCommand& command) {
          "--stages", command.stages,
          "2: match diffuse, then specular; 1: all at once from a fixed start; 3: all at once from the "
          "result of 2")
-      ->check(CLI::Range(1, 3))
+      ->range(1, 3)
       ->capture_default_str();
   app.add_option("--jobs", command.jobs, "Threads, 0: one per core; the table does not depend on it")
       ->capture_default_str();
@@ -177,8 +176,8 @@ void add_options(CLI::App& app, SweepCommand& command) {
 
 }  // namespace
 
-void add_sweep_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_sweep_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "sweep", "Match a grid of source materials with the target model, and write the table");
   command->group(kMeasureStage);
   auto options = std::make_shared<SweepCommand>();

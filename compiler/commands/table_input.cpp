@@ -2,15 +2,14 @@
 
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "system/files.hpp"
 
 namespace remapc {
 
-void TableInput::add_options(CLI::App& app) {
+void TableInput::add_options(remap::Command& app) {
   app.add_option("table", path, "Table (CSV) of remapc sweep or of another program")->required();
-  app.option_defaults()->group("Input");
+  app.option_group("Input");
   app.add_option("--columns", columns,
                  "Names of columns in the file: sztrajman-2019 (the published table), or OWN=FILE,...")
       ->type_name("MAP");

@@ -3,11 +3,8 @@
 
 #include <string>
 
+#include "command_line/command.hpp"
 #include "table/any_table.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace remapc {
 
@@ -16,7 +13,7 @@ struct TableInput {
   std::string columns;         // preset or own=file pairs; empty: own names
   std::string source, target;  // models; empty: as the table names them
 
-  void add_options(CLI::App& app);
+  void add_options(remap::Command& app);
 
   // Reads the file once. `bytes`, if not null, receives its content. Throws kInput and kUsage as parse_table
   // does; a table of named parameters is an error.

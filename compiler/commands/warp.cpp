@@ -3,10 +3,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "command_line/help_text.hpp"
+#include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "commands/warp_command.hpp"
@@ -139,8 +138,8 @@ void run(const WarpCommand& command) {
     warp_textures(command);
 }
 
-void add_stroke_options(CLI::App& app, WarpCommand& command) {
-  app.option_defaults()->group("Strokes");
+void add_stroke_options(remap::Command& app, WarpCommand& command) {
+  app.option_group("Strokes");
   app.add_option(
          "--strokes", command.paintings,
          "Two images with a color for each region, on a transparent background or on the most frequent "
@@ -157,8 +156,8 @@ void add_stroke_options(CLI::App& app, WarpCommand& command) {
       ->type_name("SOURCE_BOX TEMPLATE_BOX");
 }
 
-void add_method_options(CLI::App& app, WarpCommand& command) {
-  app.option_defaults()->group("Models and method");
+void add_method_options(remap::Command& app, WarpCommand& command) {
+  app.option_group("Models and method");
   app.add_option("--source-model", command.source_model, "BRDF model of the source's maps")
       ->type_name("MODEL")
       ->capture_default_str();
@@ -167,22 +166,22 @@ void add_method_options(CLI::App& app, WarpCommand& command) {
       ->type_name("MODEL")
       ->capture_default_str();
   app.add_flag("--exact", command.exact, "Copy texels of the template instead of blending them");
-  app.option_defaults()->group(remap::kRareOptions);
+  app.option_group(remap::kRareOptions);
   app.add_option("--method", command.method, "Method that finds the warp")
-      ->check(CLI::IsMember(method_names()))
+      ->one_of(method_names())
       ->capture_default_str();
   app.add_option("--distance", command.distance,
                  "Distance between reflectances (default: relative; plain for scattering profiles)")
-      ->check(CLI::IsMember(distance_names()));
+      ->one_of(distance_names());
   app.add_option("--dimensions", command.dimensions, "Dimensions of appearance space, 0: as many as needed")
-      ->check(CLI::Range(0, 3))
+      ->range(0, 3)
       ->capture_default_str();
 }
 
 }  // namespace
 
-void add_warp_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_warp_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "warp", "Give one texture set the reflectance of another, guided by strokes (An et al. 2011)");
   command->group(kWarpStage);
   auto options = std::make_shared<WarpCommand>();
@@ -192,7 +191,7 @@ void add_warp_command(CLI::App& app) {
       ->required();
   command->add_option("template", options->target, "Folder of the set whose reflectance is used")->required();
   add_stroke_options(*command, *options);
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_option("-o,--output", options->output, "File for the fit; its name is the fit's id")
       ->type_name("FILE");
   command

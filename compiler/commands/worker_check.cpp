@@ -4,9 +4,9 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
@@ -86,21 +86,21 @@ void run(const WorkerCheck& check) {
 
 }  // namespace
 
-void add_worker_check_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_worker_check_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "worker-check", "Render known scenes with a worker and report what is wrong with its pictures");
   command->group(kRendererStage);
   auto options = std::make_shared<WorkerCheck>();
   command->add_option("command", options->command, "Command of the worker, or the name of a registered one")
       ->required();
-  command->option_defaults()->group("Pictures");
+  command->option_group("Pictures");
   command->add_option("--resolution", options->resolution, "Width and height in pixels")
-      ->check(CLI::Range(16, 1024))
+      ->range(16, 1024)
       ->capture_default_str();
   command->add_option("--worker-timeout", options->seconds, "Seconds to wait for an answer")
-      ->check(CLI::PositiveNumber)
+      ->positive()
       ->capture_default_str();
-  command->option_defaults()->group("Output");
+  command->option_group("Output");
   command->add_flag("--json", options->json, "Print the findings as JSON to standard output");
   command->footer("Example:\n  remapc worker-check \"python3 examples/lambert_worker.py\"");
   command->callback([options] { run(*options); });

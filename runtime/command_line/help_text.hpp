@@ -3,7 +3,7 @@
 // run_app() lays out the help of an app and of its commands; a command only says in which group its options
 // are. All options that are added after
 //
-//   command->option_defaults()->group("Output");
+//   command->option_group("Output");
 //
 // stand under the heading "Output:"; `->group("Output")` behind one add_option() places that option alone.
 // Groups appear in the order in which their first options were added, so add common options first. A group
@@ -28,8 +28,6 @@ class Option;
 
 namespace remap {
 
-inline constexpr const char* kRareOptions = "Rare options";
-
 // Gives `app` and all its commands the flags --help and --help-all and this layout. Call it after all
 // commands and options have been added; run_app() does so.
 void lay_out_help(CLI::App& app);
@@ -38,7 +36,7 @@ void lay_out_help(CLI::App& app);
 std::string command_words(const CLI::App& command);
 
 // The allowed values of an option as the help prints them: `auto, svr, mlp`, `1 to 4096`, `above 0`; empty
-// where CLI11 knows of no limit.
+// if there is no limit.
 std::string allowed_values(const CLI::Option& option);
 
 // Breaks lines of more than 80 columns at blanks. Lines after the first are indented by `indent` columns,

@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
 #include "command_line/usage_error.hpp"
 #include "remap/error.hpp"
@@ -33,10 +34,11 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
 
 }  // namespace
 
-int run_app(CLI::App& app, int argc, const char* const* argv) noexcept {
+int run_app(Command& command, int argc, const char* const* argv) noexcept {
   // Without this, the signal would end the program where a file exceeds the process's size limit. With it,
   // the write fails and is reported like any other.
   std::signal(SIGXFSZ, SIG_IGN);
+  CLI::App& app = command.app();
   try {
     try {
       return parse_and_run(app, argc, argv);

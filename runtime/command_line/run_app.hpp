@@ -4,18 +4,16 @@
 
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace remap {
 
-// Lays out the help of `app` (help_text.hpp), parses the arguments, and runs the command. Commands work in
-// CLI11 callbacks and throw Error. Returns the exit code: 0 for success, 1 for failure, 2 for wrong usage. A
-// failure is printed as `program: place: what is wrong (what to do)`, where `program` is the name of `app`;
-// an unknown option or command is answered with the nearest known name. Standard output is flushed; failing
-// to do so is a failure. Never throws.
-int run_app(CLI::App& app, int argc, const char* const* argv) noexcept;
+class Command;
+
+// Lays out the help of `command` (help_text.hpp), parses the arguments, and runs the command. Commands work
+// in callbacks and throw Error. Returns the exit code: 0 for success, 1 for failure, 2 for wrong usage. A
+// failure is printed as `program: place: what is wrong (what to do)`, where `program` is the name of
+// `command`; an unknown option or command is answered with the nearest known name. Standard output is
+// flushed; failing to do so is a failure. Never throws.
+int run_app(Command& command, int argc, const char* const* argv) noexcept;
 
 // Prints one line to standard error: `program: message`. Line breaks in the message become spaces.
 void print_message(const std::string& program, const std::string& message);

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "convert/chained_converter.hpp"
 #include "fit_file/fit_json.hpp"
@@ -188,9 +187,9 @@ void convert(const ConvertOptions& options) {
 
 }  // namespace
 
-void add_convert_command(CLI::App& app) {
+void add_convert_command(Command& app) {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App* command = app.add_subcommand(
+  Command* command = app.add_subcommand(
       "convert", "Convert the maps of a material: roughness and specular, or a whole workflow");
   add_convert_options(*command, *options);
   command->footer(

@@ -3,8 +3,7 @@
 #include <initializer_list>
 #include <variant>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "remap/error.hpp"
 #include "texremap/converters_option.hpp"
 #include "text/nearest_name.hpp"
@@ -21,9 +20,9 @@ struct Entry {
 };
 
 // Adds options under a heading of the help. `--help` hides groups whose names begin with "Rare".
-void add_group(CLI::App& command, ConvertOptions& options, const char* group,
+void add_group(Command& command, ConvertOptions& options, const char* group,
                std::initializer_list<Entry> entries) {
-  command.option_defaults()->group(group);
+  command.option_group(group);
   for (const Entry& entry : entries) {
     if (const auto* text = std::get_if<std::string ConvertOptions::*>(&entry.member))
       command.add_option(entry.names, options.*(*text), entry.description)->type_name(entry.value);
@@ -33,7 +32,7 @@ void add_group(CLI::App& command, ConvertOptions& options, const char* group,
   }
 }
 
-void add_source_options(CLI::App& command, ConvertOptions& options) {
+void add_source_options(Command& command, ConvertOptions& options) {
   using O = ConvertOptions;
   add_group(
       command, options, "Source and target",
@@ -44,13 +43,13 @@ void add_source_options(CLI::App& command, ConvertOptions& options) {
        {"-r,--recursive", &O::recursive, "", "Convert the subfolders of DIR, too; results mirror the tree"}});
   command.add_option("--via", options.via, "Model that the path must pass through; repeatable, in order")
       ->allow_extra_args(false)
-      ->excludes("--fit")
+      ->excludes(command.option("--fit"))
       ->type_name("MODEL");
   add_converters_option(command);
 }
 
 // The footer of the command explains the value MAP.
-void add_map_options(CLI::App& command, ConvertOptions& options) {
+void add_map_options(Command& command, ConvertOptions& options) {
   using O = ConvertOptions;
   add_group(
       command, options, "Maps",
@@ -71,10 +70,10 @@ void add_map_options(CLI::App& command, ConvertOptions& options) {
         "file tags as sRGB, else linear)"},
        {"--resample", &O::resample, "", "Enlarge smaller maps of a set to the largest size, bilinearly"},
        {"--names", &O::names, "FILE", "More file-name habits for the maps in DIR (JSON)"}});
-  command.get_option("--glossiness")->excludes("--roughness");
+  command.option("--glossiness")->excludes(command.option("--roughness"));
 }
 
-void add_output_options(CLI::App& command, ConvertOptions& options) {
+void add_output_options(Command& command, ConvertOptions& options) {
   using O = ConvertOptions;
   add_group(command, options, "Output",
             {{"-o,--output", &O::output, "DIR", "Folder for the results, which keep the names of the inputs"},
@@ -95,7 +94,7 @@ void add_output_options(CLI::App& command, ConvertOptions& options) {
              {"--quiet", &O::quiet, "", "Print nothing but errors to standard error"}});
 }
 
-void add_workflow_options(CLI::App& command, ConvertOptions& options) {
+void add_workflow_options(Command& command, ConvertOptions& options) {
   using O = ConvertOptions;
   add_group(
       command, options, "Whole materials (metallic and specular workflows)",
@@ -122,7 +121,7 @@ void add_workflow_options(CLI::App& command, ConvertOptions& options) {
         "Where metallic is undetermined, follow the texels around it; reads the maps twice"}});
 }
 
-void add_rare_options(CLI::App& command, ConvertOptions& options) {
+void add_rare_options(Command& command, ConvertOptions& options) {
   using O = ConvertOptions;
   add_group(command, options, "Rare: encodings and factors",
             {{"--output-encoding", &O::output_encoding, "NAME",
@@ -146,12 +145,12 @@ void add_rare_options(CLI::App& command, ConvertOptions& options) {
   add_group(command, options, "Rare: checks",
             {{"--bad-texels", &O::bad_texels, "NAME",
               "NaN, infinite and negative values: keep, clamp (to the domain) or fail"}});
-  command.get_option("--bad-texels")->capture_default_str();
+  command.option("--bad-texels")->capture_default_str();
   add_group(command, options, "Rare: speed",
             {{"--instructions", &O::instructions, "NAME",
               "baseline, avx2 or avx512; results are identical (default: the widest of this processor)"}});
   command.add_option("--threads", options.thread_count, "Number of threads; 0 for one per core")
-      ->check(CLI::Range(0, 1024))
+      ->range(0, 1024)
       ->capture_default_str();
 }
 
@@ -162,7 +161,7 @@ void fail_unknown(const std::string& option, const std::string& noun, const std:
   throw Error(ErrorKind::kUsage, option + ": unknown " + noun + " '" + word + "'" + suggestion(word, known));
 }
 
-void add_convert_options(CLI::App& command, ConvertOptions& options) {
+void add_convert_options(Command& command, ConvertOptions& options) {
   add_source_options(command, options);
   add_map_options(command, options);
   add_output_options(command, options);

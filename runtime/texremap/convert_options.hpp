@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "command_line/command.hpp"
 
 namespace remap {
 
@@ -60,7 +58,7 @@ struct ConvertOptions {
   bool quiet = false;
 };
 
-void add_convert_options(CLI::App& command, ConvertOptions& options);
+void add_convert_options(Command& command, ConvertOptions& options);
 
 // Throws kUsage: `option` got `word`, but the `known` names of a `noun` are others.
 [[noreturn]] void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,

@@ -1,23 +1,21 @@
-// `--converters`, which every command of texremap takes.
+// `--converters`, an option of every command of texremap.
 #pragma once
 
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "convert/shipped_converters.hpp"
 
 namespace remap {
 
-inline void add_converters_option(CLI::App& command) {
+inline void add_converters_option(Command& command) {
   command
-      .add_option_function<std::string>(
+      .add_action(
           "--converters", [](const std::string& path) { use_converters(path); },
-          "Converters to use in place of the shipped ones: converters.json of `remapc emit --all`, a fit, or "
-          "a folder "
-          "of fits")
-      ->envname("REMAP_CONVERTERS")
-      ->trigger_on_parse();
+          "Use these converters instead of the shipped ones: a converters.json of `remapc emit "
+          "--all`, a fit, or a folder of fits")
+      ->type_name("PATH")
+      ->environment("REMAP_CONVERTERS");
 }
 
 }  // namespace remap

@@ -4,9 +4,7 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
-#include "texremap/commands.hpp"
+#include "command_line/command.hpp"
 #include "commands/converters_option.hpp"
 #include "convert/path.hpp"
 #include "convert/shipped_converters.hpp"
@@ -134,9 +132,9 @@ void list_workflows(const ListOptions& options) {
 
 }  // namespace
 
-void add_list_command(CLI::App& app) {
+void add_list_command(Command& app) {
   auto options = std::make_shared<ListOptions>();
-  CLI::App* command = app.add_subcommand("list", "List the converters, their models, or the workflows");
+  Command* command = app.add_subcommand("list", "List the converters, their models, or the workflows");
   command->add_flag("--models", options->models, "List the models, and the models that each one reaches");
   command->add_flag("--workflows", options->workflows,
                     "List the named workflows with their conventions. `convert` combines other models with a "

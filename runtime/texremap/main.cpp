@@ -1,8 +1,7 @@
 // texremap: converts texture maps from the parameters of one BRDF model to those of another.
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/run_app.hpp"
 #include "remap/version.hpp"
@@ -10,7 +9,7 @@
 
 int main(int argc, char** argv) {
   remap::watch_interruptions();
-  CLI::App app("Convert texture maps from the parameters of one BRDF model to those of another.", "texremap");
+  Command app("Convert texture maps from the parameters of one BRDF model to those of another.", "texremap");
   app.set_version_flag("--version", std::string("texremap ") + remap::kVersion);
   app.require_subcommand(1);
   remap::add_convert_command(app);

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "convert/chained_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
@@ -138,9 +137,9 @@ void explain(const PathOptions& asked) {
 
 }  // namespace
 
-void add_path_command(CLI::App& app) {
+void add_path_command(Command& app) {
   auto options = std::make_shared<PathOptions>();
-  CLI::App* command = app.add_subcommand("path", "Explain which converters lead from one model to another");
+  Command* command = app.add_subcommand("path", "Explain which converters lead from one model to another");
   command->add_option("--from", options->request.source, "Source model, e.g. mitsuba/ward")
       ->required()
       ->type_name("MODEL");

@@ -7,34 +7,36 @@
 #include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 
+#include "command_line/command.hpp"
+
 using namespace remap;
 
 namespace {
 
 // `tool bake`, with options of all kinds, as --help or --help-all shows it.
 std::string help_of_bake(CLI::AppFormatMode mode) {
-  CLI::App app("A tool.", "tool");
-  CLI::App* bake = app.add_subcommand("bake", "Bake a map");
+  Command app("A tool.", "tool");
+  Command* bake = app.add_subcommand("bake", "Bake a map");
   std::string input, model = "svr", stroke, folder = "fits";
-  std::vector<int> layers = {16, 16};
+  std::vector<std::size_t> layers = {16, 16};
   bool exact = false, quiet = false;
   bake->add_option("table", input, "The table to read")->required();
-  bake->option_defaults()->group("Fit");
+  bake->option_group("Fit");
   bake->add_option("--model", model, "How to fit it, in a description that takes more than a single line")
-      ->check(CLI::IsMember({"auto", "svr"}))
+      ->one_of({"auto", "svr"})
       ->capture_default_str();
-  CLI::Option* sizes = bake->add_option("--layers", layers, "Units of each layer")
-                           ->delimiter(',')
-                           ->check(CLI::Range(1, 4096))
-                           ->capture_default_str();
+  Option* sizes = bake->add_option("--layers", layers, "Units of each layer")
+                      ->delimiter(',')
+                      ->range(std::size_t{1}, std::size_t{4096})
+                      ->capture_default_str();
   bake->add_flag("--exact", exact, "As it was fitted")->excludes(sizes);
-  bake->option_defaults()->group("Output");
+  bake->option_group("Output");
   bake->add_option("-o,--output", folder, "Folder for the fit")->type_name("FOLDER")->capture_default_str();
   bake->add_option("--mask", stroke, "Two masks")->type_name("SOURCE_MASK TEMPLATE_MASK");
   bake->add_flag("--quiet", quiet, "Print nothing")->group(kRareOptions);
   bake->footer("Example:\n  tool bake table.csv");
-  lay_out_help(app);
-  return bake->help("tool", mode);
+  lay_out_help(app.app());
+  return bake->app().help("tool", mode);
 }
 
 }  // namespace
@@ -77,12 +79,12 @@ TEST_CASE("help_text: --help-all shows rare options") {
 }
 
 TEST_CASE("help_text: commands stand in their groups") {
-  CLI::App app("A tool.", "tool");
+  Command app("A tool.", "tool");
   app.add_subcommand("bake", "Bake a map")->group("Make");
   app.add_subcommand("show", "Show a map")->group("Look");
   app.add_subcommand("burn", "Burn a map")->group("Make");
-  lay_out_help(app);
-  CHECK(app.help() ==
+  lay_out_help(app.app());
+  CHECK(app.app().help() ==
         "A tool.\n"
         "\n"
         "Usage: tool COMMAND [options]\n"

@@ -4,9 +4,9 @@
 #include <iostream>
 #include <sstream>
 
-#include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 
+#include "command_line/command.hpp"
 #include "remap/error.hpp"
 
 using namespace remap;
@@ -21,9 +21,9 @@ struct Answer {
 // Runs an app `tool` with the commands `bake` (--size N required, --shape) and `show`.
 Answer run_tool(
     std::vector<const char*> words, const std::function<void()>& work = [] {}) {
-  CLI::App app("A tool.", "tool");
+  Command app("A tool.", "tool");
   app.require_subcommand(1);
-  CLI::App* bake = app.add_subcommand("bake");
+  Command* bake = app.add_subcommand("bake");
   int size = 0;
   std::string shape;
   bake->add_option("--size", size)->required();

@@ -114,7 +114,7 @@ void run(const EnvironmentsCommand& command) {
     std::cout << summary_text(options, result);
 }
 
-void add_options(CLI::App& app, EnvironmentsCommand& command) {
+void add_options(remap::Command& app, EnvironmentsCommand& command) {
   EnvironmentsOptions& study = command.study;
   study.alphas = default_alphas();
   app.add_option("--pair", command.pairs, "SOURCE:TARGET, repeatable; default: six pairs of Mitsuba models")
@@ -139,8 +139,8 @@ void add_options(CLI::App& app, EnvironmentsCommand& command) {
 
 }  // namespace
 
-void add_environments_study(CLI::App& study) {
-  CLI::App* command = study.add_subcommand(
+void add_environments_study(remap::Command& study) {
+  remap::Command* command = study.add_subcommand(
       "environments",
       "Compare pictures of source and converted spheres under environment maps, for copied parameters, for "
       "matches by both objectives and for the shipped fits");

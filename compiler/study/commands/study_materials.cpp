@@ -143,7 +143,7 @@ void run_dielectrics(const MaterialsCommand& command) {
 
 constexpr int kMostResolution = 4096;
 
-void add_options(CLI::App& app, MaterialsCommand& command) {
+void add_options(remap::Command& app, MaterialsCommand& command) {
   app.add_option("-o,--output", command.output,
                  "Write tables and plots to this folder; existing files are replaced")
       ->required();
@@ -151,7 +151,7 @@ void add_options(CLI::App& app, MaterialsCommand& command) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--resolution", command.study.resolution, "Width and height of the pictures in pixels")
-      ->check(CLI::Range(16, kMostResolution))
+      ->range(16, kMostResolution)
       ->capture_default_str();
   app.add_option("--jobs", command.study.jobs, "Number of threads; 0: one per core")->capture_default_str();
   app.add_flag("--json", command.json, "Print the figures and the summary as JSON");
@@ -160,8 +160,8 @@ void add_options(CLI::App& app, MaterialsCommand& command) {
 
 }  // namespace
 
-void add_conductors_study(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_conductors_study(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "conductors",
       "Convert measured metals from Ashikhmin-Shirley to Ward and back (figures 6 and 7 of the paper)");
   auto options = std::make_shared<MaterialsCommand>();
@@ -172,8 +172,8 @@ void add_conductors_study(CLI::App& app) {
   command->callback([options] { run_conductors(*options); });
 }
 
-void add_dielectrics_study(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_dielectrics_study(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "dielectrics",
       "Match diffuse and specular together in one, two and three stages (figures 8 and 10 of the paper)");
   auto options = std::make_shared<MaterialsCommand>();

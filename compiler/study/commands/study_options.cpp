@@ -10,7 +10,7 @@
 
 namespace remapc {
 
-void add_environment_options(CLI::App& app, EnvironmentOptions& options) {
+void add_environment_options(remap::Command& app, EnvironmentOptions& options) {
   app.add_option(
          "--environment", options.files,
          "Environment map in latitude and longitude (HDR, EXR), repeatable; default: built-in clear sky, "

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "report/environment.hpp"
@@ -19,7 +18,7 @@ struct EnvironmentOptions {
 };
 
 // Adds `--environment` and `--exposure`. `options` must outlive the parsing.
-void add_environment_options(CLI::App& app, EnvironmentOptions& options);
+void add_environment_options(remap::Command& app, EnvironmentOptions& options);
 
 // Reads the environments and scales them to the same mean luminance, so that each of them counts in the
 // means and none is overexposed. Throws kUsage if the exposure is not above 0, and the errors of
@@ -41,7 +40,7 @@ struct OutputTexts {
 // and
 // `--jobs` for `study`. Both must outlive the parsing.
 template <typename Study>
-void add_output_options(CLI::App& app, OutputOptions& options, Study& study, const OutputTexts& texts) {
+void add_output_options(remap::Command& app, OutputOptions& options, Study& study, const OutputTexts& texts) {
   app.add_option("--resolution", study.resolution, "Width and height of the pictures in pixels")
       ->capture_default_str();
   app.add_option("--samples", study.samples, "Light directions per pixel")->capture_default_str();

@@ -87,17 +87,17 @@ void run(const WarpStudyCommand& command) {
     std::cout << warps_text(options, result) << (legends.empty() ? "" : "\n" + legends);
 }
 
-void add_options(CLI::App& app, WarpStudyCommand& command) {
-  CLI::Option* size =
+void add_options(remap::Command& app, WarpStudyCommand& command) {
+  remap::Option* size =
       app.add_option("--size", command.size, "Width and height of the built-in sets in texels")
           ->capture_default_str();
-  CLI::Option* strokes =
+  remap::Option* strokes =
       app.add_option("--stroke-sets", command.stroke_sets, "Number of stroke sets for each built-in set")
           ->capture_default_str();
-  CLI::Option* material =
+  remap::Option* material =
       app.add_option("--material", command.materials, "Use only this built-in set, repeatable")
           ->allow_extra_args(false)
-          ->check(CLI::IsMember(builtin_warp_names()));
+          ->one_of(builtin_warp_names());
   app.add_option(
          "--sets", command.sets,
          "Read the sets from the subfolders of this folder: {source,template,truth}/{diffuse,specular,"
@@ -120,8 +120,8 @@ void add_options(CLI::App& app, WarpStudyCommand& command) {
 
 }  // namespace
 
-void add_warp_study(CLI::App& study) {
-  CLI::App* command = study.add_subcommand(
+void add_warp_study(remap::Command& study) {
+  remap::Command* command = study.add_subcommand(
       "warp",
       "Measure every warp method on materials with a known result, in one to three dimensions, with "
       "coarse and fine sampling and with different strokes (An et al. 2011, figures 2, 3 and 7)");

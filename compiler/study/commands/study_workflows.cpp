@@ -102,7 +102,7 @@ void run(const WorkflowsCommand& command) {
   for (const std::string& remark : set.remarks) std::cout << "Note: " << remark << ".\n";
 }
 
-void add_options(CLI::App& app, WorkflowsCommand& command) {
+void add_options(remap::Command& app, WorkflowsCommand& command) {
   WorkflowsOptions& study = command.study;
   study.alphas = {0.05, 0.1, 0.2, 0.4, 0.8};
   command.environments.exposure = kExposure;
@@ -131,8 +131,8 @@ void add_options(CLI::App& app, WorkflowsCommand& command) {
 
 }  // namespace
 
-void add_workflows_study(CLI::App& study) {
-  CLI::App* command = study.add_subcommand(
+void add_workflows_study(remap::Command& study) {
+  remap::Command* command = study.add_subcommand(
       "workflows",
       "Convert materials from the specular to the metallic workflow by every method and compare pictures "
       "under environment maps; also convert metallic materials there and back");
