@@ -1,8 +1,5 @@
-// Converts maps by one generated header, and compares the result with maps that texremap converted:
-//   g++ -std=c++17 -O2 -ffp-contract=off -I generated examples/convert_maps_by_header.cpp -lOpenImageIO
-//   -lOpenImageIO_Util \
-//     -o convert_maps_by_header
-//   ./convert_maps_by_header roughness.exr specular.exr converted_roughness.exr converted_specular.exr
+// Converts maps by one generated header, and compares the result with maps that texremap converted. To build it:
+// g++ -std=c++17 -O2 -ffp-contract=off -I generated examples/convert_maps_by_header.cpp -lOpenImageIO -lOpenImageIO_Util
 #include <cstdio>
 #include <vector>
 
