@@ -13,6 +13,7 @@
 #include "commands/renderer_options.hpp"
 #include "commands/table_summary.hpp"
 #include "remap/error.hpp"
+#include "sweep/provenance.hpp"
 #include "system/files.hpp"
 #include "text/number_text.hpp"
 

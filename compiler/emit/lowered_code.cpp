@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lower/lowered_value.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
+#include "lower/emitted_order.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {

@@ -8,6 +8,7 @@
 #include "probe/picture_sums.hpp"
 #include "probe/picture_taker.hpp"
 #include "probe/polynomial.hpp"
+#include "probe/probe.hpp"
 
 namespace remapc {
 namespace {

@@ -28,4 +28,8 @@ void add_comparison(const Renderer& renderer, const PairOptions& options, Commen
 
 void add_resolution(const PairOptions& options, Comments* comments);
 
+// Width below which a highlight under the headlight has a radius of less than one pixel sample, so that a
+// picture no longer resolves it.
+double subpixel_alpha(int resolution, int samples_per_axis);
+
 }  // namespace remapc

@@ -207,12 +207,6 @@ Range canonical_speculars(const Renderer& renderer, const ModelDescription& mode
   return ProbedModel{model, specular_response(renderer, model)}.specular_range();
 }
 
-double subpixel_alpha(int resolution, int samples_per_axis) {
-  // The sphere's radius is resolution / 2 pixels; at a camera distance of 3 the half vector turns by 1.5
-  // times the angle of the normal near the middle of the picture.
-  return 1.5 / (0.5 * resolution * samples_per_axis);
-}
-
 Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const SweepExecution& execution) {
   const SteadyRenderer renderer(any_renderer, {options.source, options.target},
                                 options.objective.lights.front());

@@ -29,10 +29,6 @@ SpecularResponse specular_response(const Renderer& renderer, const ModelDescript
 // Canonical speculars that `model` takes, by the law that a few small pictures show (probe_specular).
 remap::Range canonical_speculars(const Renderer& renderer, const ModelDescription& model);
 
-// Width below which a highlight under the headlight has a radius of less than one pixel sample, so that a
-// picture no longer resolves it.
-double subpixel_alpha(int resolution, int samples_per_axis);
-
 // Matches every sample. Stages 2: width and specular from pictures without diffuse, diffuse apart from them.
 // Stages 1: width, specular and diffuse at once from kFixedGuess (joint_match.hpp); 3: the same from the
 // result of 2. Where the two models' light differs by a factor, the source's pictures are multiplied by it

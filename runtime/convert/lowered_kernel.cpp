@@ -1,7 +1,6 @@
 // The domain rule is that of generated headers (compiler/emit/header.cpp), step by step over blocks of
 // texels: every loop runs over a whole block, so that compilers vectorise it for every instruction set and a
 // texel takes the same way wherever in its row it stands.
-#include "lower/lowered_value.hpp"
 #include "convert/lowered_kernel.hpp"
 
 #include <bit>
@@ -10,6 +9,7 @@
 #include <cstring>
 
 #include "convert/instruction_target.hpp"
+#include "lower/emitted_order.hpp"
 
 namespace remap {
 namespace {

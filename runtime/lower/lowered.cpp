@@ -1,8 +1,9 @@
-#include "lower/lowered_value.hpp"
 #include "lower/lowered.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "lower/emitted_order.hpp"
 
 namespace remap {
 

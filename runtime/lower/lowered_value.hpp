@@ -1,32 +1,10 @@
-// The order of operations of lowered polynomials, over any scalar.
+// The value of a lowered polynomial in real arithmetic, over any scalar.
 #pragma once
 
 #include "lower/lowered.hpp"
 #include "model/evaluate.hpp"
 
 namespace remap {
-
-// From this degree on the even and the odd powers are summed apart: a processor works on both sums at once.
-inline constexpr int kShortestSplit = 4;
-
-// c[0] + c[1] u + ... + c[degree] u^degree in the order of operations of generated code. `square`: u * u.
-// `times_plus(a, x, b)`: a * x + b.
-template <typename Number, typename TimesPlus>
-Number in_emitted_order(const float* c, int degree, const Number& u, const Number& square,
-                        const TimesPlus& times_plus) {
-  if (degree < 0) return Number{};
-  Number sum{c[degree]};
-  if (degree < kShortestSplit) {
-    for (int i = degree - 1; i >= 0; --i) sum = times_plus(sum, u, Number{c[i]});
-    return sum;
-  }
-  Number next{c[degree - 1]};
-  for (int i = degree - 2; i >= 0; --i) {
-    Number& same = (degree - i) % 2 == 0 ? sum : next;
-    same = times_plus(same, square, Number{c[i]});
-  }
-  return degree % 2 == 0 ? times_plus(next, u, sum) : times_plus(sum, u, next);
-}
 
 // The value in real arithmetic, over any scalar of evaluate.hpp; for Taylor models the box lies in `cell`.
 template <typename Scalar>

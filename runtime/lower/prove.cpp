@@ -1,9 +1,11 @@
-#include "lower/lowered_value.hpp"
 #include "lower/prove.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <queue>
+
+#include "lower/emitted_order.hpp"
+#include "lower/lowered_value.hpp"
 
 namespace remap {
 namespace {

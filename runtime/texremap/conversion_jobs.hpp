@@ -8,6 +8,7 @@
 
 #include "texremap/convert_options.hpp"
 #include "texremap/workflow_choice.hpp"
+#include "texture/target_plan.hpp"
 #include "texture/texture_set.hpp"
 
 namespace remap {

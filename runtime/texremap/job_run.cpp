@@ -13,6 +13,7 @@
 #include "remap/version.hpp"
 #include "system/files.hpp"
 #include "system/parallel.hpp"
+#include "texremap/conversion_request.hpp"
 #include "texture/content_hash.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_pass.hpp"

@@ -9,6 +9,7 @@
 
 #include "convert/material_converter.hpp"
 #include "texremap/convert_options.hpp"
+#include "texture/texture_set.hpp"
 
 namespace remap {
 

@@ -65,8 +65,9 @@ bool alpha_needs_specular(const std::vector<TableRow>& rows) {
 std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model) {
   const std::string chosen = id.empty() ? remap::converter_id(source_model, target_model) : id;
   if (!remap::is_valid_id(chosen))
-    throw Error(ErrorKind::kUsage,
-                "id: \"" + chosen + "\"; expected a C++ identifier without leading or doubled underscore");
+    throw remap::Error(
+        remap::ErrorKind::kUsage,
+        "id: \"" + chosen + "\"; expected a C++ identifier without leading or doubled underscore");
   return chosen;
 }
 
