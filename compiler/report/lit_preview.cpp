@@ -22,6 +22,11 @@ using remap::ErrorKind;
 
 constexpr std::size_t kColumns = 3;  // source, copied, converted
 
+// Background on each side of a picture, pixels.
+int margin_of(const LitPreviewOptions& options) { return options.resolution / 20; }
+
+int cell_of(const LitPreviewOptions& options) { return options.resolution + 2 * margin_of(options); }
+
 // Linear radiance of one sphere and the share of each pixel that it covers, row by row.
 struct CoveredPicture {
   std::vector<float> radiance;  // red, green, blue; mean over the covered part of the pixel
@@ -58,6 +63,15 @@ std::vector<std::uint32_t> covered_pixels(const CoveredPicture& picture) {
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < picture.coverage.size(); ++i)
     if (picture.coverage[i] > 0.0f) pixels.push_back(static_cast<std::uint32_t>(i));
+  return pixels;
+}
+
+// The same pixels in a cell of the sheet.
+std::vector<std::uint32_t> in_cell(const LitPreviewOptions& options, std::vector<std::uint32_t> pixels) {
+  const auto side = static_cast<std::uint32_t>(options.resolution);
+  const auto margin = static_cast<std::uint32_t>(margin_of(options));
+  const auto cell = static_cast<std::uint32_t>(cell_of(options));
+  for (std::uint32_t& pixel : pixels) pixel = (pixel / side + margin) * cell + pixel % side + margin;
   return pixels;
 }
 
@@ -131,7 +145,7 @@ void show_row(const SpherePictures& pictures, const LitPreviewOptions& options, 
     const CoveredPicture picture = covered_picture(pictures, column * count, count, options.resolution);
     pixels = covered_pixels(picture);
     shown[column] = displayed_sphere(chosen(picture, pixels), pixels, options.resolution);
-    place_picture(&preview->sheet, options.resolution, row, column, pixels,
+    place_picture(&preview->sheet, cell_of(options), row, column, in_cell(options, pixels),
                   over_background(picture, pixels, shown[column].colors));
   }
   const auto similarity = [&](const DisplayedSphere& other) {
@@ -162,8 +176,7 @@ LitPreview make_lit_preview(const remap::Fit& fit, const Environment& environmen
                             const LitPreviewOptions& wanted) {
   const LitPreviewOptions options = filled(wanted, fit.domain);
   require_options(options);
-  LitPreview preview{
-      options.specular, {}, contact_sheet(options.alphas.size(), kColumns, options.resolution)};
+  LitPreview preview{options.specular, {}, contact_sheet(options.alphas.size(), kColumns, cell_of(options))};
   const RadiancePyramid pyramid(std::span(&environment, 1));
   SphereSampling sampling;
   sampling.resolution = options.resolution * options.samples_per_axis;

@@ -36,7 +36,8 @@ struct LitFigure {
 struct LitPreview {
   std::vector<double> specular;    // of the source, as rendered
   std::vector<LitFigure> figures;  // by alpha
-  Image sheet;                     // a row for each alpha; columns: source, numbers copied, numbers converted
+  Image sheet;  // a row for each alpha; columns: source, numbers copied, numbers converted; a margin of a
+                // twentieth of the resolution around each picture
 };
 
 // The built-in environment of this name (sky, overcast, studio), or the one of this file; its mean luminance

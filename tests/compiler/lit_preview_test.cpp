@@ -67,13 +67,13 @@ TEST_CASE("lit preview: copied numbers and a wrong conversion look different fro
 TEST_CASE("lit preview: the sheet has a row for each alpha and three spheres of that color") {
   const LitPreview preview = make_lit_preview(scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0),
                                               environment_for_preview("overcast", 1.0), small_preview());
-  REQUIRE(preview.sheet.width == 3 * 32);
-  REQUIRE(preview.sheet.height == 2 * 32);
+  REQUIRE(preview.sheet.width == 3 * 34);  // a margin of a twentieth on each side
+  REQUIRE(preview.sheet.height == 2 * 34);
   CHECK(pixel(preview.sheet, 0, 0, 0) == kSheetBackground);
   for (int column = 0; column < 3; ++column) {
-    const int middle = 32 * column + 16;
-    CHECK(pixel(preview.sheet, middle, 12, 0) > pixel(preview.sheet, middle, 12, 2));
-    CHECK(pixel(preview.sheet, middle, 12, 0) > kSheetBackground);
+    const int middle = 34 * column + 17;
+    CHECK(pixel(preview.sheet, middle, 13, 0) > pixel(preview.sheet, middle, 13, 2));
+    CHECK(pixel(preview.sheet, middle, 13, 0) > kSheetBackground);
   }
 }
 
