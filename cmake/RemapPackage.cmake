@@ -4,7 +4,7 @@ include(RemapAddConverter)
 
 # Users write `#include <remap/ID.hpp>`; in this tree the folder has another name.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
-file(CREATE_LINK ${REMAP_GENERATED_DIR} ${PROJECT_BINARY_DIR}/include/remap SYMBOLIC)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/generated ${PROJECT_BINARY_DIR}/include/remap SYMBOLIC)
 
 add_library(remap_headers INTERFACE)
 add_library(remap::headers ALIAS remap_headers)
@@ -30,7 +30,7 @@ include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/remap)
 install(TARGETS remap_headers ${tools} EXPORT remapTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(EXPORT remapTargets NAMESPACE remap:: DESTINATION ${package_folder})
-install(DIRECTORY ${REMAP_GENERATED_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/remap
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/generated/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/remap
         FILES_MATCHING PATTERN "*.hpp" PATTERN "LICENSE")
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/remapConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/remapConfig.cmake INSTALL_DESTINATION ${package_folder})

@@ -1,35 +1,41 @@
-// remapc: from two BRDF models to a C++ header that converts the parameters of one into those of the other.
-#include <CLI/CLI.hpp>
-
+// remapc compiles two BRDF models into a C++ header that converts the parameters of one into those of the
+// other.
+#include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "remap/version.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Measures how the parameters of one BRDF model convert into those of another, and compiles the result "
-      "into a C++ header: sweep -> check -> fit -> emit.",
+  remap::Command app(
+      "Measures how the parameters of one BRDF model convert to those of another, and compiles the result "
+      "into a "
+      "C++ header: sweep, check, fit, emit.",
       "remapc");
   app.set_version_flag("--version", std::string("remapc ") + remap::kVersion);
   app.require_subcommand(1);
-  remapc::add_render_command(app);
   remapc::add_sweep_command(app);
   remapc::add_sample_command(app);
+  remapc::add_render_command(app);
   remapc::add_check_command(app);
   remapc::add_fit_command(app);
-  remapc::add_warp_command(app);
+  remapc::add_compare_command(app);
+  remapc::add_import_command(app);
   remapc::add_emit_command(app);
-  remapc::add_build_command(app);
+  remapc::add_export_command(app);
   remapc::add_chain_command(app);
   remapc::add_invert_command(app);
-  remapc::add_export_command(app);
-  remapc::add_eval_command(app);
-  remapc::add_import_command(app);
-  remapc::add_compare_command(app);
+  remapc::add_build_command(app);
   remapc::add_list_command(app);
-  remapc::add_renderers_command(app);
-  remapc::add_worker_check_command(app);
   remapc::add_show_command(app);
   remapc::add_preview_command(app);
+  remapc::add_eval_command(app);
+  remapc::add_renderers_command(app);
+  remapc::add_worker_check_command(app);
+  remapc::add_warp_command(app);
+  app.footer(
+      "Example:\n"
+      "  remapc sweep --source mitsuba/ward --target mitsuba/as -o ward_to_as.csv\n"
+      "  remapc fit ward_to_as.csv -o fits\n"
+      "  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated");
   return remap::run_app(app, argc, argv);
 }

@@ -1,4 +1,4 @@
-// A renderer of one sphere, Lambert and Blinn-Phong, for lambert_worker.cpp to stand around.
+// A minimal renderer of one sphere with Lambert and Blinn-Phong, used by lambert_worker.cpp.
 #pragma once
 
 #include <algorithm>
@@ -24,16 +24,16 @@ struct Material {
 
 struct View {
   int side, grid;               // pixels of the picture; samples along each side of a pixel
-  double half_angle, distance;  // of the camera on +z: degrees, radii of the sphere
+  double half_angle, distance;  // of the camera on +z, in degrees and sphere radii
   Vector lamp;
 };
 
-// Radiance along the ray through (x, y) of the image plane at distance 1 from the camera.
+// Returns the radiance along the ray through (x, y) of the image plane at distance 1 from the camera.
 inline double radiance(double x, double y, const View& view, const Material& material) {
   const Vector ray = unit({x, y, -1.0});
   const double middle = -ray[2] * view.distance,
                beneath = middle * middle - view.distance * view.distance + 1.0;
-  if (beneath <= 0.0) return 0.0;  // beside the unit sphere
+  if (beneath <= 0.0) return 0.0;  // the ray misses the unit sphere
   const Vector point = sum({0.0, 0.0, view.distance}, ray, middle - std::sqrt(beneath));
   const Vector to_lamp = sum(view.lamp, point, -1.0), light = unit(to_lamp);
   const double cosine = dot(light, point);
@@ -43,7 +43,7 @@ inline double radiance(double x, double y, const View& view, const Material& mat
   return (material.diffuse / kPi + material.specular * lobe) * cosine / dot(to_lamp, to_lamp);
 }
 
-// Row 0 at the top; one material a channel, interleaved.
+// Renders a picture, row 0 at the top; channels are interleaved and have a material each.
 inline std::vector<float> picture(const View& view, const std::vector<Material>& channels) {
   const double extent = std::tan(view.half_angle * kPi / 180.0);
   const auto at = [&](int sample) { return (2.0 * (sample + 0.5) / (view.side * view.grid) - 1.0) * extent; };

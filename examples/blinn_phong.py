@@ -1,4 +1,4 @@
-"""A renderer of one sphere, Lambert and Blinn-Phong, for lambert_worker.py to stand around."""
+"""A minimal renderer of one sphere with Lambert and Blinn-Phong, used by lambert_worker.py."""
 import math
 
 
@@ -8,10 +8,10 @@ def unit(v):
 
 
 def radiance(x, y, distance, lamp, n, specular, diffuse):
-    """Along the ray through (x, y) of the image plane at distance 1 from the camera on +z."""
+    """Returns the radiance along the ray through (x, y) of the image plane at distance 1 from the camera on +z."""
     ray, _ = unit([x, y, -1])
     middle = -ray[2] * distance
-    beneath = middle * middle - distance * distance + 1  # the ray against the unit sphere
+    beneath = middle * middle - distance * distance + 1  # negative if the ray misses the unit sphere
     if beneath <= 0:
         return 0.0
     p = [t * (middle - math.sqrt(beneath)) for t in ray]
@@ -26,7 +26,7 @@ def radiance(x, y, distance, lamp, n, specular, diffuse):
 
 
 def picture(side, grid, half_angle, distance, lamp, exponent, specular, diffuse):
-    """Row 0 at the top; each pixel the mean of the centres of grid x grid squares."""
+    """Renders a picture, row 0 at the top; a pixel is the mean of the centres of grid x grid squares."""
     extent = math.tan(math.radians(half_angle))
     at = [(2 * (i + 0.5) / (side * grid) - 1) * extent for i in range(side * grid)]
     return [sum(radiance(at[column * grid + u], -at[row * grid + v], distance, lamp, exponent, specular, diffuse)

@@ -1,5 +1,5 @@
-// Converts the maps of a material in memory, as an asset pipeline would: an 8-bit RGBA buffer with specular
-// in its colors (sRGB) and glossiness in its alpha, in place. No files, no image library.
+// Converts maps in memory, as an asset pipeline would, without files or an image library. The 8-bit RGBA
+// buffer holds specular (sRGB) and glossiness in its alpha channel, and is converted in place.
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -15,7 +15,7 @@ int main() try {
   std::vector<std::uint8_t> texels(kWidth * kHeight * 4);
   for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<std::uint8_t>(i * 7 / 256);
 
-  // The path of least expected error from one model to the other, as texremap takes it.
+  // Finds the path of least expected error between the two models, as texremap does.
   const remap::ConverterPath path =
       remap::compiled_graph().find_paths({"mitsuba/ward", "cycles-2.7/ggx", {}}).front();
   const auto converter = remap::make_chained_converter(path.steps);

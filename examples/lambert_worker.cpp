@@ -1,5 +1,5 @@
-// A whole worker (compiler/adapters/PROTOCOL.md), around the renderer of blinn_phong.hpp. Put yours in its
-// place.
+// A complete worker (compiler/adapters/PROTOCOL.md) for the renderer of blinn_phong.hpp. To write your own,
+// replace the model and the renderer.
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -21,11 +21,11 @@ void require(bool condition, const std::string& message) {
 
 void render(const Json& request) {
   const Json &values = request.at("parameters"), &scene = request.at("scene"), &camera = scene.at("camera");
-  require(request.at("model") == kModel["name"], "the model is unknown; expected example/blinn-phong");
+  require(request.at("model") == kModel["name"], "unknown model (choose example/blinn-phong)");
   for (const Json& parameter : kModel["parameters"])
     for (const double v : values.at(parameter["name"].get<std::string>()))
       require(v >= parameter["range"][0] && v <= parameter["range"][1],
-              parameter["name"].get<std::string>() + " is out of its range");
+              parameter["name"].get<std::string>() + " is out of range");
   const auto value = [&](const char* name, std::size_t c) -> double {
     return values.at(name).at(c % values.at(name).size());
   };
@@ -39,7 +39,7 @@ void render(const Json& request) {
   std::ofstream file(request.at("image").get<std::string>(), std::ios::binary);
   file.write(reinterpret_cast<const char*>(pixels.data()),
              static_cast<std::streamsize>(pixels.size() * sizeof(float)));
-  require(static_cast<bool>(file.flush()), "the picture cannot be written");
+  require(static_cast<bool>(file.flush()), "cannot write the picture");
 }
 
 int main() {
@@ -55,6 +55,6 @@ int main() {
     } catch (const std::exception& failure) {
       answer["error"] = failure.what();
     }
-    std::cout << answer.dump() << std::endl;  // flushed: remapc waits for it
+    std::cout << answer.dump() << std::endl;  // std::endl flushes: remapc waits for the answer
   }
 }

@@ -1,4 +1,4 @@
-"""A whole worker (compiler/adapters/PROTOCOL.md), around a renderer that is a few lines of Python. Put yours in its place."""
+"""A complete worker (compiler/adapters/PROTOCOL.md) for the renderer of blinn_phong.py. To write your own, replace both."""
 import array
 import json
 import sys
@@ -13,10 +13,10 @@ MODEL = {"name": "example/blinn-phong", "parameters": [
 def render(request):
     values, scene, channels = request["parameters"], request["scene"], request["channels"]
     if request["model"] != MODEL["name"]:
-        raise ValueError(f"{request['model']} is no model; expected {MODEL['name']}")
+        raise ValueError(f"unknown model {request['model']} (choose {MODEL['name']})")
     for p in MODEL["parameters"]:
         if not all(p["range"][0] <= v <= p["range"][1] for v in values[p["name"]]):
-            raise ValueError(f"{p['name']} is {values[p['name']]}; expected {p['range'][0]} to {p['range'][1]}")
+            raise ValueError(f"{p['name']} = {values[p['name']]} is out of range ({p['range'][0]} to {p['range'][1]})")
     pictures = [blinn_phong.picture(
         scene["resolution"], scene["samples_per_axis"], scene["camera"]["half_angle"], scene["camera"]["distance"],
         scene["light"]["position"], *(values[p["name"]][c % len(values[p["name"]])] for p in MODEL["parameters"]))

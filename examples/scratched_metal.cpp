@@ -1,6 +1,6 @@
-// Makes a texture set to try texremap on: brushed copper with scratches and patina, as a roughness map (one
-// channel, alpha) and a specular map (RGB, linear), half-float EXR. The same bytes on every run; the maps
-// tile.
+// Makes a texture set for trying texremap: brushed copper with scratches and patina. It writes a roughness
+// map (one channel, alpha) and a specular map (RGB, linear) as half-float EXR. The maps tile, and every run
+// writes the same bytes.
 //   scratched_metal FOLDER [SIZE]
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ float smooth_step(float edge0, float edge1, float x) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-// Integer hash to [0, 1): the finaliser of MurmurHash3 (Appleby, 2011).
+// Hashes integers to [0, 1) by the finaliser of MurmurHash3 (Appleby, 2011).
 float random_at(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
   std::uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u ^ seed * 0xc2b2ae3du;
   h = (h ^ h >> 16) * 0x85ebca6bu;
@@ -37,7 +37,7 @@ float random_at(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
   return static_cast<float>((h ^ h >> 16) >> 8) * 0x1p-24f;
 }
 
-// Value noise over the unit square with `columns` x `rows` lattice cells; periodic.
+// Periodic value noise over the unit square with `columns` x `rows` lattice cells.
 struct Noise {
   std::uint32_t columns, rows, seed;
 
@@ -53,7 +53,7 @@ struct Noise {
   }
 };
 
-// Octaves of noise, each twice as fine and half as strong as the one before.
+// Sums octaves of noise, each twice as fine and half as strong as the one before.
 float cloud(float u, float v, std::uint32_t cells, std::uint32_t seed) {
   float sum = 0.0f, weight = 0.5f;
   for (std::uint32_t octave = 0; octave < 6; ++octave, cells *= 2, weight *= 0.5f)
@@ -61,7 +61,7 @@ float cloud(float u, float v, std::uint32_t cells, std::uint32_t seed) {
   return sum;
 }
 
-// Depth of the scratches, 0 to 1, in a square map.
+// The depth of the scratches, 0 to 1, in a square map.
 class Scratches {
  public:
   Scratches(int size, std::uint32_t count)
@@ -76,7 +76,7 @@ class Scratches {
     return wrap(y) * static_cast<std::size_t>(size_) + wrap(x);
   }
 
-  // A slightly bent line that fades towards its ends. Most are short and fine.
+  // Draws a slightly bent line that fades towards its ends. Most lines are short and fine.
   void draw(std::uint32_t number) {
     const auto random = [&](std::uint32_t property) { return random_at(number, property, 77); };
     const float scale = static_cast<float>(size_);
@@ -115,7 +115,7 @@ struct Texel {
 
 Texel metal_at(float u, float v, float scratch) {
   constexpr Rgb kCopper{0.93f, 0.62f, 0.50f}, kGold{0.98f, 0.76f, 0.36f}, kPatina{0.11f, 0.20f, 0.16f};
-  // The brush runs along u: few cells that way, many across.
+  // Brush marks run along u, so the noise has few cells along u and many across.
   const float brush = 0.6f * Noise{6, 700, 1}(u, v) + 0.4f * Noise{17, 1500, 2}(u, v);
   const float hue = smooth_step(0.35f, 0.65f, cloud(u, v, 2, 10));
   const float patina =

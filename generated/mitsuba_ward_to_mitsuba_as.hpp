@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_to_mitsuba_as.csv, sha256 e8b352eee4206503c985e3526af9a548716cd52d18f14d586668dddb50d70a09;
-// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 720 rows trained, 180 held out.
+// Table mitsuba_ward_to_mitsuba_as.csv, sha256
+// e8b352eee4206503c985e3526af9a548716cd52d18f14d586668dddb50d70a09; objective natural (lights 60, weighting
+// relative), 512 pixels squared, by remapc 0.1.0. Fit: parametric, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 0.00026, 99 % 0.0014, max 0.0015;
 // f0 rms 4.1e-05, 99 % 0.00015, max 0.00017.
-// Lowered from the fit. Target alpha: degree 6, 4 in specular, proven within 3.4e-07 (sampled 1.6e-08), rising with alpha.
-// Target specular: degree 9, proven within 6.9e-05 (sampled 6.5e-05), rising with specular.
-// Covers alpha 0.01 to 1, specular 0 to 1.
+// Lowered from the fit. Target alpha: degree 6, 4 in specular, proven within 3.4e-07 (sampled 1.6e-08),
+// rising with alpha. Target specular: degree 9, proven within 6.9e-05 (sampled 6.5e-05), rising with
+// specular. Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_AS_HPP
 
@@ -38,22 +38,22 @@ inline constexpr const char* kTargetSpecular = "f0";
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = 0.00026f;
 inline constexpr float kSpecularRmsError = 4.1e-05f;
-// How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
-// to the source's. Negative where no pictures were compared.
+// How alike the two models can be at all: root mean square difference of their pictures at the best
+// parameters, relative to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.059f;
 
 struct Input {
-  float alpha;  // microfacet width, (0, 1]
+  float alpha;     // microfacet width, (0, 1]
   float specular;  // specular reflectance, linear
 };
 struct Output {
   float alpha;  // microfacet width, (0, 1]
-  float f0;  // reflectance at normal incidence, linear
+  float f0;     // reflectance at normal incidence, linear
 };
 
 // What the measured table covers. Beyond it alpha is held at the edge, and specular is extrapolated in
-// proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels count as out
-// of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels
+// count as out of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
 inline constexpr Input kDomainMax{1.0f, 1.0f};
 
@@ -110,8 +110,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
   return sum;
 }
 
-// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
-// channels: one row of a block for each power.
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the
+// same for all channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
 };
@@ -119,13 +119,13 @@ struct Terms {
 template <class Count>
 inline void specular_terms(Count count, Terms& terms) noexcept {
   const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
+#if defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#elif defined(__GNUC__)
+#pragma GCC ivdep
+#elif defined(_MSC_VER)
+#pragma loop(ivdep)
+#endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.50500107f;
@@ -163,211 +163,261 @@ inline float target_specular(const Terms& terms, std::size_t i, float specular) 
   return sum;
 }
 
-// The width as alpha, held in the domain. Floats that are not negative compare as integers do; that vectorises with
-// every compiler and under any floating-point flags.
-struct HeldWidth {
-  float alpha;
-  std::uint32_t nan;      // all bits: not a number
-  std::uint32_t outside;  // sign bit: out of domain
+// The rule of the domain is written over these names: one texel here, several in programs with vectors of
+// their own.
+using Float = float;
+using Bits = std::uint32_t;
+inline constexpr std::size_t kLanes = 1;
+
+inline float load(const float* from) noexcept { return *from; }
+inline std::uint32_t load(const std::uint32_t* from) noexcept { return *from; }
+inline void store(float* to, float value) noexcept { *to = value; }
+inline void store(std::uint32_t* to, std::uint32_t value) noexcept { *to = value; }
+
+inline std::int32_t as_signed(std::uint32_t value) noexcept { return static_cast<std::int32_t>(value); }
+inline std::uint32_t as_bits(std::int32_t value) noexcept { return static_cast<std::uint32_t>(value); }
+// All bits where a > b, as signed numbers.
+inline std::uint32_t above(std::uint32_t a, std::uint32_t b) noexcept {
+  return as_signed(a) > as_signed(b) ? 0xffffffffu : 0u;
+}
+// Sign bit where a and b differ. Compilers would branch on a comparison.
+inline std::uint32_t differs(std::uint32_t a, std::uint32_t b) noexcept { return (a - b) | (b - a); }
+// Compilers know the larger of two signed numbers as one instruction.
+inline std::uint32_t larger(std::uint32_t a, std::uint32_t b) noexcept {
+  const std::int32_t x = as_signed(a), y = as_signed(b);
+  return as_bits(x < y ? y : x);
+}
+inline std::uint32_t smaller(std::uint32_t a, std::uint32_t b) noexcept {
+  const std::int32_t x = as_signed(a), y = as_signed(b);
+  return as_bits(x > y ? y : x);
+}
+inline std::uint32_t all_of_sign(std::uint32_t value) noexcept { return as_bits(as_signed(value) >> 31); }
+inline bool any_sign(std::uint32_t value) noexcept { return value >> 31 != 0; }
+
+// What a converter covers, in the source's own parameters.
+struct Domain {
+  float width_min, width_max, specular_min, specular_max;
+  float inverse_edge;  // 1 / specular_max
 };
 
-inline HeldWidth held_width(float given) noexcept {
-  constexpr std::int32_t kInfinity = 0x7f800000;
-  const std::int32_t low = static_cast<std::int32_t>(bits(kDomainMin.alpha));
-  const std::int32_t high = static_cast<std::int32_t>(bits(kDomainMax.alpha));
-  const std::int32_t order = static_cast<std::int32_t>(bits(given + 0.0f));  // -0 becomes 0
-  const std::int32_t raised = order < low ? low : order;
-  const std::int32_t held = raised > high ? high : raised;
-  const float own = float_from_bits(static_cast<std::uint32_t>(held));
-  const std::uint32_t nan = (order & 0x7fffffff) > kInfinity ? 0xffffffffu : 0u;
-  return {own, nan, held != order ? 0x80000000u : 0u};
+// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with
+// every compiler and under any floating-point flags.
+struct HeldWidth {
+  Float own;
+  Bits nan;      // all bits: not a number
+  Bits outside;  // sign bit: out of domain
+};
+
+inline HeldWidth held_width(const Domain& domain, Float given) noexcept {
+  const Bits order = bits(given + 0.0f);  // -0 becomes 0
+  const Bits raised = larger(order, bits(domain.width_min));
+  const Bits held = smaller(raised, bits(domain.width_max));
+  return {float_from_bits(held), above(order & 0x7fffffffu, 0x7f800000u), differs(held, order)};
 }
 
-// The target's own width parameter.
-inline float own_width(float alpha) noexcept { return alpha; }
-
 // Sign bit: whether a channel is out of domain; negative, beyond the edge, or NaN.
-inline std::uint32_t channel_outside(float given) noexcept {
-  const std::uint32_t order = bits(given + 0.0f);
-  return order | (order - bits(kDomainMin.specular)) | (bits(kDomainMax.specular) - order);
+inline Bits channel_outside(const Domain& domain, Float given) noexcept {
+  const Bits order = bits(given + 0.0f);
+  return order | (order - bits(domain.specular_min)) | (bits(domain.specular_max) - order);
 }
 
 // A channel held at 0 from below; NaN stays.
-inline float held_channel(float given) noexcept {
-  constexpr std::int32_t kMinusInfinity = -0x00800000;  // 0xff800000
-  const std::int32_t order = static_cast<std::int32_t>(bits(given));
-  return float_from_bits(static_cast<std::uint32_t>(order <= kMinusInfinity ? 0 : order));
+inline Float held_channel(Float given) noexcept {
+  const Bits order = bits(given);
+  return float_from_bits(order & above(order, 0xff800000u));  // minus infinity
+}
+
+// The value, or NaN where `nan` has all bits.
+inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
+
+// What is this converter's own: its domain, the conventions of its widths and its functions.
+struct Mapping {
+  static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular, kDomainMax.specular,
+                                 1.0f};
+  static float alpha_of(float own) noexcept { return own; }
+  static float own_of(float alpha) noexcept { return alpha; }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+};
+
+template <class Count>
+inline std::size_t count_outside(Count count, const std::uint32_t* outside) noexcept {
+  const std::size_t size = count;
+  std::uint32_t sum = 0;
+  for (std::size_t i = 0; i < size; ++i) sum += outside[i] >> 31;
+  return sum;
 }
 
 // Beyond the largest of these a channel is left as it is, as infinity and NaN are.
 inline constexpr float kLargestChannel = 1e30f;
 
-// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
-// comparison: compilers would branch on it.
-inline std::int32_t larger_channel(std::int32_t largest, float given) noexcept {
-  const std::uint32_t kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
-  const std::int32_t counted = static_cast<std::int32_t>(bits(given)) & ~(static_cast<std::int32_t>(kept) >> 31);
-  return counted > largest ? counted : largest;
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place
+// of a comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
 }
 
 // The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
-inline float channel_scale(float largest) noexcept {
-  const std::int32_t one = static_cast<std::int32_t>(bits(1.0f));
-  const std::int32_t above = static_cast<std::int32_t>(bits(largest * 1.0f)) - one;
-  return float_from_bits(static_cast<std::uint32_t>((above & ~(above >> 31)) + one));
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
 }
 
 // The channel, held at 0 from below, where it is left as it is; otherwise what it was mapped to.
-inline float kept_or_mapped(float held, float mapped) noexcept {
-  const std::int32_t order = static_cast<std::int32_t>(bits(held) & 0x7fffffffu);
-  const std::uint32_t kept = static_cast<std::uint32_t>((static_cast<std::int32_t>(bits(kLargestChannel)) - order) >> 31);
+inline Float kept_or_mapped(Float held, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(held) & 0x7fffffffu));
   return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
 }
 
-inline constexpr bool kAlphaBySpecular = true;  // whether target alpha depends on specular
-
-// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside; NaN
-// where the width is NaN.
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter
+// way to the same bits: a factor of 1.
+//
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1
+// inside; NaN where the width is NaN.
 struct Block {
   float top[kBlock], scale[kBlock], inverse[kBlock];
+  std::uint32_t outside[kBlock];  // sign bit: out of domain
   Terms terms;
 };
 
-struct Outside {
-  std::uint32_t texel_count;
-  std::uint32_t channels;  // sign bit: whether any channel of the block is out of domain
-};
-
+// Returns with its sign bit whether any channel of the block is out of domain.
 template <class Count, std::size_t... Channel>
-inline Outside look_at_texels(Count count, const float* width, const std::array<const float*, sizeof...(Channel)>& specular,
-                              Block& block, std::index_sequence<Channel...>) noexcept {
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width,
+                           const float* const* specular, Block& block,
+                           std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
-  std::uint32_t texel_count = 0, channels = 0;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; ++i) {
-    const HeldWidth held = held_width(width[i]);
-    const std::uint32_t outside = (channel_outside(specular[Channel][i]) | ...);
-    block.terms.alpha[i] = held.alpha;
-    block.scale[i] = float_from_bits(bits(1.0f) | held.nan);
-    channels |= outside;
-    texel_count += (held.outside | outside) >> 31;
+  const Domain domain = mapping.domain;
+  Bits channels = 0;
+#if defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#elif defined(__GNUC__)
+#pragma GCC ivdep
+#elif defined(_MSC_VER)
+#pragma loop(ivdep)
+#endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const HeldWidth held = held_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(held.own));
+    store(block.scale + i, with_nan(1.0f, held.nan));
+    store(block.outside + i, held.outside | outside);
+    channels = channels | outside;
   }
-  return {texel_count, channels};
+  return channels;
 }
 
+// The largest channel.
 template <class Count, std::size_t... Channel>
-inline void scale_texels(Count count, const std::array<const float*, sizeof...(Channel)>& specular, Block& block,
-                         std::index_sequence<Channel...>) noexcept {
-  const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; ++i) {
-    std::int32_t largest = 0;
-    ((largest = larger_channel(largest, specular[Channel][i])), ...);
-    const float top = float_from_bits(static_cast<std::uint32_t>(largest));
-    const float scale = channel_scale(top);
-    block.inverse[i] = 1.0f / scale;
-    block.top[i] = top * block.inverse[i];
-    block.scale[i] = scale * block.scale[i];
-  }
-}
-
-// The largest channel, all being inside.
-template <class Count, std::size_t... Channel>
-inline void find_tops(Count count, const std::array<const float*, sizeof...(Channel)>& specular, Block& block,
+inline void find_tops(Count count, const float* const* specular, Block& block,
                       std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; ++i) {
-    std::int32_t largest = 0;
-    ((largest = larger_channel(largest, specular[Channel][i])), ...);
-    block.top[i] = float_from_bits(static_cast<std::uint32_t>(largest));
+#if defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#elif defined(__GNUC__)
+#pragma GCC ivdep
+#elif defined(_MSC_VER)
+#pragma loop(ivdep)
+#endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_widths(Count count, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; ++i) {
-    const float top = kAlphaBySpecular ? block.top[i] : 0.0f;
-    const std::uint32_t nan = (bits(block.scale[i]) & 0x7fffffffu) > 0x7f800000u ? 0xffffffffu : 0u;
-    out[i] = float_from_bits(bits(own_width(target_alpha(block.terms.alpha[i], top))) | nan);
+#if defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#elif defined(__GNUC__)
+#pragma GCC ivdep
+#elif defined(_MSC_VER)
+#pragma loop(ivdep)
+#endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
+  }
+}
+
+template <class Count>
+inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+#if defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#elif defined(__GNUC__)
+#pragma GCC ivdep
+#elif defined(_MSC_VER)
+#pragma loop(ivdep)
+#endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
   }
 }
 
 template <bool kInside, class Count>
-inline void convert_channel(Count count, const float* in, float* out, Block& block) noexcept {
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
   const std::size_t size = count;
-  #if defined(__clang__)
-  #pragma clang loop vectorize(assume_safety)
-  #elif defined(__GNUC__)
-  #pragma GCC ivdep
-  #elif defined(_MSC_VER)
-  #pragma loop(ivdep)
-  #endif
-  for (std::size_t i = 0; i < size; ++i) {
+#if defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#elif defined(__GNUC__)
+#pragma GCC ivdep
+#elif defined(_MSC_VER)
+#pragma loop(ivdep)
+#endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
     if constexpr (kInside) {
-      const float mapped = target_specular(block.terms, i, in[i] + 0.0f);  // -0 becomes 0
-      out[i] = held_channel(mapped) * block.scale[i];
+      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
+      store(out + i, held_channel(mapped) * load(block.scale + i));
     } else {
-      const float held = held_channel(in[i]);
-      const float mapped = target_specular(block.terms, i, held * block.inverse[i]);
-      out[i] = kept_or_mapped(held, held_channel(mapped)) * block.scale[i];
+      const Float held = held_channel(load(in + i));
+      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
+      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
     }
   }
 }
 
 template <std::size_t Channels, class Count>
-inline std::size_t convert_block(Count count, const float* width, const std::array<const float*, Channels>& specular,
-                                 float* width_out, const std::array<float*, Channels>& specular_out) noexcept {
+inline void convert_block(Count count, const Mapping& mapping, const float* width,
+                          const float* const* specular, float* width_out, float* const* specular_out,
+                          Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
-  Block block;
-  const Outside outside = look_at_texels(count, width, specular, block, kChannels);
-  const bool inside = outside.channels >> 31 == 0;
-  if (!inside)
-    scale_texels(count, specular, block, kChannels);
-  else if (kAlphaBySpecular)
-    find_tops(count, specular, block, kChannels);
-  convert_widths(count, width_out, block);
-  specular_terms(count, block.terms);
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  mapping.find_terms(count, block.terms);
+  convert_widths(count, mapping, width_out, block);
   for (std::size_t c = 0; c < Channels; ++c) {
     if (inside)
-      convert_channel<true>(count, specular[c], specular_out[c], block);
+      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
     else
-      convert_channel<false>(count, specular[c], specular_out[c], block);
+      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
   }
-  return outside.texel_count;
 }
 
 }  // namespace detail
 
 // Rows of `count` texels: one row of alpha, `Channels` rows of specular (1 for a grey map, 3 for RGB). An
-// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any split into
-// rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
+// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any
+// split into rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
 template <std::size_t Channels>
 inline std::size_t evaluate_batch(std::size_t count, const float* alpha,
                                   const std::array<const float*, Channels>& specular, float* alpha_out,
@@ -378,7 +428,10 @@ inline std::size_t evaluate_batch(std::size_t count, const float* alpha,
     std::array<float*, Channels> to = f0_out;
     for (const float*& row : from) row += start;
     for (float*& row : to) row += start;
-    out_of_domain += detail::convert_block<Channels>(size, alpha + start, from, alpha_out + start, to);
+    detail::Block block;
+    detail::convert_block<Channels>(size, detail::Mapping(), alpha + start, from.data(), alpha_out + start,
+                                    to.data(), block);
+    out_of_domain += detail::count_outside(size, block.outside);
     start += size;
   };
   while (count - start >= detail::kBlock) convert(std::integral_constant<std::size_t, detail::kBlock>());
@@ -415,11 +468,13 @@ inline OutputTexel<Channels> evaluate(float alpha, const std::array<float, Chann
 
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
-  return ((detail::held_width(in.alpha).outside | detail::channel_outside(in.specular)) >> 31) == 0;
+  constexpr detail::Domain kDomain = detail::Mapping::domain;
+  return ((detail::held_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.specular)) >>
+          31) == 0;
 }
 
-// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
-// above: single texels and rows.
+// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely
+// as stated above: single texels and rows.
 inline bool self_test() noexcept {
   struct Golden {
     Input in;

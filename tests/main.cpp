@@ -1,3 +1,71 @@
-// Catch2's own main, once for every test program.
-#define CATCH_CONFIG_MAIN
+// The main function of every test program. Its exit code is 0 where all cases passed, 77 where some of them
+// were skipped and the others passed, which ctest knows by SKIP_RETURN_CODE, and 1 otherwise.
+#define CATCH_CONFIG_RUNNER
+#include <cstdlib>
+#include <iostream>
+#include <set>
+
 #include <catch2/catch.hpp>
+
+#include "support/skip.hpp"
+
+namespace {
+
+// Of the running test case. A case may say the same several times.
+std::set<std::string> reasons;
+bool any_skipped = false;
+
+bool is_required(const std::string& what) {
+  const char* required = std::getenv("REMAP_REQUIRE");
+  return required != nullptr &&
+         ("," + std::string(required) + ",").find("," + what + ",") != std::string::npos;
+}
+
+// Prints the reasons after a case that has not failed.
+class SkipListener : public Catch::TestEventListenerBase {
+ public:
+  using TestEventListenerBase::TestEventListenerBase;
+
+  void testCaseEnded(const Catch::TestCaseStats& stats) override {
+    if (stats.totals.assertions.allOk())
+      for (const std::string& reason : reasons) std::cout << "skipped: " << reason << std::endl;
+    any_skipped = any_skipped || !reasons.empty();
+    reasons.clear();
+  }
+};
+CATCH_REGISTER_LISTENER(SkipListener)
+
+}  // namespace
+
+namespace remap {
+
+void skip(const std::string& what, const std::string& reason) {
+  if (is_required(what)) FAIL_CHECK("REMAP_REQUIRE names " << what << ", but: " << reason);
+  reasons.insert(what + ": " + reason);
+}
+
+bool has_program(const std::string& program) {
+  if (std::system(("command -v '" + program + "' >/dev/null 2>&1").c_str()) == 0) return true;
+  skip(program, "not installed");
+  return false;
+}
+
+bool has_avx2() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return true;
+#endif
+  skip("avx2", "this processor has no AVX2");
+  return false;
+}
+
+}  // namespace remap
+
+int main(int argc, char** argv) {
+  Catch::Session session;
+  if (session.applyCommandLine(argc, argv) != 0) return 1;
+  // A name that matches no case is an error: ctest would count it as passed.
+  session.configData().warnings =
+      static_cast<Catch::WarnAbout::What>(session.configData().warnings | Catch::WarnAbout::NoTests);
+  if (session.run() != 0) return 1;
+  return any_skipped ? 77 : 0;
+}

@@ -1,10 +1,9 @@
-"""Cycles: Glossy BSDF in its distributions, and Principled. For the module `bpy` (Blender 5) and inside Blender 3.4.
+"""Cycles: the Glossy BSDF with all its distributions, and Principled, in the module `bpy` (Blender 5) and Blender 3.4.
 
-The sphere is a point cloud of one point, which Cycles intersects exactly; a mesh never is, and serves other shapes.
-Sample 0 of a pixel is its centre with any filter, so one sample is exact; an N x N grid is a larger picture, averaged.
-The masking function of GGX and Beckmann changed between 3.4 (separable) and 5.0 (height-correlated), so the prefix
-holds the version.
-This file must not be named cycles.py: Blender would take it for its own add-on.
+The sphere is a point cloud of one point, which Cycles intersects exactly; other shapes are meshes. With any filter,
+sample 0 of a pixel is its centre, so one sample is exact; an N x N grid is a larger picture, averaged. The masking
+function of GGX and Beckmann changed between 3.4 (separable) and 5.0 (height-correlated), so the prefix holds the version.
+This file must not be named cycles.py, because Blender would load it as its own add-on.
 """
 import math
 import os
@@ -13,7 +12,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import bpy
-import addon_utils  # is on the path only once bpy is loaded
+import addon_utils  # available only after bpy is loaded
 import numpy as np
 
 from worker_loop import grey_or_rgb, parameter, serve
@@ -23,7 +22,7 @@ PREFIX = f"cycles-{bpy.app.version[0]}" if MODERN else "cycles-" + ".".join(map(
 DISTRIBUTIONS = {"ggx": "GGX", "beckmann": "BECKMANN", "ashikhmin-shirley": "ASHIKHMIN_SHIRLEY",
                  "multiscatter-ggx": "MULTI_GGX"}
 
-# Squared, the least roughness is a width that both versions still take for a surface and not for a mirror.
+# Both versions treat smaller roughness as a mirror.
 ROUGHNESS = parameter("roughness", "roughness", 0.02, 1, convention="roughness")
 MODELS = [{"name": f"{PREFIX}/{name}", "noise": name == "multiscatter-ggx" and not MODERN,
            "parameters": [ROUGHNESS, parameter("color", "specular", 0, 1), parameter("diffuse", "diffuse", 0, 1)]}
@@ -44,7 +43,7 @@ def describe(threads):
 
 
 def make_scene(threads):
-    """Everything that stays: settings, camera, light, the point of the sphere."""
+    """Makes what all pictures share: settings, camera, light, the point of the sphere."""
     addon_utils.enable("cycles")
     bpy.ops.wm.read_factory_settings(use_empty=True)
     addon_utils.enable("cycles")
@@ -53,7 +52,7 @@ def make_scene(threads):
     cycles = scene.cycles
     cycles.device, cycles.samples = "CPU", 1
     cycles.use_denoising = cycles.use_adaptive_sampling = False
-    # The default threshold drops dim pixels at random.
+    # With the default threshold, dim pixels are dropped at random.
     cycles.sample_clamp_direct = cycles.light_sampling_threshold = cycles.blur_glossy = cycles.max_bounces = 0
     cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN", 0.01
     render = scene.render
@@ -74,7 +73,7 @@ def make_scene(threads):
 
 
 def one_point(material):
-    """A point cloud of one point of radius 1, made by geometry nodes."""
+    """Makes a point cloud of one point of radius 1, by geometry nodes."""
     mesh = bpy.data.meshes.new("point")
     mesh.from_pydata([(0, 0, 0)], [], [])
     mesh.materials.append(material)
@@ -98,7 +97,7 @@ def one_point(material):
 
 
 def read_ply(path):
-    """Points and triangles of a mesh as the protocol has it: positions and normals as floats, then triangles."""
+    """Returns points and triangles of a mesh of the protocol: positions and normals as floats, then triangles."""
     with open(path, "rb") as file:
         head, body = file.read().split(b"end_header\n", 1)
     points, triangles = (int(line.split()[2]) for line in head.decode().splitlines() if line.startswith("element"))
@@ -108,7 +107,7 @@ def read_ply(path):
 
 
 def show_shape(place):
-    """The sphere, or the mesh of another shape in its place; normals are those of smooth shading."""
+    """Shows the sphere, or the mesh of another shape instead, with smooth shading."""
     scene = bpy.context.scene
     wanted = place.get("shape", "ball")
     if wanted not in scene.objects:
@@ -127,7 +126,7 @@ shader_of = {"model": None}
 
 
 def shader(model):
-    """The nodes of a model; made anew when it changes."""
+    """Returns the nodes of a model; they are remade when it changes."""
     if shader_of["model"] == model:
         return shader_of
     tree = bpy.data.materials["skin"].node_tree
@@ -170,7 +169,7 @@ def set_material(model, values):
 
 
 def read_exr(path, side):
-    """The picture as it lies in the file, row 0 at the top."""
+    """Returns the picture of a file, row 0 at the top."""
     image = bpy.data.images.load(path)
     image.colorspace_settings.is_data = True
     pixels = np.empty(side * side * 4, np.float32)
@@ -184,10 +183,10 @@ def render(request, values):
     set_material(request["model"], values)
     show_shape(place)
     camera, lamp = scene.camera, scene.objects["lamp"]
-    camera.location = (0, 0, place["camera"]["distance"])  # not turned: looks down -z, +y is up
+    camera.location = (0, 0, place["camera"]["distance"])  # without rotation it looks along -z with +y up
     camera.data.angle = 2 * math.radians(place["camera"]["half_angle"])
     lamp.location = place["light"]["position"]
-    lamp.data.energy = 4 * math.pi * place["light"]["intensity"]  # watts of all directions
+    lamp.data.energy = 4 * math.pi * place["light"]["intensity"]  # watts over all directions
     side, samples = place["resolution"], place["samples_per_axis"]
     scene.render.resolution_x = scene.render.resolution_y = side * samples
     scene.cycles.seed = request["seed"]

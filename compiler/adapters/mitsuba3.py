@@ -1,7 +1,7 @@
 """Mitsuba 3, variant scalar_rgb: rough conductors without Fresnel, rough plastic, the principled BSDF.
 
-Sampler `stratified` without jitter and N^2 samples is an exact N x N grid; the box filter does not blur. Diffuse is
-blended with the conductor in equal halves under a light twice as bright: the two lobes add.
+The sampler `stratified` without jitter gives an exact N x N grid, and the box filter does not blur. To add diffuse to
+a conductor, the two are blended in equal halves under a light twice as bright.
 """
 import collections
 import math
@@ -19,7 +19,7 @@ MODELS = [
                                             parameter("diffuse", "diffuse", 0, 1)]},
     {"name": "mitsuba3/beckmann", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
                                                  parameter("diffuse", "diffuse", 0, 1)]},
-    # Exact Fresnel of a dielectric; its diffuse lobe is below the interface and loses what that reflects.
+    # Exact Fresnel of a dielectric; its diffuse lobe is below the interface and loses the reflected light.
     {"name": "mitsuba3/plastic", "parameters": [ALPHA, parameter("specular", "specular", 0, 1),
                                                 parameter("diffuse", "diffuse", 0, 1),
                                                 parameter("ior", "other", 1.01, 4, default=1.5, grey=True)]},
@@ -34,7 +34,7 @@ MODELS = [
 ]
 
 scenes = collections.OrderedDict()
-MOST_SCENES = 8  # one a model, resolution and light; a sweep needs a few
+MOST_SCENES = 8  # one for each model, resolution and light; a sweep needs a few
 
 
 def describe(threads):
@@ -84,7 +84,7 @@ def make_scene(model, values, scene):
 
 
 def scene_of(model, values, scene):
-    """A conductor's scene is kept and its numbers changed; the others are made anew, which takes a millisecond."""
+    """Returns a scene. Those of conductors are kept and updated; remaking the others takes a millisecond."""
     if model not in ("mitsuba3/ggx", "mitsuba3/beckmann"):
         return make_scene(model, values, scene)
     key = (model, scene["resolution"], scene["samples_per_axis"], tuple(scene["light"]["position"]),

@@ -1,8 +1,8 @@
 // three.js in headless Chromium (SwiftShader): its standard, physical and Phong materials.
 //
-// One vertex a pixel centre, on the exact sphere and with its normal, drawn as a point: no tessellation, and no
-// widening of roughness by the change of the normal from pixel to pixel, which three.js adds on meshes. The render
-// target holds linear floats. Rows of WebGL go upwards.
+// Each pixel centre is one vertex on the exact sphere, with its normal, drawn as a point. This avoids tessellation, and the
+// roughness that three.js adds on meshes for the change of the normal between pixels. The render target holds linear
+// floats. Rows of WebGL start at the bottom.
 import fs from 'node:fs';
 import http from 'node:http';
 import { createRequire } from 'node:module';
@@ -17,7 +17,7 @@ const revision = JSON.parse(fs.readFileSync(path.join(build, '..', 'package.json
 const prefix = `threejs-r${revision.split('.')[1]}`;
 
 const parameter = (name, role, least, most, more = {}) => ({ name, role, range: [least, most], ...more });
-// Below, the shader holds roughness.
+// The shader clamps smaller roughness.
 const roughness = parameter('roughness', 'roughness', 0.0525, 1, { convention: 'roughness' });
 const models = [
   { name: `${prefix}/standard-metal`, precision: 2e-6,
@@ -30,7 +30,7 @@ const models = [
       parameter('specular', 'specular', 0, 1), parameter('color', 'diffuse', 0, 1)] },
 ];
 
-// Runs in the page; `THREE` is its global.
+// Runs in the page, where `THREE` is global.
 function preparePage() {
   const renderer = new THREE.WebGLRenderer({ antialias: false });
   renderer.toneMapping = THREE.NoToneMapping;
@@ -73,7 +73,7 @@ function preparePage() {
     size = pixels;
   };
 
-  // Red, green, blue of every pixel from the top, as bytes in base64.
+  // Returns red, green, blue of every pixel, row 0 at the top, as base64.
   globalThis.draw = (model, values, where, pixels) => {
     if (pixels !== size) place(pixels, where.camera);
     const eye = new THREE.PerspectiveCamera(2 * where.camera.half_angle, 1, 0.1, 100);
@@ -122,13 +122,13 @@ async function openPage() {
 
 function refuseUnknown(request) {
   const model = models.find((candidate) => candidate.name === request.model);
-  if (!model) throw new Error(`${request.model} is no model; expected ${models.map((m) => m.name).join(', ')}`);
+  if (!model) throw new Error(`unknown model ${request.model} (choose ${models.map((m) => m.name).join(', ')})`);
   for (const { name, range, grey } of model.parameters) {
     const list = request.parameters[name];
-    if (!list) throw new Error(`${name} is missing`);
-    if (grey && list.length !== 1) throw new Error(`${name} has ${list.length} values; expected one`);
+    if (!list) throw new Error(`${name} has no value`);
+    if (grey && list.length !== 1) throw new Error(`${name} has ${list.length} values, but takes one`);
     for (const value of list)
-      if (!(value >= range[0] && value <= range[1])) throw new Error(`${name} is ${value}; expected ${range}`);
+      if (!(value >= range[0] && value <= range[1])) throw new Error(`${name} = ${value} is out of range (${range[0]} to ${range[1]})`);
   }
 }
 
@@ -155,7 +155,7 @@ for await (const line of readline.createInterface({ input: process.stdin })) {
   if (request.request === 'quit') break;
   try {
     if (request.request === 'describe') {
-      if (request.protocol !== 1) throw new Error(`protocol is ${request.protocol}; expected 1`);
+      if (request.protocol !== 1) throw new Error(`protocol version ${request.protocol} is not supported (this worker speaks 1)`);
       opened ??= await openPage();
       Object.assign(answer, { protocol: 1, renderer: `three.js r${revision} (${opened.version})`, models });
     } else {

@@ -1,8 +1,8 @@
 """VTK's physically based shading of a metal: GGX with Schlick's Fresnel.
 
-One vertex a pixel centre, on the exact sphere and with its normal: no tessellation. Pixels are read from a float
-framebuffer, in which VTK has encoded radiance with the power 1 / 2.2.
-This file must not be named vtk.py: it would be imported in place of the library.
+To avoid tessellation, each pixel centre is one vertex on the exact sphere, with its normal. Pixels are read from a float
+framebuffer, in which VTK encodes radiance with the power 1 / 2.2.
+This file must not be named vtk.py, because it would be imported instead of the library.
 """
 import math
 
@@ -12,7 +12,7 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
 from worker_loop import grey_or_rgb, parameter, serve
 
-# Below 0.07 the distribution is cut off by a small number in the shader, and roughness means something else.
+# Below 0.07 the shader clamps the distribution, which changes the meaning of roughness.
 MODELS = [{"name": "vtk/metal", "precision": 1e-4, "parameters": [
     parameter("roughness", "roughness", 0.07, 1, convention="roughness"),
     parameter("base_color", "specular", 0, 1)]}]
@@ -23,7 +23,7 @@ def describe(_threads):
 
 
 def sphere_points(size, camera):
-    """Where the rays through pixel centres meet the sphere, and which pixels those are (row 0 at the bottom)."""
+    """Returns where the rays through pixel centres hit the sphere, row 0 at the bottom."""
     half, distance = math.tan(math.radians(camera["half_angle"])), camera["distance"]
     axis = (2 * (np.arange(size) + 0.5) / size - 1) * half
     x, y = np.meshgrid(axis, axis)
@@ -35,7 +35,7 @@ def sphere_points(size, camera):
 
 
 class Stage:
-    """Window, points, camera and lamp for one size of picture."""
+    """The window, points, camera and lamp for one size of picture."""
 
     def __init__(self, size, camera):
         points = sphere_points(size, camera)

@@ -1,6 +1,6 @@
-"""The conversation of a worker (PROTOCOL.md): a renderer module gives a description and a function that renders.
+"""The protocol loop of a worker (PROTOCOL.md), for a renderer module with a description and a function that renders.
 
-What a renderer prints on standard output goes to standard error, so that only answers stand there.
+Standard output of the renderer is redirected to standard error, so that standard output holds answers only.
 """
 import json
 import os
@@ -10,7 +10,7 @@ import numpy as np
 
 
 class Refused(Exception):
-    """A request that cannot be met: becomes the answer, and the worker lives on."""
+    """A request that cannot be met. The worker answers with this error and continues."""
 
 
 def parameter(name, role, least, most, **more):
@@ -18,30 +18,30 @@ def parameter(name, role, least, most, **more):
 
 
 def check_material(models, request):
-    """The values of the request, after a check of names and ranges."""
+    """Checks names and ranges of the request and returns its values."""
     model = next((m for m in models if m["name"] == request["model"]), None)
     if model is None:
-        raise Refused(f"{request['model']} is no model; expected one of {', '.join(m['name'] for m in models)}")
+        raise Refused(f"unknown model {request['model']} (choose {', '.join(m['name'] for m in models)})")
     values = request["parameters"]
     for described in model["parameters"]:
         name, (least, most) = described["name"], described["range"]
         if name not in values:
-            raise Refused(f"{name} is missing")
+            raise Refused(f"{name} has no value")
         if described.get("grey") and len(values[name]) != 1:
-            raise Refused(f"{name} has {len(values[name])} values; expected one: the model has no color in it")
+            raise Refused(f"{name} has {len(values[name])} values, but takes one")
         for value in values[name]:
             if not least <= value <= most:
-                raise Refused(f"{name} is {value}; expected {least} to {most}")
+                raise Refused(f"{name} = {value} is out of range ({least} to {most})")
     return values
 
 
 def grey_or_rgb(values):
-    """Three numbers of a parameter that has one or three."""
+    """Returns three numbers for a parameter with one or three."""
     return list(values) * 3 if len(values) == 1 else list(values)
 
 
 def write_picture(request, picture):
-    """`picture`: rows x columns x 3, or rows x columns where every channel is the same."""
+    """Writes `picture`, rows x columns x 3, or rows x columns if all channels are equal."""
     picture = np.asarray(picture, np.float32)
     if picture.ndim == 2:
         picture = np.repeat(picture[:, :, None], 3, axis=2)
@@ -51,7 +51,7 @@ def write_picture(request, picture):
 
 
 def serve(describe, render):
-    """`describe(threads)` gives renderer and models; `render(request, values)` the picture, row 0 at the top."""
+    """Answers requests. `describe(threads)` returns renderer and models; `render(request, values)` a picture, top row first."""
     answers = os.fdopen(os.dup(1), "w", buffering=1)
     os.dup2(2, 1)
 
@@ -68,7 +68,7 @@ def serve(describe, render):
                 break
             if request["request"] == "describe":
                 if request["protocol"] != 1:
-                    raise Refused(f"protocol is {request['protocol']}; expected 1")
+                    raise Refused(f"protocol version {request['protocol']} is not supported (this worker speaks 1)")
                 described = describe(request.get("threads", 1))
                 answer(id=number, protocol=1, **described)
             elif request["request"] == "render" and described is not None:
@@ -76,10 +76,10 @@ def serve(describe, render):
                 write_picture(request, render(request, values))
                 answer(id=number)
             else:
-                raise Refused(f"{request['request']} is not known here; expected describe, then render or quit")
+                raise Refused(f"unexpected request {request['request']} (send describe first, then render or quit)")
         except Refused as refused:
             answer(id=number, error=str(refused))
-        except Exception as failure:  # whatever a renderer throws is the answer to this request
+        except Exception as failure:  # errors of the renderer are answers, too
             answer(id=number, error=f"{type(failure).__name__}: {failure}".replace("\n", " "))
     sys.stderr.flush()
-    os._exit(0)  # some renderers abort when the interpreter takes them down
+    os._exit(0)  # some renderers abort during the shutdown of the interpreter

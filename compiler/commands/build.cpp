@@ -1,4 +1,4 @@
-// `remapc build`: everything that a manifest asks for, as far as it is not there yet.
+// `remapc build`: makes the items of a manifest that are out of date.
 #include "manifest/build.hpp"
 
 #include <chrono>
@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
@@ -34,7 +35,7 @@ void run_check(const BuildCommand& command, const Manifest& manifest) {
   if (!reasons.empty())
     throw remap::Error(remap::ErrorKind::kInput, command.folders.fits.string() + ": " +
                                                      std::to_string(reasons.size()) +
-                                                     " not up to date; run `remapc build`");
+                                                     " out of date (run `remapc build`)");
 }
 
 void report(const BuildCommand& command, const Manifest& manifest, const BuildResult& result,
@@ -57,18 +58,18 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
     return;
   }
   for (const std::string& id : result.pruned)
-    std::cerr << id << ": is no item of the manifest any more; removed\n";
+    std::cerr << id << ": not in the manifest any more; files removed\n";
   for (const std::string& id : vanished)
-    std::cerr << id << ": is no item of the manifest any more; its files stay"
-              << (command.prune ? ", since they are not as the last build left them"
-                                : ", --prune removes them")
+    std::cerr << id << ": not in the manifest any more; its files are kept"
+              << (command.prune ? " because they were edited after the last build"
+                                : " (--prune removes them)")
               << "\n";
   for (const BuiltItem& item : result.built)
-    if (!item.kept_table.empty()) std::cerr << item.id << ": its table is kept; " << item.kept_table << "\n";
+    if (!item.kept_table.empty()) std::cerr << item.id << ": table kept: " << item.kept_table << "\n";
   for (const BuiltItem& item : result.built)
     std::cerr << item.id << ": " << (item.table ? "table, " : "") << (item.fit ? "fit, " : "") << "header in "
               << remap::number_text(remap::rounded_up(item.seconds, 2)) << " s\n";
-  std::cerr << manifest.items.size() << " items, " << result.built.size() << " made anew, "
+  std::cerr << manifest.items.size() << " items, " << result.built.size() << " built, "
             << remap::number_text(remap::rounded_up(seconds, 2)) << " s\n";
 }
 
@@ -98,31 +99,36 @@ void run(const BuildCommand& command) {
 
 }  // namespace
 
-void add_build_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "build", "Sweep, fit and emit everything that fits/manifest.json asks for and that is not up to date");
+void add_build_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
+      "build", "Make every table, fit and header of fits/manifest.json that is out of date");
+  command->group(kCompileStage);
   auto options = std::make_shared<BuildCommand>();
+  command->option_group("Folders");
   command
-      ->add_option(
-          "--fits", options->folders.fits,
-          "Folder of fits, with manifest.json; tables go to tables/ in it, the report is its README.md")
+      ->add_option("--fits", options->folders.fits,
+                   "Folder of fits, with manifest.json, tables/ and the report README.md")
+      ->type_name("FOLDER")
       ->capture_default_str();
   command->add_option("-o,--output", options->folders.generated, "Folder for the headers")
+      ->type_name("FOLDER")
       ->capture_default_str();
+  command->option_group("What to make");
+  command->add_flag("--check", options->check,
+                    "Write nothing, list the items that are out of date; exit code 1 if there are any");
+  command->add_flag("--force", options->force, "Make every item anew");
+  command->add_flag("--prune", options->prune,
+                    "Remove files of items that the manifest no longer lists, unless they were edited");
+  command->add_flag("--json", options->json, "Print the result as JSON to standard output");
+  command->option_group(remap::kRareOptions);
   command
-      ->add_option("--jobs", options->jobs, "Items at once; 0: one a core. The results do not depend on it")
+      ->add_option("--jobs", options->jobs,
+                   "Items made at a time, 0: one per core; the results do not depend on it")
       ->capture_default_str();
   add_renderer_options(*command, options->renderers);
-  command->add_flag("--force", options->force, "Make everything anew");
-  command->add_flag(
-      "--prune", options->prune,
-      "Remove the files of items that the manifest no longer has, where they are as a build left them");
-  command->add_flag("--check", options->check, "Write nothing; say what is not up to date, exit code 1 then");
-  command->add_flag("--json", options->json, "What was made as JSON on standard output");
   command->footer(
-      "An item is made anew where its entry in the manifest, what it is made from, or one of its files is "
-      "not\n"
-      "what manifest.lock recorded. A build that was interrupted goes on where it was.\n\n"
+      "An item is out of date where its entry in the manifest, its inputs or one of its files differ from "
+      "manifest.lock. An interrupted build continues where it stopped.\n\n"
       "Example:\n  remapc build");
   command->callback([options] { run(*options); });
 }

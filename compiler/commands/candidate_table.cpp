@@ -11,7 +11,7 @@ const std::string kNone = "-";
 
 std::string digits(double value) { return value == 0.0 ? kNone : error_text(value); }
 
-// Two figures that were made together or not at all.
+// Two figures, which are either both measured or both 0.
 std::string pair_text(double first, double second) {
   return first == 0.0 && second == 0.0 ? kNone : digits(first) + ", " + digits(second);
 }
@@ -20,7 +20,7 @@ std::string with_error(double value, double standard_error) {
   return standard_error == 0.0 ? digits(value) : digits(value) + " +- " + digits(standard_error);
 }
 
-// Below it a shift is rounding.
+// A smaller shift is rounding error, shown as 0.
 double shown_shift(double shift) { return shift < 1e-9 ? 0.0 : shift; }
 
 using Line = std::vector<std::string>;
@@ -38,7 +38,7 @@ Line line_of(const remap::Candidate& candidate) {
           candidate.verdict};
 }
 
-// Whether any line but the first, which holds the headings, has a figure in `column`.
+// Whether any line after the headings has a figure in `column`.
 bool has_figures(const std::vector<Line>& lines, std::size_t column) {
   return std::any_of(lines.begin() + 1, lines.end(),
                      [column](const Line& line) { return line[column] != kNone; });

@@ -1,4 +1,4 @@
-// The table by which fits are compared, as people read it and as JSON.
+// The comparison of fits, as a text table and as JSON.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace remapc {
 
-// One line a candidate under a line of headings; `-` for a figure that was not made or is 0. A column without
-// any figure is left out. `specular`: what the target calls it.
+// One line per candidate below a line of headings. `-` stands for a figure that is 0 or was not measured;
+// columns without figures are left out. `specular`: the name of the target's specular parameter.
 std::string candidate_text(const std::vector<remap::Candidate>& candidates, const std::string& specular);
 
 nlohmann::ordered_json candidate_json(const remap::Candidate& candidate);
 
-// `on 144 rows held out: alpha rms 7.2e-04 max 1.5e-03, f0 rms ...`; `errors unknown` without such rows.
-// `rows`: what they are.
+// `on 144 rows held out: alpha rms 7.2e-04 max 1.5e-03, f0 rms ...`, or `errors unknown` where no rows were
+// held out. `rows`: describes the rows, as `held out`.
 std::string errors_text(const remap::Fit& fit, const std::string& rows);
 
 nlohmann::ordered_json figures_json(const remap::ErrorFigures& figures);

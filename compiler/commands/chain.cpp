@@ -1,9 +1,10 @@
-// `remapc chain` and `remapc invert`: fits made of fits.
+// `remapc chain` and `remapc invert` make a fit from other fits.
 #include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/fit_table.hpp"
@@ -37,7 +38,7 @@ void run_chain(const ChainCommand& command) {
   std::vector<remap::Fit> steps;
   for (const std::string& name : command.steps) steps.push_back(find_fit(name, command.fit_folder));
   const remap::Fit chain = composed_fit(steps, command.id);
-  // What cannot be emitted is of no use: one pass is what a chain is for.
+  // A chain exists for its single-pass header, so one that cannot be emitted is an error here.
   const remap::Lowered lowered = remap::lower(chain.mapping, chain.domain);
   const std::filesystem::path path = write_fit(command, chain);
   const std::string& steps_text = chain.method.at("against its steps one after another");
@@ -56,10 +57,10 @@ void run_chain(const ChainCommand& command) {
     return;
   }
   std::cerr << path.string() << ": chain of " << steps.size()
-            << " fits\n  errors carried on: " << errors_text(chain, "held out")
-            << "\n  one pass: alpha within " << error_text(lowered.alpha.bound) << ", specular within "
+            << " fits\n  errors of the steps, propagated: " << errors_text(chain, "held out")
+            << "\n  single pass: alpha within " << error_text(lowered.alpha.bound) << ", specular within "
             << error_text(lowered.specular.bound)
-            << " of the composed fits, proven\n  against its steps: " << steps_text << "\n";
+            << " of the composed fits (proven)\n  compared with its steps: " << steps_text << "\n";
 }
 
 void run_invert(const ChainCommand& command) {
@@ -80,42 +81,51 @@ void run_invert(const ChainCommand& command) {
     std::cout << json.dump(2) << "\n";
     return;
   }
-  std::cerr << path.string() << ": the way back through " << fit.id << "; "
+  std::cerr << path.string() << ": inverse of " << fit.id << "; "
             << errors_text(inverse, "of the exact inverse held out") << "\n";
 }
 
-void add_common_options(CLI::App& app, ChainCommand& command) {
-  app.add_option("--id", command.id, "Name of the converter; default: <source>_to_<target>");
-  app.add_option("--fits", command.fit_folder, "Folder of fits")->capture_default_str();
-  app.add_option("-o,--output", command.output, "Folder for the new fit")->capture_default_str();
-  app.add_flag("--json", command.json, "Summary as JSON on standard output");
+void add_new_fit_options(remap::Command& app, ChainCommand& command) {
+  app.option_group("Input");
+  app.add_option("--fits", command.fit_folder, "Folder where ids are looked up")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  app.option_group("Output");
+  app.add_option("-o,--output", command.output, "Folder for the new fit")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  app.add_option("--id", command.id, "Id of the new fit (default: <source>_to_<target>)")->type_name("ID");
+  app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
 }
 
 }  // namespace
 
-void add_chain_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "chain", "Compose fits one after another into one fit, whose header is a single pass");
+void add_chain_command(remap::Command& app) {
+  remap::Command* command =
+      app.add_subcommand("chain", "Compose several fits into one, whose header converts in a single pass");
+  command->group(kCompileStage);
   auto options = std::make_shared<ChainCommand>();
   command->add_option("steps", options->steps, "Fits in order: files, or ids in the folder of fits")
       ->required();
-  add_common_options(*command, *options);
+  add_new_fit_options(*command, *options);
   command->footer(
-      "The composed fit covers what every step covers. Its error figures are those of the steps, carried on "
-      "to\n"
-      "the end.\n\nExample:\n  remapc chain mitsuba_ward_to_mitsuba_ggx mitsuba_ggx_to_cycles_2_7_ggx -o "
-      "mine");
+      "The domain of the new fit is where every step is inside its own. Its errors are those of the steps, "
+      "propagated to the end.\n\n"
+      "Example:\n"
+      "  remapc chain mitsuba_ward_to_mitsuba_ggx mitsuba_ggx_to_cycles_2_7_ggx \\\n"
+      "    -o mine");
   command->callback([options] { run_chain(*options); });
 }
 
-void add_invert_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "invert", "Fit the way back through a fit: from its target's parameters to its source's");
+void add_invert_command(remap::Command& app) {
+  remap::Command* command =
+      app.add_subcommand("invert", "Fit the inverse of a fit: from its target's parameters to its source's");
+  command->group(kCompileStage);
   auto options = std::make_shared<ChainCommand>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
-  add_common_options(*command, *options);
+  add_new_fit_options(*command, *options);
   command->footer(
-      "For a measured pair `remapc fit --swap` on its table is closer to the measurement.\n\n"
+      "If the measured table is at hand, `remapc fit --swap` is closer to the measurement.\n\n"
       "Example:\n  remapc invert mitsuba_ggx_to_cycles_2_7_ggx -o mine");
   command->callback([options] { run_invert(*options); });
 }

@@ -1,4 +1,4 @@
-// `remapc check`: lints a table.
+// `remapc check` reports what is wrong with a table.
 #include "table/check.hpp"
 
 #include <algorithm>
@@ -7,11 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
-#include "table/material_table.hpp"
+#include "table/material_check.hpp"
 
 namespace remapc {
 namespace {
@@ -21,21 +21,16 @@ struct CheckOptions {
   bool json = false;
 };
 
-// What is said of a table, of either form.
+// The findings on a table of either form.
 struct Checked {
   std::string name;
   std::size_t rows = 0;
   std::vector<Finding> findings;
 };
 
-Checked check(const CheckOptions& options) {
-  const std::string content = remap::read_file(options.table.path);
-  if (is_material_table(content, options.table.path)) {
-    const MaterialTable table = parse_material_table(content, options.table.path);
-    return {table.name, table.rows.size(), check_material_table(table)};
-  }
-  const Table table = options.table.read();
-  return {table.name, table.rows.size(), check_table(table)};
+Checked check(const Table& table) { return {table.name, table.rows.size(), check_table(table)}; }
+Checked check(const MaterialTable& table) {
+  return {table.name, table.rows.size(), check_material_table(table)};
 }
 
 void print_json(const Checked& checked) {
@@ -50,7 +45,8 @@ void print_json(const Checked& checked) {
 }
 
 void run(const CheckOptions& options) {
-  const Checked checked = check(options);
+  const Checked checked =
+      std::visit([](const auto& table) { return check(table); }, options.table.read_any());
   if (options.json)
     print_json(checked);
   else
@@ -59,9 +55,9 @@ void run(const CheckOptions& options) {
       std::count_if(checked.findings.begin(), checked.findings.end(),
                     [](const Finding& finding) { return finding.severity == Severity::kError; });
   if (errors != 0)
-    throw remap::Error(remap::ErrorKind::kInput, checked.name +
-                                                     ": cannot be fitted: " + std::to_string(errors) +
-                                                     (errors == 1 ? " error" : " errors"));
+    throw remap::Error(remap::ErrorKind::kInput, checked.name + ": " + std::to_string(errors) +
+                                                     (errors == 1 ? " error prevents" : " errors prevent") +
+                                                     " a fit");
   if (!options.json)
     std::cout << checked.name << ": " << checked.rows << " rows, can be fitted"
               << (checked.findings.empty() ? ""
@@ -72,12 +68,15 @@ void run(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("check", "Look for what is wrong with a table before it is fitted");
+void add_check_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand("check", "Look for faults in a table before it is fitted");
+  command->group(kMeasureStage);
   auto options = std::make_shared<CheckOptions>();
   options->table.add_options(*command);
-  command->add_flag("--json", options->json, "Findings as JSON on standard output");
-  command->footer("Exit code 1 where the table cannot be fitted.\nExample:\n  remapc check ward_to_as.csv");
+  command->option_group("Output");
+  command->add_flag("--json", options->json, "Print the findings as JSON to standard output");
+  command->footer(
+      "The exit code is 1 if the table cannot be fitted.\n\nExample:\n  remapc check ward_to_as.csv");
   command->callback([options] { run(*options); });
 }
 

@@ -1,29 +1,42 @@
-// The subcommands of remapc: each adds itself to the command line, and does its work in a callback that
-// throws.
+// The commands of remapc. Each function adds one command to the command line; the command's callback does the
+// work and throws remap::Error.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "command_line/command.hpp"
 
 namespace remapc {
 
-void add_render_command(CLI::App& app);
-void add_sweep_command(CLI::App& app);
-void add_sample_command(CLI::App& app);
-void add_check_command(CLI::App& app);
-void add_fit_command(CLI::App& app);
-void add_warp_command(CLI::App& app);
-void add_emit_command(CLI::App& app);
-void add_export_command(CLI::App& app);
-void add_eval_command(CLI::App& app);
-void add_import_command(CLI::App& app);
-void add_compare_command(CLI::App& app);
-void add_list_command(CLI::App& app);
-void add_renderers_command(CLI::App& app);
-void add_worker_check_command(CLI::App& app);
-void add_show_command(CLI::App& app);
-void add_preview_command(CLI::App& app);
-void add_build_command(CLI::App& app);
-void add_chain_command(CLI::App& app);
-void add_invert_command(CLI::App& app);
+// The headings under which `remapc --help` lists the commands, in the order of work.
+inline constexpr const char* kMeasureStage = "Measure";
+inline constexpr const char* kFitStage = "Fit";
+inline constexpr const char* kCompileStage = "Compile";
+inline constexpr const char* kLookStage = "Look";
+inline constexpr const char* kRendererStage = "Renderers";
+inline constexpr const char* kWarpStage = "Warp";
+
+void add_sweep_command(remap::Command& app);
+void add_sample_command(remap::Command& app);
+void add_render_command(remap::Command& app);
+void add_check_command(remap::Command& app);
+
+void add_fit_command(remap::Command& app);
+void add_compare_command(remap::Command& app);
+void add_import_command(remap::Command& app);
+
+void add_emit_command(remap::Command& app);
+void add_export_command(remap::Command& app);
+void add_chain_command(remap::Command& app);
+void add_invert_command(remap::Command& app);
+void add_build_command(remap::Command& app);
+
+void add_list_command(remap::Command& app);
+void add_show_command(remap::Command& app);
+void add_preview_command(remap::Command& app);
+void add_eval_command(remap::Command& app);
+
+void add_renderers_command(remap::Command& app);
+void add_worker_check_command(remap::Command& app);
+
+void add_warp_command(remap::Command& app);
 
 }  // namespace remapc

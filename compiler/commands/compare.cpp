@@ -1,10 +1,11 @@
-// `remapc compare`: fits and the formulas in use today, side by side on one table.
+// `remapc compare` prints the errors of fits and of formulas in common use on one table.
 #include <algorithm>
 #include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
@@ -34,16 +35,16 @@ struct NamedFit {
   std::string file;
 };
 
-// A fit or a formula on the rows of the table.
+// The errors of a fit or a formula on the rows of the table.
 struct Entry {
   remap::Candidate candidate;
   bool is_fit = false;
   bool applies = true;
   std::string file;              // of a fit
-  bool own_table = false;        // fitted from this very table
-  std::size_t outside_rows = 0;  // beyond its domain, left out
+  bool own_table = false;        // fitted from this table
+  std::size_t outside_rows = 0;  // outside its domain, not counted
   std::string formula;           // of a baseline
-  std::string why_not;           // where it does not apply
+  std::string why_not;           // if it does not apply
 };
 
 bool converts(const remap::Fit& fit, const Table& table) {
@@ -58,8 +59,8 @@ std::vector<NamedFit> chosen_fits(const CompareOptions& options, const Table& ta
     const remap::Fit fit = find_fit(name, options.fit_folder);
     if (!converts(fit, table))
       throw Error(ErrorKind::kInput, name + ": converts " + fit.source.model + " to " + fit.target.model +
-                                         "; expected a fit of " + table.source.model + " to " +
-                                         table.target.model + ", as the table");
+                                         ", but the table is of " + table.source.model + " to " +
+                                         table.target.model);
     fits.push_back({fit, std::filesystem::is_regular_file(name) ? name : file_of(name)});
   }
   if (options.fits.empty() && std::filesystem::is_directory(options.fit_folder))
@@ -68,7 +69,7 @@ std::vector<NamedFit> chosen_fits(const CompareOptions& options, const Table& ta
   return fits;
 }
 
-// An id, or the file where another fit has the same.
+// The fit's id, or its file where another fit has the same id.
 std::string shown_name(const NamedFit& one, const std::vector<NamedFit>& all) {
   const auto same = std::count_if(all.begin(), all.end(),
                                   [&](const NamedFit& other) { return other.fit.id == one.fit.id; });
@@ -91,7 +92,7 @@ Entry entry_of(const NamedFit& named, const std::vector<TableRow>& rows, const s
   if (entry.own_table) entry.candidate.verdict = "fitted from this table, training rows included";
   if (entry.outside_rows != 0)
     entry.candidate.verdict += (entry.own_table ? "; " : "") + std::to_string(entry.outside_rows) +
-                               " rows outside its domain left out";
+                               " rows outside its domain skipped";
   return entry;
 }
 
@@ -135,7 +136,7 @@ void print_json(const Table& table, std::size_t row_count, const std::vector<Ent
   std::cout << json.dump(2) << "\n";
 }
 
-// `A, B: why; C: why`, one reason once.
+// `A, B (why); C (why)`: equal reasons of neighbors are given once.
 std::string why_not_text(const std::vector<Entry>& entries) {
   std::string text, reason;
   for (const Entry& entry : entries) {
@@ -151,7 +152,7 @@ void run(const CompareOptions& options) {
   std::string bytes;
   const Table table = options.table.read(&bytes);
   const std::vector<TableRow> rows = usable_rows(table);
-  if (rows.empty()) throw Error(ErrorKind::kInput, table.name + ": has no usable row");
+  if (rows.empty()) throw Error(ErrorKind::kInput, table.name + ": no usable rows");
   std::vector<Entry> entries;
   const std::vector<NamedFit> fits = chosen_fits(options, table);
   const std::string digest = sha256(bytes);
@@ -174,20 +175,24 @@ void run(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "compare", "Errors of fits, and of the formulas in use today, on the usable rows of a table");
+void add_compare_command(remap::Command& app) {
+  remap::Command* command =
+      app.add_subcommand("compare", "Compare fits and formulas in common use on the usable rows of a table");
+  command->group(kFitStage);
   auto options = std::make_shared<CompareOptions>();
   options->table.add_options(*command);
   command->add_option(
       "fit", options->fits,
-      "Fits: files, or ids in the folder of fits; default: all there that convert the table's "
-      "models");
-  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
-  command->add_flag("--json", options->json, "Figures as JSON on standard output");
+      "Fits: files, or ids in the folder of fits (default: all that convert the table's models)");
+  command->add_option("--fits", options->fit_folder, "Folder of fits")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->option_group("Output");
+  command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
   command->footer(
-      "Errors over all usable rows: max is the largest, chroma shift the change of color beyond the domain\n"
-      "(`remapc fit --model auto` prints the same table with cross-validation and the edge of the domain).\n"
+      "max is the largest error over all usable rows; chroma shift is the change of color beyond the domain. "
+      "`remapc fit --model auto` prints the same table with cross-validation and errors at the domain's "
+      "edge.\n\n"
       "Example:\n  remapc compare ward_to_as.csv mitsuba_ward_to_mitsuba_as");
   command->callback([options] { run(*options); });
 }

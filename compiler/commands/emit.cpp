@@ -1,10 +1,11 @@
-// `remapc emit`: fits to headers, and the check that the committed headers are what their fits give.
+// `remapc emit` writes the headers of fits, or checks that committed headers are current.
 #include "emit/emit.hpp"
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
 
+#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "manifest/fit_folder.hpp"
 #include "remap/error.hpp"
@@ -51,26 +52,37 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
   code.lowering.alpha_tolerance = options.tolerance;
   code.lowering.specular_tolerance = 10.0 * options.tolerance;
   std::vector<GeneratedFile> files;
-  for (const remap::Fit& fit : chosen.fits)
-    files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit, code)});
+  std::vector<remap::ConverterData> converters;
+  for (const remap::Fit& fit : chosen.fits) {
+    const auto header = [&](const std::string& text) {
+      files.push_back({options.output / (fit.id + ".hpp"), text});
+    };
+    if (code.exact) {
+      header(emit_header(fit, code));
+      if (!options.all) continue;
+    }
+    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain, code.lowering);
+    if (!code.exact) header(emit_lowered_header(fit, lowered));
+    converters.push_back(remap::converter_data(fit, lowered));
+  }
   for (const remap::WorkflowFit& fit : chosen.analytic)
     files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
   for (const remap::WarpMapFit& fit : chosen.warps)
     files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
   if (options.all)
-    files.push_back(
-        {options.output / "registry.hpp", emit_registry(chosen.fits, chosen.analytic, chosen.warps)});
+    files.push_back({options.output / kConverterListName, emit_converter_list(std::move(converters))});
   return files;
 }
 
-// Names every file that is not what the fits give, and every header without a fit.
+// A line for every file that is missing or differs from what its fit gives, and for every header without a
+// fit.
 std::vector<std::string> differences(const EmitCommand& options, const std::vector<GeneratedFile>& files) {
   std::vector<std::string> found;
   for (const GeneratedFile& file : files) {
     if (!std::filesystem::exists(file.path))
-      found.push_back(file.path.string() + ": is missing");
+      found.push_back(file.path.string() + ": missing");
     else if (remap::read_file(file.path) != file.content)
-      found.push_back(file.path.string() + ": differs from what its fit gives");
+      found.push_back(file.path.string() + ": differs from its fit");
   }
   if (!options.all || !std::filesystem::is_directory(options.output)) return found;
   for (const auto& entry : std::filesystem::directory_iterator(options.output)) {
@@ -78,14 +90,16 @@ std::vector<std::string> differences(const EmitCommand& options, const std::vect
     const bool known = std::any_of(files.begin(), files.end(), [&](const GeneratedFile& file) {
       return file.path.filename() == entry.path().filename();
     });
-    if (!known) found.push_back(entry.path().string() + ": has no fit in " + options.fit_folder.string());
+    if (!known)
+      found.push_back(entry.path().string() + ": no fit of this name in " + options.fit_folder.string());
   }
   return found;
 }
 
 void run(const EmitCommand& options) {
   if (options.all == !options.fits.empty())
-    throw Error(ErrorKind::kUsage, "emit: expected either fits to emit, or --all");
+    throw Error(ErrorKind::kUsage, options.all ? "--all cannot be used with named fits"
+                                               : "no fits given (name fits, or use --all)");
   const std::vector<GeneratedFile> files = generate(options);
   if (!options.check) {
     for (const GeneratedFile& file : files) {
@@ -98,43 +112,51 @@ void run(const EmitCommand& options) {
   for (const std::string& difference : found) std::cout << difference << "\n";
   if (!found.empty())
     throw Error(ErrorKind::kInput, options.output.string() + ": " + std::to_string(found.size()) +
-                                       " files are not up to date; run `remapc emit --all`");
+                                       " files are out of date (run `remapc emit --all`)");
 }
 
 }  // namespace
 
-void add_emit_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("emit", "Write the C++ header of a fit, or of all fits with their registry");
+void add_emit_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
+      "emit", "Write the C++ headers of fits, or of all fits together with the data of texremap");
+  command->group(kCompileStage);
   auto options = std::make_shared<EmitCommand>();
   command->add_option("fits", options->fits, "Fits: files, or ids in the folder of fits");
-  command->add_flag("--all", options->all, "Every fit of the folder, and registry.hpp");
+  command->option_group("Input");
+  command->add_flag("--all", options->all, "Emit every fit of the folder, and converters.json");
+  command->add_option("--fits", options->fit_folder, "Folder of fits")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->option_group("Output");
+  command->add_option("-o,--output", options->output, "Folder for the headers")
+      ->type_name("FOLDER")
+      ->capture_default_str();
   command->add_flag("--check", options->check,
-                    "Write nothing; exit code 1 where a header is not what its fit gives");
-  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
-  command->add_option("-o,--output", options->output, "Folder for the headers")->capture_default_str();
-  CLI::Option* lower =
+                    "Write nothing; exit code 1 if a header is missing or differs from its fit");
+  command->option_group(remap::kRareOptions);
+  remap::Option* lower =
       command
           ->add_option(
               "--lower", options->tolerance,
-              "Lower the mapping to polynomials on few pieces, proven within this of the fit: absolute in "
-              "target alpha, ten times it relative to the largest target specular")
-          ->check(CLI::PositiveNumber)
+              "Largest proven deviation of the header's polynomials from the fit: absolute for target "
+              "alpha, and ten times it relative to the largest target specular")
+          ->positive()
           ->capture_default_str();
   command
       ->add_flag("--exact", options->code.exact,
-                 "The mapping as it was fitted: loops over support vectors or layers, exponentials")
+                 "Emit the mapping as it was fitted: support vectors, layers or exponentials")
       ->excludes(lower);
   command
       ->add_option("--table-limit", options->code.lowering.table_limit,
-                   "Numbers that a lowered output may consist of; beyond, the fit is refused")
-      ->check(CLI::PositiveNumber)
+                   "Most numbers of a lowered output; a fit that needs more is an error")
+      ->positive()
       ->capture_default_str();
   command->footer(
-      "Fits of kind analytic or warp are emitted as they are: --lower, --exact and --table-limit change "
-      "nothing of them.\n\n"
-      "Example:\n  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n  remapc emit --all "
-      "--check");
+      "--lower, --exact and --table-limit do not affect fits of kind analytic or warp.\n\n"
+      "Example:\n"
+      "  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n"
+      "  remapc emit --all --check");
   command->callback([options] { run(*options); });
 }
 

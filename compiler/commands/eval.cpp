@@ -1,9 +1,10 @@
-// `remapc eval`: how well a fit follows a table.
+// `remapc eval` prints how well a fit follows a table.
 #include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
@@ -29,8 +30,7 @@ void run(const EvalOptions& options) {
   const std::vector<TableRow> usable = usable_rows(table), rows = rows_inside(usable, fit.domain);
   const std::size_t outside = usable.size() - rows.size();
   if (rows.empty())
-    throw remap::Error(remap::ErrorKind::kInput,
-                       table.name + ": has no usable row in the domain of " + fit.id);
+    throw remap::Error(remap::ErrorKind::kInput, table.name + ": no usable rows in the domain of " + fit.id);
   const RowErrors errors = row_errors(fit, rows);
   const bool same_table = sha256(bytes) == fit.table.sha256;
   if (options.json) {
@@ -49,21 +49,26 @@ void run(const EvalOptions& options) {
               << error_text(f.max) << "\n";
   };
   std::cout << fit.id << " on " << rows.size() << " rows of " << table.name
-            << (same_table ? " (the table it was fitted to, training rows included)" : "") << "\n";
-  if (outside != 0) std::cout << "  " << outside << " rows lie outside its domain and are left out\n";
+            << (same_table ? " (the table that it was fitted to, training rows included)" : "") << "\n";
+  if (outside != 0) std::cout << "  " << outside << " rows outside its domain skipped\n";
   print("alpha", errors.alpha);
   print(fit.target.specular, errors.specular);
 }
 
 }  // namespace
 
-void add_eval_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("eval", "Errors of a fit on the usable rows of a table");
+void add_eval_command(remap::Command& app) {
+  remap::Command* command =
+      app.add_subcommand("eval", "Print the errors of a fit on the usable rows of a table");
+  command->group(kLookStage);
   auto options = std::make_shared<EvalOptions>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
   options->table.add_options(*command);
-  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
-  command->add_flag("--json", options->json, "Figures as JSON on standard output");
+  command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->option_group("Output");
+  command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
   command->footer("Example:\n  remapc eval fits/mitsuba_ward_to_mitsuba_as.json other.csv");
   command->callback([options] { run(*options); });
 }

@@ -1,24 +1,21 @@
-// `remapc export`: a fit to a lookup table for tools that take nothing else.
+// `remapc export` writes a fit as a lookup table.
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/interruption.hpp"
-#include "command_line/progress.hpp"
+#include "command_line/command.hpp"
 #include "commands/commands.hpp"
+#include "commands/share_progress.hpp"
 #include "emit/lookup_table.hpp"
 #include "fit/rows/split.hpp"
 #include "manifest/fit_folder.hpp"
-#include "remap/error.hpp"
 #include "system/files.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 const std::map<std::string, LookupOutput> kOutputs = {{"both", LookupOutput::kBoth},
                                                       {"roughness", LookupOutput::kRoughness},
@@ -32,17 +29,6 @@ struct ExportCommand {
   LookupOptions options;
   bool json = false;
 };
-
-LookupTable sample_with_progress(const remap::Fit& fit, const LookupOptions& options) {
-  constexpr double kUnits = 1000.0;
-  remap::watch_interruptions();
-  remap::Progress progress("export " + fit.id, static_cast<std::size_t>(kUnits));
-  return sample_fit(fit, options, [&](double share) {
-    if (remap::interruption())
-      throw Error(ErrorKind::kInterrupted, "export: interrupted; nothing was written");
-    progress.advance_to(static_cast<std::size_t>(kUnits * share));
-  });
-}
 
 void print_json(const std::string& path, const remap::Fit& fit, const LookupTable& table) {
   nlohmann::ordered_json json = {{"lookup", path},
@@ -65,7 +51,8 @@ void report(const std::string& path, const LookupTable& table) {
   std::cerr << path << ": ";
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     std::cerr << (a == 0 ? "" : " x ") << table.axes[a].positions.size() << " " << table.axes[a].name;
-  std::cerr << (table.axes.size() == 1 ? "; linear" : "; bilinear") << " lookup is off the fit by at most";
+  std::cerr << (table.axes.size() == 1 ? "; linear" : "; bilinear")
+            << " lookup deviates from the fit by at most";
   for (std::size_t c = 0; c < table.columns.size(); ++c)
     std::cerr << (c == 0 ? " " : ", ") << error_text(table.columns[c].max_error) << " in "
               << table.columns[c].name;
@@ -77,7 +64,10 @@ void run(ExportCommand command) {
   if (command.output.empty()) command.output = fit.id + ".csv";
   command.options.output = kOutputs.at(command.only);
   remap::create_parent(command.output);
-  const LookupTable table = sample_with_progress(fit, command.options);
+  const LookupTable table = [&] {
+    ShareProgress progress("export", fit.id);
+    return sample_fit(fit, command.options, std::ref(progress));
+  }();
   remap::write_file(command.output, lookup_text(fit, table));
   if (command.json)
     print_json(command.output.string(), fit, table);
@@ -85,55 +75,68 @@ void run(ExportCommand command) {
     report(command.output.string(), table);
 }
 
-// The format, for whoever has to read the file.
+// The file format, at the end of --help.
 const char* const kFormat =
-    "The file is CSV behind `# key: value` lines:\n"
+    "The file is CSV after `# key: value` lines:\n"
     "  format, format_version   remap-lookup, 1\n"
-    "  tool, id, kind           what made it, and of which fit\n"
-    "  source, target           models; _roughness, _specular: what they call their parameters\n"
-    "  fitted_table_sha256      of the table that was fitted\n"
-    "  axes                     one name an axis: source_WIDTH, or source_WIDTH,source_SPECULAR\n"
+    "  tool, id, kind           the program, the fit and its kind\n"
+    "  source, target           models; _roughness, _specular: their parameters\n"
+    "  fitted_table_sha256      SHA-256 of the table that was fitted\n"
+    "  axes                     source_WIDTH, or source_WIDTH,source_SPECULAR\n"
     "  size                     samples on each axis\n"
-    "  domain_min, domain_max   first and last sample on each axis; steps are even\n"
-    "  columns                  target_WIDTH, and on two axes target_SPECULAR, on one\n"
-    "                           target_SPECULAR_factor: multiply the source's specular by it\n"
-    "  interpolation            linear or bilinear: how it is meant to be read\n"
-    "  order                    of rows, where there are two axes: the last varies fastest\n"
-    "  outside                  what to do beyond the domain, as generated headers do it\n"
-    "  source_alpha             of --canonical, target_alpha too: alpha by the model's own parameter\n"
-    "  lookup_error_max, _rms   of such reading against the fit, in the unit of each column, measured at\n"
-    "                           lookup_error_samples points between the samples\n"
-    "then a row of names and one row a sample: axes, then columns, in the models' own parameters. The\n"
-    "width of a colored specular is read at its largest channel. The table has one axis where no column\n"
-    "depends on specular; --only leaves out the one that does. --json gives axes, columns and errors.\n";
+    "  domain_min, domain_max   first and last sample on each axis; even steps\n"
+    "  columns                  target_WIDTH; with two axes also target_SPECULAR, with\n"
+    "                           one target_SPECULAR_factor, which multiplies the\n"
+    "                           source's specular\n"
+    "  interpolation            linear or bilinear\n"
+    "  order                    of rows, with two axes: the last axis varies fastest\n"
+    "  outside                  what to do outside the domain, as headers do it\n"
+    "  source_alpha             with --canonical, also target_alpha: formula of alpha\n"
+    "                           by the model's own parameter\n"
+    "  lookup_error_max, _rms   deviation of lookups from the fit, in the unit of each\n"
+    "                           column, at lookup_error_samples points\n"
+    "A row of names follows, then a row per sample: axes, then columns, in the models' own parameters. For a "
+    "colored specular, look the width up at its largest channel. The table has one axis if no column depends "
+    "on "
+    "specular; --only can leave out the one that does.\n\n";
 
 }  // namespace
 
-void add_export_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "export", "Write a fit as a lookup table (CSV) for tools that take nothing but tables");
+void add_export_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
+      "export", "Write a fit as a lookup table (CSV), for tools that cannot use the header");
+  command->group(kCompileStage);
   auto options = std::make_shared<ExportCommand>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
-  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
-  command->add_option("-o,--output", options->output, "Table to write; default: <id>.csv");
-  command->add_option("--size", options->options.size, "Samples over the source's width")
-      ->check(CLI::Range(2, static_cast<int>(kMostLookupRows)))
+  command->option_group("Input");
+  command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->option_group("Table");
+  command->add_option("--size", options->options.size, "Samples on the axis of the source's width")
+      ->range(2, static_cast<int>(kMostLookupRows))
       ->capture_default_str();
   command
       ->add_option("--size-specular", options->options.specular_size,
-                   "Samples over the source's specular, where the table has that axis")
-      ->check(CLI::Range(2, static_cast<int>(kMostLookupRows)))
+                   "Samples on the axis of the source's specular, if the table has it")
+      ->range(2, static_cast<int>(kMostLookupRows))
       ->capture_default_str();
-  command->add_option("--only", options->only, "roughness or specular: a table of that output alone")
-      ->check(CLI::IsMember({"both", "roughness", "specular"}))
+  command->add_option("--only", options->only, "Output to write")
+      ->one_of({"both", "roughness", "specular"})
       ->capture_default_str();
-  command->add_flag("--canonical", options->options.canonical,
-                    "Widths as alpha in place of the models' own parameters: for exponents, of which even "
-                    "steps leave most materials to the first");
+  command->add_flag(
+      "--canonical", options->options.canonical,
+      "Write widths as alpha instead of the models' own parameters; needed for exponents, where "
+      "even steps put most materials into the first cell");
+  command->option_group("Output");
+  command->add_option("-o,--output", options->output, "Table to write (default: <id>.csv)")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "Print axes, columns and errors as JSON to standard output");
   command
-      ->add_option("--jobs", options->options.jobs, "Threads; 0: one a core. The table does not depend on it")
+      ->add_option("--jobs", options->options.jobs,
+                   "Threads, 0: one per core; the table does not depend on it")
+      ->group(remap::kRareOptions)
       ->capture_default_str();
-  command->add_flag("--json", options->json, "Summary as JSON on standard output");
   command->footer(std::string(kFormat) +
                   "Example:\n  remapc export mitsuba_ward_to_mitsuba_as --size 129 -o ward_to_as.csv");
   command->callback([options] { run(*options); });

@@ -1,15 +1,17 @@
-// `remapc fit`: a table to a fit.
+// `remapc fit` fits a table.
 #include <cstdint>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/interruption.hpp"
-#include "command_line/progress.hpp"
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
+#include "commands/share_progress.hpp"
 #include "commands/table_input.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/network/material_network.hpp"
@@ -19,7 +21,6 @@
 #include "remap/error.hpp"
 #include "report/fit_plot.hpp"
 #include "system/files.hpp"
-#include "table/check.hpp"
 #include "table/domain.hpp"
 
 namespace remapc {
@@ -28,7 +29,7 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-// More is a slip of the finger: the networks of the paper have 300 units.
+// Larger values are assumed to be typos: the networks of the paper have 300 units.
 constexpr int kMostUnits = 4096, kMostStarts = 1000;
 
 struct FitCommand {
@@ -42,12 +43,12 @@ struct FitCommand {
   bool json = false;
 };
 
-// Options that say how a regression is done, where another was asked for, are mistakes.
-void require_consistent(const FitCommand& command, const CLI::App& app) {
+// Options of one regression are errors together with another one.
+void require_consistent(const FitCommand& command, const remap::Command& app) {
   const auto require_model = [&](const std::string& option, const std::string& model) {
     if (app.count(option) != 0 && command.model != "auto" && command.model != model)
       throw Error(ErrorKind::kUsage,
-                  option + ": is for --model " + model + " or auto; found --model " + command.model);
+                  option + " cannot be used with --model " + command.model + " (use " + model + " or auto)");
   };
   require_model("--form", "parametric");
   for (const std::string option : {"--layers", "--activation", "--starts"}) require_model(option, "mlp");
@@ -61,17 +62,6 @@ FitOptions fit_options(const FitCommand& command) {
   if (command.model == "mlp") options.regressor = Regressor::kMlp;
   options.regression.mlp.activation = *remap::activation_from_name(command.activation);
   return options;
-}
-
-FittedTable fit_with_progress(const Table& table, std::string_view bytes, const FitOptions& options) {
-  constexpr double kUnits = 1000.0;
-  remap::watch_interruptions();
-  remap::Progress progress("fit " + table.source.model + " -> " + table.target.model,
-                           static_cast<std::size_t>(kUnits));
-  return fit_table(table, bytes, options, [&](double share) {
-    if (remap::interruption()) throw Error(ErrorKind::kInterrupted, "fit: interrupted; nothing was written");
-    progress.advance_to(static_cast<std::size_t>(kUnits * share));
-  });
 }
 
 void report(const FitCommand& command, const std::filesystem::path& path, const remap::Fit& fit) {
@@ -93,20 +83,21 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
             << errors_text(fit, "held out") << "\n";
 }
 
-// Of whole materials there is one way back and one kind: equation (2) needs no fit.
+// A table of metallic materials can only be fitted from specular to metallic, by a network.
 void require_material_options(const FitCommand& command) {
   if (!command.swap)
-    throw Error(ErrorKind::kUsage, command.table.path +
-                                       ": from metallic to specular equation (2) is exact and needs no fit; "
-                                       "expected --swap, for the way back");
+    throw Error(ErrorKind::kUsage,
+                command.table.path +
+                    ": metallic to specular is exact by equation (2) and needs no fit (use "
+                    "--swap to fit the inverse)");
   if (command.model != "auto" && command.model != "mlp")
     throw Error(ErrorKind::kUsage,
-                "--model " + command.model + ": whole materials are fitted by a network; expected mlp");
+                "--model " + command.model + ": not available for a table of materials (use mlp)");
   if (!command.plot.empty())
-    throw Error(ErrorKind::kUsage, "--plot: draws width and specular; expected a table of these");
+    throw Error(ErrorKind::kUsage, "--plot: not available for a table of materials (remove it)");
 }
 
-MaterialNetworkOptions network_options(const FitCommand& command, const CLI::App& app) {
+MaterialNetworkOptions network_options(const FitCommand& command, const remap::Command& app) {
   const MlpOptions& mlp = command.options.regression.mlp;
   MaterialNetworkOptions options;
   options.id = command.options.id;
@@ -119,53 +110,58 @@ MaterialNetworkOptions network_options(const FitCommand& command, const CLI::App
   return options;
 }
 
-void run_on_materials(const FitCommand& command, const CLI::App& app, const std::string& bytes) {
-  require_material_options(command);
-  remap::create_parent(command.folder / "fit.json");
-  const MaterialTable table = parse_material_table(bytes, command.table.path);
-  constexpr double kUnits = 1000.0;
-  remap::watch_interruptions();
-  remap::WorkflowFit fit;
-  {
-    remap::Progress progress("fit " + command.table.path, static_cast<std::size_t>(kUnits));
-    fit = fit_material_network(table, bytes, network_options(command, app), [&](double share) {
-      if (remap::interruption())
-        throw Error(ErrorKind::kInterrupted, "fit: interrupted; nothing was written");
-      progress.advance_to(static_cast<std::size_t>(kUnits * share));
-    });
-  }
-  const std::filesystem::path path = command.folder / (fit.id + ".json");
-  remap::write_file(path, fit_to_json(fit));
+void report(const FitCommand& command, const std::filesystem::path& path, const remap::WorkflowFit& fit) {
+  const remap::NetworkTraining& training = *fit.training;
   if (command.json) {
     const nlohmann::ordered_json json = {{"fit", path.string()},
                                          {"id", fit.id},
                                          {"kind", material_kind(fit)},
-                                         {"method", fit.training->method},
-                                         {"base_color_error", figures_json(fit.training->base_color)},
-                                         {"metallic_error", figures_json(fit.training->metallic)}};
+                                         {"method", training.method},
+                                         {"base_color_error", figures_json(training.base_color)},
+                                         {"metallic_error", figures_json(training.metallic)}};
     std::cout << json.dump(2) << "\n";
     return;
   }
-  std::cerr << path.string() << ": " << fit.training->method.at("network") << "; held out: base color rms "
-            << error_text(fit.training->base_color.rms) << ", metallic rms "
-            << error_text(fit.training->metallic.rms) << "\n";
+  std::cerr << path.string() << ": " << training.method.at("network") << "; held out: base color rms "
+            << error_text(training.base_color.rms) << ", metallic rms " << error_text(training.metallic.rms)
+            << "\n";
 }
 
-void run(const FitCommand& command, const CLI::App& app) {
-  require_consistent(command, app);
-  if (const std::string text = remap::read_file(command.table.path);
-      is_material_table(text, command.table.path)) {
-    run_on_materials(command, app, text);
-    return;
-  }
-  std::string bytes;
-  Table table = command.table.read(&bytes);
-  if (command.swap) table = swapped(table);
-  // Outputs first: auto works for a minute.
-  require_fittable(table);
-  remap::create_parent(command.folder / "fit.json");
+// Throws kOutput if the fit's folder cannot be written or created, before the work starts. Creates nothing: a
+// table that cannot be fitted leaves no empty folder.
+void require_output_folder(const std::filesystem::path& folder) {
+  std::filesystem::path existing = std::filesystem::absolute(folder);
+  while (!std::filesystem::exists(existing) && existing.has_relative_path())
+    existing = existing.parent_path();
+  if (!std::filesystem::is_directory(existing))
+    throw Error(ErrorKind::kOutput,
+                folder.string() + ": cannot be made a folder (" + existing.string() + " is not a folder)");
+  if (::access(existing.c_str(), W_OK) != 0)
+    throw Error(ErrorKind::kOutput,
+                folder.string() + ": cannot be written (" + existing.string() + " is read-only)");
+}
+
+void run_on(const MaterialTable& table, const std::string& bytes, const FitCommand& command,
+            const remap::Command& app) {
+  require_material_options(command);
+  require_output_folder(command.folder);
+  const remap::WorkflowFit fit = [&] {
+    ShareProgress progress("fit", command.table.path);
+    return fit_material_network(table, bytes, network_options(command, app), std::ref(progress));
+  }();
+  const std::filesystem::path path = command.folder / (fit.id + ".json");
+  remap::write_file(path, fit_to_json(fit));
+  report(command, path, fit);
+}
+
+void run_on(const Table& given, const std::string& bytes, const FitCommand& command, const remap::Command&) {
+  const Table table = command.swap ? swapped(given) : given;
+  require_output_folder(command.folder);
   if (!command.plot.empty()) require_plot(command.plot);
-  const FittedTable fitted = fit_with_progress(table, bytes, fit_options(command));
+  const FittedTable fitted = [&] {
+    ShareProgress progress("fit", table.source.model + " -> " + table.target.model);
+    return fit_table(table, bytes, fit_options(command), std::ref(progress));
+  }();
   const std::filesystem::path path = command.folder / (fitted.fit.id + ".json");
   remap::write_file(path, fit_to_json(fitted.fit));
   if (!command.plot.empty())
@@ -174,55 +170,73 @@ void run(const FitCommand& command, const CLI::App& app) {
   report(command, path, fitted.fit);
 }
 
-void add_regression_options(CLI::App& app, FitCommand& command) {
+void run(const FitCommand& command, const remap::Command& app) {
+  require_consistent(command, app);
+  std::string bytes;
+  const AnyTable input = command.table.read_any(&bytes);
+  std::visit([&](const auto& table) { run_on(table, bytes, command, app); }, input);
+}
+
+void add_regression_options(remap::Command& app, FitCommand& command) {
   RegressionOptions& regression = command.options.regression;
+  app.option_group("Regression");
   app.add_option(
          "--model", command.model,
-         "auto: the simplest of the others that is as good as the best by cross-validation, which "
-         "takes up to a minute; parametric: polynomials and exponentials; svr: support vectors; mlp: a "
-         "small network")
-      ->check(CLI::IsMember({"auto", "parametric", "svr", "mlp"}))
+         "parametric: polynomials and exponentials; svr: support vectors; mlp: a small network; auto: the "
+         "simplest of them that is as good as the best by cross-validation, in up to a minute")
+      ->one_of({"auto", "parametric", "svr", "mlp"})
       ->capture_default_str();
-  app.add_option(
-      "--form", regression.form,
-      "Of the parametric kind: paper, paper+pole or ROUGHNESS/SPECULAR, see below; default: chosen");
-  app.add_option("--layers", regression.mlp.hidden, "Of the network: units of each hidden layer, as 16,16")
+  app.add_flag("--swap", command.swap,
+               "Fit the inverse, from the table's target to its source; with a table of metallic materials "
+               "(remapc sample): a network from specular to metallic");
+  app.option_group(remap::kRareOptions);
+  app.add_option("--form", regression.form,
+                 "Parametric: paper, paper+pole or ROUGHNESS/SPECULAR, see below (default: chosen by "
+                 "cross-validation)")
+      ->type_name("FORM");
+  app.add_option("--layers", regression.mlp.hidden, "Network: units of each hidden layer, as 16,16")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::Range(1, kMostUnits))
+      ->range(1, kMostUnits)
       ->capture_default_str();
-  app.add_option("--activation", command.activation, "Of the network: relu, tanh or silu")
-      ->check(CLI::IsMember(remap::activation_names()))
+  app.add_option("--activation", command.activation, "Network: activation function")
+      ->one_of(remap::activation_names())
       ->capture_default_str();
-  app.add_option("--starts", regression.mlp.starts, "Of the network: trainings of which the best is kept")
-      ->check(CLI::Range(1, kMostStarts))
+  app.add_option("--starts", regression.mlp.starts, "Network: trainings, of which the best is kept")
+      ->range(1, kMostStarts)
       ->capture_default_str();
-  app.add_option("--seed", regression.seed, "Of the split, of folds, and of all other draws")
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
+  app.add_option("--held-out", command.options.held_out_fraction,
+                 "Fraction of the rows held out to measure errors")
       ->capture_default_str();
-  app.add_option("--jobs", regression.jobs, "Threads; 0: one a core. The fit does not depend on it")
+  app.add_option("--seed", regression.seed, "Seed of the split, the folds and all other random choices")
+      ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max())
       ->capture_default_str();
+  app.add_option("--jobs", regression.jobs, "Threads, 0: one per core; the fit does not depend on it")
+      ->capture_default_str();
+}
+
+void add_output_options(remap::Command& app, FitCommand& command) {
+  app.option_group("Output");
+  app.add_option("-o,--output", command.folder, "Folder for the fit, <id>.json")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  app.add_option("--id", command.options.id, "Id of the fit (default: <source>_to_<target>)")
+      ->type_name("ID");
+  app.add_option("--plot", command.plot, "Plot rows, fits and residuals to this SVG file (needs gnuplot)")
+      ->type_name("FILE");
+  app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
 }
 
 }  // namespace
 
-void add_fit_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("fit", "Fit a table and write <id>.json");
+void add_fit_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand("fit", "Fit a table and write <id>.json");
+  command->group(kFitStage);
   auto options = std::make_shared<FitCommand>();
   options->table.add_options(*command);
+  add_output_options(*command, *options);
   add_regression_options(*command, *options);
-  command->add_flag(
-      "--swap", options->swap,
-      "Fit the way back: the table's target becomes the source, and its source the target; of a table "
-      "of whole metallic materials (remapc sample) a network from specular to metallic");
-  command->add_option("--id", options->options.id, "Name of the converter; default: <source>_to_<target>");
-  command
-      ->add_option("--held-out", options->options.held_out_fraction, "Share of the rows that judges the fit")
-      ->capture_default_str();
-  command->add_option("-o,--output", options->folder, "Folder for the fit")->capture_default_str();
-  command->add_option("--plot", options->plot, "Also draw rows, fits and residuals into this SVG (gnuplot)");
-  command->add_flag("--json", options->json, "Summary as JSON on standard output");
-  command->footer(form_list() + "Example:\n  remapc fit ward_to_as.csv -o fits --plot fits/ward_to_as.svg");
+  command->footer(form_list() + "\nExample:\n  remapc fit ward_to_as.csv -o fits --plot fits/ward_to_as.svg");
   command->callback([options, command] { run(*options, *command); });
 }
 

@@ -1,9 +1,10 @@
-// `remapc import`: a regression that was trained elsewhere to a fit.
+// `remapc import` makes a fit from a regression that was trained elsewhere.
 #include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/fit_table.hpp"
@@ -18,20 +19,19 @@ namespace {
 
 struct ImportCommand {
   std::string description;
-  std::string table, columns;  // empty table: errors stay unknown
+  std::string table, columns;  // empty table: errors are unknown
   std::filesystem::path folder = "fits";
   bool json = false;
 };
 
-// Puts the errors on the usable rows of the table in `fit`: none of them trained it here.
+// Measures the errors of `fit` on all usable rows of the table: which of them trained it is unknown.
 void judge(remap::Fit& fit, const ImportCommand& command) {
   const std::string bytes = remap::read_file(command.table);
   const Table table =
       parse_table(bytes, command.table, command.columns.empty() ? ColumnMap{} : column_map(command.columns));
   const std::vector<TableRow> rows = rows_inside(usable_rows(table), fit.domain);
   if (rows.empty())
-    throw remap::Error(remap::ErrorKind::kInput,
-                       table.name + ": has no usable row in the domain of " + fit.id);
+    throw remap::Error(remap::ErrorKind::kInput, table.name + ": no usable rows in the domain of " + fit.id);
   const RowErrors errors = row_errors(fit, rows);
   fit.roughness_error = errors.alpha;
   fit.specular_error = errors.specular;
@@ -70,29 +70,37 @@ void run(const ImportCommand& command) {
 
 }  // namespace
 
-void add_import_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("import", "Make a fit of libsvm model files (RBF regressions trained elsewhere)");
+void add_import_command(remap::Command& app) {
+  remap::Command* command =
+      app.add_subcommand("import", "Make a fit from libsvm model files (RBF regressions trained elsewhere)");
+  command->group(kFitStage);
   auto options = std::make_shared<ImportCommand>();
-  command
-      ->add_option("description", options->description,
-                   "JSON: source, target, domain, and for alpha and specular the model file and scalings")
+  command->add_option("description", options->description, "JSON file that describes the models, see below")
       ->required();
-  command->add_option("--table", options->table, "Table (CSV) to measure errors on; without it they are 0");
-  command->add_option("--columns", options->columns,
-                      "Column map of the table: sztrajman-2019 (the published table), or own=file,...");
-  command->add_option("-o,--output", options->folder, "Folder for the fit")->capture_default_str();
-  command->add_flag("--json", options->json, "Summary as JSON on standard output");
+  command->option_group("Input");
+  command->add_option("--table", options->table, "Table (CSV) to measure errors on (default: errors unknown)")
+      ->type_name("FILE");
+  command
+      ->add_option("--columns", options->columns,
+                   "Names of columns in the table: sztrajman-2019 (the published table), or OWN=FILE,...")
+      ->type_name("MAP");
+  command->option_group("Output");
+  command->add_option("-o,--output", options->folder, "Folder for the fit")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Print a summary as JSON to standard output");
   command->footer(
-      "Description, for each of \"alpha\" and \"specular\":\n"
-      "  {\"model_file\": \"alpha.model\", \"inputs\": [{\"name\": \"alpha\", \"offset\": 0.02, \"scale\": "
-      "1.02}],\n"
+      "The description holds \"source\", \"target\" and \"domain\" as a fit file does, and for each of "
+      "\"alpha\" and "
+      "\"specular\":\n"
+      "  {\"model_file\": \"alpha.model\",\n"
+      "   \"inputs\": [{\"name\": \"alpha\", \"offset\": 0.02, \"scale\": 1.02}],\n"
       "   \"output\": {\"offset\": 0, \"scale\": 1}}\n"
-      "beside \"source\", \"target\" and \"domain\" as in a fit file. normalised = (value - offset) * "
-      "scale;\n"
-      "scikit-learn's MinMaxScaler: scale = scale_, offset = -min_ / scale_; StandardScaler: scale = 1 / "
-      "scale_,\n"
-      "offset = mean_. Alpha is the microfacet width, whatever the models' own parameters are.\n\n"
+      "where normalised = (value - offset) * scale. From scikit-learn's MinMaxScaler: scale = scale_, offset "
+      "= "
+      "-min_ / scale_; from StandardScaler: scale = 1 / scale_, offset = mean_. Alpha is the microfacet "
+      "width, "
+      "whatever the models' own parameters are.\n\n"
       "Example:\n  remapc import my_svr.json --table ward_to_as.csv -o fits");
   command->callback([options] { run(*options); });
 }

@@ -1,10 +1,11 @@
-// `remapc list`: what there is.
+// `remapc list` prints the fits of a folder or the built-in models.
 #include <iomanip>
 #include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "manifest/fit_folder.hpp"
@@ -45,7 +46,7 @@ void list_fits(const ListOptions& options) {
   const FitFolder folder = load_fit_folder(options.fit_folder);
   const std::vector<remap::Fit>& fits = folder.fits;
   if (fits.empty() && folder.analytic.empty() && folder.warps.empty())
-    std::cerr << options.fit_folder.string() << ": holds no fits (*.json)\n";
+    std::cerr << options.fit_folder.string() << ": no fits (*.json) in this folder\n";
   for (const remap::Fit& fit : fits) {
     list.push_back({{"id", fit.id},
                     {"source", fit.source.model},
@@ -85,13 +86,18 @@ void list_fits(const ListOptions& options) {
 
 }  // namespace
 
-void add_list_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("list", "List the fits of a folder, or the models that can be swept");
+void add_list_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand("list", "List the fits of a folder, or the built-in models");
+  command->group(kLookStage);
   auto options = std::make_shared<ListOptions>();
-  command->add_flag("--models", options->models, "Models of the built-in renderer, with their parameters");
-  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
-  command->add_flag("--json", options->json, "As JSON on standard output");
+  command->option_group("Input");
+  command->add_flag("--models", options->models,
+                    "List the models of the built-in renderer and their parameters");
+  command->add_option("--fits", options->fit_folder, "Folder of fits")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->option_group("Output");
+  command->add_flag("--json", options->json, "Print the list as JSON to standard output");
   command->footer("Example:\n  remapc list --models");
   command->callback([options] { options->models ? list_models(options->json) : list_fits(*options); });
 }

@@ -1,21 +1,35 @@
 #include "commands/pair_selection.hpp"
 
+#include "command_line/command.hpp"
+
 namespace remapc {
 
-void PairSelection::add_options(CLI::App& app) {
-  app.add_option("--source", source, "Model to convert from")->required();
-  app.add_option("--target", target, "Model to convert to")->required();
+void PairSelection::add_model_options(remap::Command& app) {
+  app.option_group("Models");
+  app.add_option("--source", source, "Model to convert from")->type_name("MODEL")->required();
+  app.add_option("--target", target, "Model to convert to")->type_name("MODEL")->required();
+}
+
+void PairSelection::add_picture_options(remap::Command& app) {
+  app.option_group("Pictures and how they are compared");
   app.add_option("--objective", objective,
                  "natural: light at 60 degrees, relative weights; paper: headlight, uniform weights")
+      ->type_name("NAME")
       ->capture_default_str();
-  app.add_option("--light", lights, "Instead of the objective's: headlight or degrees, comma-separated");
-  app.add_option("--distance", distance, "Of the lights, in sphere radii")->capture_default_str();
-  app.add_option("--weighting", weighting, "Instead of the objective's: uniform or relative");
-  app.add_option("--resolution", resolution, "Width and height of the pictures")->capture_default_str();
-  app.add_option("--pixel-samples", pixel_samples, "N x N samples in each pixel; 1: its centre")
+  app.add_option("--light", lights,
+                 "Lights, comma-separated: headlight, or degrees from the camera (overrides --objective)")
+      ->type_name("LIGHTS");
+  app.add_option("--weighting", weighting, "uniform or relative (overrides --objective)")->type_name("NAME");
+  app.add_option("--resolution", resolution, "Width and height in pixels")->capture_default_str();
+  app.add_option("--pixel-samples", pixel_samples, "N x N samples per pixel; 1: the pixel center")
       ->capture_default_str();
+}
+
+void PairSelection::add_rare_options(remap::Command& app) {
+  app.option_group(remap::kRareOptions);
+  app.add_option("--distance", distance, "Distance of the lights, in sphere radii")->capture_default_str();
   app.add_flag("--no-irradiance-matching", keep_irradiance,
-               "Leave a factor between the light of two renderers in specular and diffuse");
+               "Do not correct for a constant factor between the lights of two renderers");
   roles.add_options(app);
 }
 

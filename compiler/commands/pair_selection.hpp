@@ -1,11 +1,9 @@
-// The options by which a command takes the pair of models of a sweep and how their pictures are compared.
+// The options that choose the two models of a sweep and how their pictures are rendered and compared.
 #pragma once
 
 #include <string>
 
-#include <CLI/CLI.hpp>
-
-#include "commands/casting_options.hpp"
+#include "commands/role_options.hpp"
 #include "sweep/sweep.hpp"
 
 namespace remapc {
@@ -20,8 +18,11 @@ struct PairSelection {
   bool keep_irradiance = false;
   RoleOptions roles;
 
-  void add_options(CLI::App& app);
-  // Throws kUsage.
+  // Add the options to `app`: the models; how pictures are made and compared; the rare ones.
+  void add_model_options(remap::Command& app);
+  void add_picture_options(remap::Command& app);
+  void add_rare_options(remap::Command& app);
+  // Copies the choices to `options`. Throws kUsage for an unknown objective, weighting or light.
   void fill(PairOptions* options) const;
 };
 

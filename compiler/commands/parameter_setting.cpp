@@ -1,6 +1,6 @@
 #include "commands/parameter_setting.hpp"
 
-#include <CLI/CLI.hpp>
+#include <sstream>
 
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
@@ -12,9 +12,10 @@ using remap::ErrorKind;
 
 std::vector<double> parse_values(const std::string& option, const std::string& text) {
   std::vector<double> values;
-  for (const std::string& item : CLI::detail::split(text, ',')) {
+  std::istringstream items(text);
+  for (std::string item; std::getline(items, item, ',');) {
     const auto value = remap::parse_number(item);
-    if (!value) throw Error(ErrorKind::kUsage, option + ": \"" + item + "\" is no number");
+    if (!value) throw Error(ErrorKind::kUsage, option + ": '" + item + "' is not a number");
     values.push_back(*value);
   }
   return values;
@@ -23,7 +24,7 @@ std::vector<double> parse_values(const std::string& option, const std::string& t
 ParameterSetting parse_setting(const std::string& option, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos)
-    throw Error(ErrorKind::kUsage, option + " " + text + ": has no =; expected NAME=VALUE or NAME=R,G,B");
+    throw Error(ErrorKind::kUsage, option + " " + text + ": '=' missing (write NAME=VALUE or NAME=R,G,B)");
   return {text.substr(0, equals), parse_values(option + " " + text, text.substr(equals + 1))};
 }
 

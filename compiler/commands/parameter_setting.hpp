@@ -1,4 +1,4 @@
-// `NAME=VALUE` and `NAME=R,G,B`, as command lines give values to parameters of a model.
+// Reads `NAME=VALUE` and `NAME=R,G,B`, which set parameters of a model on the command line.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ struct ParameterSetting {
   std::vector<double> values;
 };
 
-// `option` is named in complaints. Throws kUsage.
+// `option` is named in errors. Throws kUsage.
 ParameterSetting parse_setting(const std::string& option, const std::string& text);
 
-// Numbers parted by commas, in `text` of the option. Throws kUsage.
+// The comma-separated numbers in `text`. Throws kUsage.
 std::vector<double> parse_values(const std::string& option, const std::string& text);
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// `remapc preview`: source and conversion side by side, as pictures and figures.
+// `remapc preview` compares a source with its conversion, as pictures and figures.
 #include "report/preview.hpp"
 
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
@@ -45,7 +46,7 @@ PreviewOptions preview_options(const PreviewCommand& command) {
   const std::vector<Light> lights = parse_lights(command.light, command.distance);
   if (lights.size() != 1)
     throw remap::Error(remap::ErrorKind::kUsage,
-                       "--light: " + std::to_string(lights.size()) + " lights; expected one");
+                       "--light: " + std::to_string(lights.size()) + " lights given (give one)");
   options.light = lights.front();
   options.resolution = command.resolution;
   options.samples_per_axis = command.pixel_samples;
@@ -80,7 +81,7 @@ void print_text(const remap::Fit& fit, const Preview& preview) {
     std::cout << std::left << std::setw(9) << shape_name(figure.shape) << std::setw(8) << std::defaultfloat
               << std::setprecision(3) << figure.alpha << std::fixed << std::setprecision(4) << std::setw(11)
               << figure.target_alpha << std::setw(8) << figure.ssim << std::setprecision(2)
-              << 100.0 * figure.rms << (figure.in_domain ? "" : "   out of domain") << "\n";
+              << 100.0 * figure.rms << (figure.in_domain ? "" : "   outside the domain") << "\n";
 }
 
 nlohmann::ordered_json similarity_json(const LitSimilarity& similarity) {
@@ -117,7 +118,7 @@ void print_lit_text(const PreviewCommand& command, const remap::Fit& fit, const 
               << std::fixed << std::setprecision(4) << std::setw(11) << figure.target_alpha << std::setw(14)
               << figure.copied.ssim << std::setprecision(2) << std::setw(8) << 100.0 * figure.copied.rms
               << std::setprecision(4) << std::setw(17) << figure.converted.ssim << std::setprecision(2)
-              << 100.0 * figure.converted.rms << (figure.in_domain ? "" : "   out of domain") << "\n";
+              << 100.0 * figure.converted.rms << (figure.in_domain ? "" : "   outside the domain") << "\n";
 }
 
 // Under an environment: the source, copied numbers, converted numbers.
@@ -152,58 +153,88 @@ void run(const PreviewCommand& command) {
     print_text(fit, preview);
 }
 
+void add_environment_options(remap::Command& command, PreviewCommand& options) {
+  command.option_group("Environment");
+  command
+      .add_option("--environment", options.environment,
+                  "Light spheres by sky, overcast, studio, or a map (EXR, HDR) instead of one light; one row "
+                  "per alpha: source, numbers copied, numbers converted")
+      ->type_name("NAME or FILE")
+      ->excludes(command.option("--light"))
+      ->excludes(command.option("--shape"));
+  command.add_option("--exposure", options.exposure, "Mean luminance of the environment")
+      ->capture_default_str();
+  command.add_option("--diffuse", options.diffuse, "Diffuse reflectance of all spheres, 0 to 1")
+      ->capture_default_str();
+  command.add_option("--directions", options.directions, "Light directions per sample of a pixel")
+      ->range(16, 65536)
+      ->capture_default_str();
+}
+
+void require_environment(const remap::Command& command, const PreviewCommand& options) {
+  for (const char* option : {"--exposure", "--diffuse", "--directions"})
+    if (options.environment.empty() && command.count(option) > 0)
+      throw remap::Error(remap::ErrorKind::kUsage, std::string(option) + " needs --environment");
+}
+
 }  // namespace
 
-void add_preview_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "preview", "Render a source and its conversion side by side, and say how alike they are");
+void add_preview_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
+      "preview", "Render a source model and its conversion side by side, and print their similarity");
+  command->group(kLookStage);
   auto options = std::make_shared<PreviewCommand>();
-  command->add_option("fit", options->fit, "Fit: an id, or a file")->required();
-  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "PNG to write: a column a width; source, conversion, their difference four times");
+  command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
+  command->option_group("Input");
+  command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->option_group("Output");
+  command
+      ->add_option("-o,--output", options->output,
+                   "PNG to write: a column per alpha; source, conversion, and their difference times four")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
+  command->option_group("Materials and pictures");
   command
       ->add_option("--alpha", options->alphas,
-                   "Widths of the source, comma-separated; four of its domain without")
+                   "Alphas of the source, comma-separated (default: four values of the fit's domain)")
+      ->type_name("ALPHA,...")
       ->delimiter(',');
   command
       ->add_option("--specular", options->specular,
-                   "Of the source: one value, or R,G,B; half of its domain without")
+                   "Specular of the source (default: half the maximum of the fit's domain)")
+      ->type_name("VALUE or R,G,B")
       ->delimiter(',');
-  command->add_option("--shape", options->shapes, "sphere, torus, comma-separated")
+  command->add_option("--shape", options->shapes, "Shapes, comma-separated: sphere, torus")
+      ->type_name("SHAPE,...")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--light", options->light, "headlight, or degrees from the camera")
-      ->capture_default_str();
-  command->add_option("--distance", options->distance, "Of the light, in sphere radii")
+  command->add_option("--light", options->light, "Light: headlight, or degrees from the camera")
+      ->type_name("LIGHT")
       ->capture_default_str();
   command->add_option("--resolution", options->resolution, "Width and height of each picture")
-      ->check(CLI::Range(16, 2048))
+      ->range(16, 2048)
       ->capture_default_str();
-  command->add_option("--pixel-samples", options->pixel_samples, "N x N samples in each pixel; 1: its centre")
-      ->check(CLI::Range(1, 16))
+  add_environment_options(*command, *options);
+  command->option_group(remap::kRareOptions);
+  command->add_option("--distance", options->distance, "Distance of the light, in sphere radii")
       ->capture_default_str();
-  CLI::Option* environment =
-      command->add_option("--environment", options->environment,
-                          "Light spheres by sky, overcast, studio, or an EXR or HDR map, instead of one "
-                          "light; the sheet then has "
-                          "a row for each width: source, numbers copied, numbers converted");
-  command->add_option("--exposure", options->exposure, "Mean luminance of the environment")
-      ->needs(environment)
-      ->capture_default_str();
-  command->add_option("--diffuse", options->diffuse, "Diffuse reflectance of all spheres, with --environment")
-      ->needs(environment)
-      ->capture_default_str();
-  command->add_option("--directions", options->directions, "Light directions for each sample of a pixel")
-      ->needs(environment)
-      ->check(CLI::Range(16, 65536))
+  command
+      ->add_option("--pixel-samples", options->pixel_samples, "N x N samples per pixel; 1: the pixel center")
+      ->range(1, 16)
       ->capture_default_str();
   add_renderer_options(*command, options->renderers);
-  command->add_flag("--json", options->json, "Figures as JSON on standard output");
   command->footer(
-      "Example:\n  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 -o preview.png\n"
-      "  remapc preview mitsuba_ward_to_mitsuba_as --environment studio -o preview.png");
-  command->callback([options] { run(*options); });
+      "Example:\n"
+      "  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 \\\n"
+      "    -o preview.png\n"
+      "  remapc preview mitsuba_ward_to_mitsuba_as --environment studio \\\n"
+      "    -o preview.png");
+  command->callback([options, command] {
+    require_environment(*command, *options);
+    run(*options);
+  });
 }
 
 }  // namespace remapc

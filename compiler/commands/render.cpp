@@ -1,6 +1,7 @@
-// `remapc render`: one picture of the sweep scene.
+// `remapc render` renders one picture of the sweep scene.
 #include <memory>
 
+#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "commands/parameter_setting.hpp"
 #include "commands/renderer_options.hpp"
@@ -39,7 +40,8 @@ Material parse_material(const ModelDescription& model, const std::vector<std::st
     const bool has_standard =
         parameter.role == ParameterRole::kDiffuse || parameter.role == ParameterRole::kOther;
     if (!has_standard)
-      throw Error(ErrorKind::kUsage, model.name + ": needs --set " + parameter.name + "=VALUE");
+      throw Error(ErrorKind::kUsage, model.name + ": parameter " + parameter.name + " is required (--set " +
+                                         parameter.name + "=VALUE)");
     material.parameters[parameter.name] = {parameter.standard};
   }
   return material;
@@ -47,10 +49,11 @@ Material parse_material(const ModelDescription& model, const std::vector<std::st
 
 void run(const RenderOptions& options) {
   const auto renderer = make_renderers(options.renderers);
-  const ModelDescription model = find_model(*renderer, options.model);
+  const ModelDescription model = renderer->model(options.model);
   const Material material = parse_material(model, options.settings);
   const std::vector<Light> lights = parse_lights(options.light, options.distance);
-  if (lights.size() != 1) throw Error(ErrorKind::kUsage, "--light: one picture has one light");
+  if (lights.size() != 1)
+    throw Error(ErrorKind::kUsage, "--light: " + std::to_string(lights.size()) + " lights given (give one)");
   const Scene scene{options.resolution, options.pixel_samples, lights.front(), options.seed};
   const Image image = renderer->render(material, scene);
 
@@ -67,30 +70,42 @@ void run(const RenderOptions& options) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("render", "Render one picture of the sweep scene: a sphere and a point light");
+void add_render_command(remap::Command& app) {
+  remap::Command* command =
+      app.add_subcommand("render", "Render one picture of the sweep scene: a sphere under a point light");
+  command->group(kMeasureStage);
   auto options = std::make_shared<RenderOptions>();
+  command->option_group("Material");
   command
       ->add_option("--model", options->model,
-                   "Model, e.g. mitsuba/ward (remapc list --models, remapc renderers)")
+                   "Model, as mitsuba/ward (see remapc list --models, remapc renderers)")
+      ->type_name("MODEL")
       ->required();
-  command->add_option("--set", options->settings, "Parameter of the model: NAME=VALUE or NAME=R,G,B")
+  command->add_option("--set", options->settings, "Parameter of the model; may be repeated")
+      ->type_name("NAME=VALUE or NAME=R,G,B")
       ->allow_extra_args(false);
-  command->add_option("--light", options->light, "headlight, or degrees from the camera")
-      ->capture_default_str();
-  command->add_option("--distance", options->distance, "Of the light, in sphere radii")
+  command->option_group("Output");
+  command->add_option("-o,--output", options->output, "EXR file to write (linear float)")
+      ->type_name("FILE")
+      ->required();
+  command->option_group("Picture");
+  command->add_option("--light", options->light, "Light: headlight, or degrees from the camera")
+      ->type_name("LIGHT")
       ->capture_default_str();
   command->add_option("--resolution", options->resolution, "Width and height in pixels")
       ->capture_default_str();
-  command->add_option("--pixel-samples", options->pixel_samples, "N x N samples in each pixel; 1: its centre")
+  command
+      ->add_option("--pixel-samples", options->pixel_samples, "N x N samples per pixel; 1: the pixel center")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of renderers with noise")->capture_default_str();
+  command->option_group(remap::kRareOptions);
+  command->add_option("--distance", options->distance, "Distance of the light, in sphere radii")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of renderers with noise")->capture_default_str();
   add_renderer_options(*command, options->renderers);
-  command->add_option("-o,--output", options->output, "EXR file to write, linear float")->required();
   command->footer(
-      "Example:\n  remapc render --model mitsuba/ward --set alpha=0.2 --set specular=0.9,0.6,0.2 "
-      "--light 45 -o sphere.exr");
+      "Example:\n"
+      "  remapc render --model mitsuba/ward --set alpha=0.2 \\\n"
+      "    --set specular=0.9,0.6,0.2 --light 45 -o sphere.exr");
   command->callback([options] { run(*options); });
 }
 

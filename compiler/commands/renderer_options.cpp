@@ -1,28 +1,28 @@
 #include "commands/renderer_options.hpp"
 
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "worker/worker_list.hpp"
 
 namespace remapc {
 
-void add_renderer_options(CLI::App& app, RendererOptions& options) {
-  const std::string group = "Real renderers (remapc renderers lists them)";
+void add_renderer_options(remap::Command& app, RendererOptions& options) {
+  app.option_group("Rare: external renderers (remapc renderers lists them)");
   app.add_option(
          "--worker", options.workers,
-         "NAME=COMMAND: a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes them")
-      ->allow_extra_args(false)
-      ->group(group);
-  app.add_option("--worker-processes", options.processes, "Of one worker at once; 0: one a core")
-      ->capture_default_str()
-      ->group(group);
-  app.add_option("--worker-timeout", options.seconds, "Seconds that a worker may take for an answer")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
-      ->group(group);
+         "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; may be "
+         "repeated")
+      ->type_name("NAME=COMMAND")
+      ->allow_extra_args(false);
+  app.add_option("--worker-processes", options.processes, "Processes per worker, 0: one per core")
+      ->capture_default_str();
+  app.add_option("--worker-timeout", options.seconds, "Seconds to wait for an answer of a worker")
+      ->positive()
+      ->capture_default_str();
   app.add_option("--cache", options.cache,
-                 "Folder where pictures of workers are kept; default: remap/pictures in the user's cache")
-      ->group(group);
-  app.add_flag("--no-cache", options.no_cache, "Render every picture, keep none")->group(group);
+                 "Folder for pictures of workers (default: remap/pictures in the user's cache)")
+      ->type_name("FOLDER");
+  app.add_flag("--no-cache", options.no_cache, "Render every picture and keep none");
 }
 
 WorkerSettings worker_settings(const RendererOptions& options) {

@@ -1,4 +1,5 @@
-// The options of commands that name models: which workers there are, and what is kept of their pictures.
+// The options of commands that use models of external renderers: their workers and the cache of their
+// pictures.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "command_line/progress.hpp"
 #include "worker/renderer_set.hpp"
 
@@ -21,18 +21,18 @@ struct RendererOptions {
   double seconds = WorkerLimits{}.seconds;
 };
 
-// `options` must live as long as the callback of `app`.
-void add_renderer_options(CLI::App& app, RendererOptions& options);
+// Adds the options as a rare group. `options` must outlive the callback of `app`.
+void add_renderer_options(remap::Command& app, RendererOptions& options);
 
 WorkerSettings worker_settings(const RendererOptions& options);
 
-// The built-in renderer and all known workers.
+// The built-in renderer and all known workers. Throws as known_workers() does.
 std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options);
 
-// `, 12 pictures rendered and 30 from the cache`; empty where no worker took part.
+// `, 12 pictures rendered and 30 from the cache`; empty if no worker was used.
 std::string pictures_text(const PictureCount& pictures);
 
-// A progress line of rows that also counts the pictures of workers. `renderers` must outlive it.
+// A progress line of rows whose label also counts the pictures of workers. `renderers` must outlive it.
 class PictureProgress {
  public:
   PictureProgress(RendererSet* renderers, const std::string& label, std::size_t total, bool shown);

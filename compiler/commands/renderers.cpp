@@ -1,10 +1,11 @@
-// `remapc renderers`: which real renderers answer here, and what they can do.
+// `remapc renderers` lists the external renderers that work on this machine, and their models.
 #include <iomanip>
 #include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
@@ -61,7 +62,7 @@ void run(const RenderersCommand& command) {
       if (entry.install.empty())
         std::cout << entry.name << ": " << error.what() << "\n";
       else
-        std::cout << entry.name << ": not here; to install it: " << entry.install << "\n";
+        std::cout << entry.name << ": not installed (install it with: " << entry.install << ")\n";
     }
   }
   if (command.json) std::cout << list.dump(2) << "\n";
@@ -69,12 +70,15 @@ void run(const RenderersCommand& command) {
 
 }  // namespace
 
-void add_renderers_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "renderers", "List the real renderers that answer here: versions, models, parameters");
+void add_renderers_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
+      "renderers", "List the external renderers on this machine: versions, models, parameters");
+  command->group(kRendererStage);
   auto options = std::make_shared<RenderersCommand>();
+  command->option_group("Output");
+  command->add_flag("--json", options->json,
+                    "Print the list as JSON to standard output, with reasons for missing renderers");
   add_renderer_options(*command, options->renderers);
-  command->add_flag("--json", options->json, "As JSON on standard output, with why a renderer is missing");
   command->footer("Example:\n  remapc renderers");
   command->callback([options] { run(*options); });
 }

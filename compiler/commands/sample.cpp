@@ -1,10 +1,11 @@
-// `remapc sample`: random materials of all parameters of a model, matched, to a table of named columns.
+// `remapc sample` matches random materials of a model and writes a table of named parameters.
 #include <chrono>
 #include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/pair_selection.hpp"
@@ -44,7 +45,8 @@ MaterialSampleOptions material_sample_options(const SampleCommand& command) {
   for (const std::string& text : command.ranges) {
     const ParameterSetting setting = parse_setting("--range", text);
     if (setting.values.size() != 2 || !(setting.values[0] < setting.values[1]))
-      throw Error(ErrorKind::kUsage, "--range " + text + ": expected NAME=MIN,MAX with MIN below MAX");
+      throw Error(ErrorKind::kUsage,
+                  "--range " + text + ": not a range (write NAME=MIN,MAX with MIN below MAX)");
     options.ranges[setting.name] = {setting.values[0], setting.values[1]};
   }
   return options;
@@ -70,7 +72,7 @@ void run(const SampleCommand& command) {
   remap::watch_interruptions();
   const MaterialSampleOptions options = material_sample_options(command);
   if (!command.force && std::filesystem::exists(command.output))
-    throw Error(ErrorKind::kOutput, command.output.string() + ": exists; --force replaces it");
+    throw Error(ErrorKind::kOutput, command.output.string() + ": already exists (--force overwrites)");
   const auto renderer = make_renderers(command.renderers);
   MaterialTable table;
   {
@@ -90,45 +92,58 @@ void run(const SampleCommand& command) {
 
 constexpr std::size_t kMostSamples = 1'000'000;
 
-void add_options(CLI::App& app, SampleCommand& command) {
-  command.pair.add_options(app);
-  app.add_option("-o,--output", command.output,
-                 "Table to write (CSV, a column for each parameter and channel)")
+void add_options(remap::Command& app, SampleCommand& command) {
+  command.pair.add_model_options(app);
+  app.option_group("Output");
+  app.add_option("-o,--output", command.output, "Table to write (CSV, a column per parameter and channel)")
+      ->type_name("FILE")
       ->required();
-  app.add_option("--count", command.count, "Random materials")
-      ->check(CLI::Range(std::size_t{1}, kMostSamples))
+  app.add_flag("--force", command.force, "Overwrite the table");
+  app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
+  app.add_flag("--quiet", command.quiet, "Print no progress and no summary");
+  app.option_group("Materials");
+  app.add_option("--count", command.count, "Number of random materials")
+      ->range(std::size_t{1}, kMostSamples)
       ->capture_default_str();
-  app.add_option("--seed", command.seed, "Of the random materials")->capture_default_str();
+  app.add_option("--seed", command.seed, "Seed of the random materials")->capture_default_str();
   app.add_option("--vary", command.varied,
-                 "A parameter of the source that varies too; roughness, specular and diffuse always do")
+                 "Vary this parameter of the source in addition to roughness, specular and diffuse; may be "
+                 "repeated")
+      ->type_name("NAME")
       ->allow_extra_args(false);
-  app.add_option("--range", command.ranges, "NAME=MIN,MAX: of a parameter of the source, in its own unit")
+  app.add_option("--range", command.ranges,
+                 "Range of a parameter of the source, in its own unit; may be repeated")
+      ->type_name("NAME=MIN,MAX")
       ->allow_extra_args(false);
   app.add_option("--search", command.searched,
-                 "A parameter of the target that is matched too; roughness, specular and diffuse always are")
+                 "Match this parameter of the target in addition to roughness, specular and diffuse; may be "
+                 "repeated")
+      ->type_name("NAME")
       ->allow_extra_args(false);
-  app.add_flag("--grey", command.grey, "Grey materials: one value of each color");
-  app.add_option("--jobs", command.jobs, "Threads; 0: one a core. The table does not depend on it")
+  app.add_flag("--grey", command.grey, "Use grey materials, with one value per color");
+  command.pair.add_picture_options(app);
+  command.pair.add_rare_options(app);
+  app.add_option("--jobs", command.jobs, "Threads, 0: one per core; the table does not depend on it")
+      ->group(remap::kRareOptions)
       ->capture_default_str();
   add_renderer_options(app, command.renderers);
-  app.add_flag("--force", command.force, "Replace the table");
-  app.add_flag("--json", command.json, "Summary as JSON on standard output");
-  app.add_flag("--quiet", command.quiet, "No progress, no summary");
 }
 
 }  // namespace
 
-void add_sample_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "sample", "Match random materials of many parameters with the target model, into a table");
+void add_sample_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
+      "sample", "Match random materials of many parameters with the target model, and write the table");
+  command->group(kMeasureStage);
   auto options = std::make_shared<SampleCommand>();
   options->pair.resolution = 128;
   add_options(*command, *options);
   command->footer(
-      "Example:\n  remapc sample --source mitsuba/ggx-metallic --vary metallic --vary specular "
-      "--target mitsuba/ggx --count 1000 --seed 7 -o metallic_to_ggx.csv\n"
-      "  remapc sample --source mitsuba/ggx --target mitsuba/ggx-metallic --search metallic --grey -o "
-      "ggx_to_metallic.csv");
+      "Example:\n"
+      "  remapc sample --source mitsuba/ggx-metallic --target mitsuba/ggx \\\n"
+      "    --vary metallic --vary specular --count 1000 --seed 7 -o metallic_to_ggx.csv\n"
+      "  remapc sample --source mitsuba/ggx --target mitsuba/ggx-metallic \\\n"
+      "    --search metallic --grey -o ggx_to_metallic.csv");
   command->callback([options] { run(*options); });
 }
 

@@ -1,9 +1,10 @@
-// `remapc show`: the card of one fit.
+// `remapc show` prints one fit.
 #include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 
+#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/rows/split.hpp"
@@ -35,7 +36,7 @@ std::string figures_text(const remap::ErrorFigures& f) {
   return "rms " + error_text(f.rms) + ", 99 % " + error_text(f.p99) + ", max " + error_text(f.max);
 }
 
-// ` + c` or ` - c`, or the number itself at the front of a sum.
+// ` + c` or ` - c`; the number itself at the start of a sum.
 std::string summand(double coefficient, bool first) {
   if (first) return number_text(coefficient);
   return (coefficient < 0.0 ? " - " : " + ") + number_text(std::fabs(coefficient));
@@ -59,7 +60,7 @@ std::string curve_text(const remap::AlphaCurve& curve) {
 
 std::string inputs_text(std::size_t count) { return count == 1 ? "alpha" : "alpha and specular"; }
 
-// How a mapping is read, with a = alpha1, s = specular1.
+// Prints a mapping as formulas of a = alpha1 and s = specular1.
 struct PrintMapping {
   void operator()(const remap::Parametric& form) const {
     for (std::size_t j = 0; j < form.roughness.size(); ++j) {
@@ -113,7 +114,7 @@ void print_method(const remap::Fit& fit) {
 }
 
 std::string rows_text(const remap::Fit& fit) {
-  if (fit.split.held_out_rows == 0) return "its steps, whose errors are carried on";
+  if (fit.split.held_out_rows == 0) return "its steps (errors propagated)";
   return "its table: " + std::to_string(fit.split.held_out_rows) + " rows " +
          (fit.split.trained_rows == 0 ? "(trained elsewhere)"
                                       : "held out (" + std::to_string(fit.split.trained_rows) +
@@ -123,53 +124,54 @@ std::string rows_text(const remap::Fit& fit) {
 void print_lowering(const remap::Fit& fit) {
   try {
     const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
-    std::cout << "How well its header follows the fit: alpha within " << error_text(lowered.alpha.bound)
+    std::cout << "Deviation of its header from the fit: alpha within " << error_text(lowered.alpha.bound)
               << ", " << fit.target.specular << " within " << error_text(lowered.specular.bound)
-              << ", proven\n";
+              << " (proven)\n";
   } catch (const remap::Error& error) {
     if (error.kind() != remap::ErrorKind::kNumeric) throw;
-    std::cout << "Its header cannot be had with the default tolerances: " << error.what() << "\n";
+    std::cout << "No header with the default tolerances: " << error.what() << "\n";
   }
 }
 
 std::string percent_text(double share) { return number_text(remap::rounded_up(100.0 * share, 2)) + " %"; }
 
-// By the converter of `folder` that leads back, where there is one.
+// Prints the round trip through the inverse converter in `folder`, if there is one.
 void print_round_trip(const remap::Fit& fit, const std::filesystem::path& folder) {
   const auto path = folder / (remap::converter_id(fit.target.model, fit.source.model) + ".json");
   if (!std::filesystem::is_regular_file(path)) return;
   const remap::Fit back = remap::load_fit(path);
   const remap::RoundTrip trip = remap::round_trip(fit, back);
-  std::cout << "There and back by " << back.id << "\n";
+  std::cout << "Round trip through " << back.id << "\n";
   if (trip.share == 0.0) {
-    std::cout << "  their domains do not meet\n";
+    std::cout << "  the domains do not overlap\n";
     return;
   }
   const auto print = [](const std::string& name, double median, double p99) {
     std::cout << "  " << std::left << std::setw(8) << name << "changes by " << percent_text(median)
-              << " in the median, 99 % within " << percent_text(p99) << "\n";
+              << " (median), 99 % within " << percent_text(p99) << "\n";
   };
   print("alpha", trip.alpha_median, trip.alpha_p99);
   print(fit.source.specular, trip.specular_median, trip.specular_p99);
   if (!remap::returns(trip))
-    std::cout << "  (!) not what went: the models differ, and each direction finds its own best match\n";
+    std::cout << "  (!) does not return to the start: the models differ, so each direction has its own best "
+                 "match\n";
 }
 
-// The three things that are apart: the models, the fit, its polynomials.
+// Prints the three sources of error: difference of the models, of fit and table, of header and fit.
 void print_trust(const remap::Fit& fit) {
   if (fit.image_similarity) {
-    std::cout << "How alike the models can be\n  picture " << figures_text(fit.image_similarity->image_error)
-              << ", relative to the source's\n";
+    std::cout << "Difference of the models at the best match\n  picture "
+              << figures_text(fit.image_similarity->image_error) << ", relative to the source picture\n";
     for (const remap::SphereSimilarity& sphere : fit.image_similarity->ssim)
       std::cout << "  sphere  SSIM " << std::fixed << std::setprecision(3) << sphere.ssim << " at alpha "
                 << std::defaultfloat << number_text(sphere.alpha) << "\n";
   } else {
-    std::cout << "How alike the models can be is not known: no pictures were compared\n";
+    std::cout << "Difference of the models: unknown (not validated by rendering)\n";
   }
   if (!fit.has_errors()) {
-    std::cout << "How well the fit follows its table is not known: it was held against no rows\n";
+    std::cout << "Deviation of the fit from its table: unknown (no rows held out)\n";
   } else {
-    std::cout << "How well the fit follows " << rows_text(fit) << "\n  alpha   "
+    std::cout << "Deviation of the fit from " << rows_text(fit) << "\n  alpha   "
               << figures_text(fit.roughness_error) << "\n  " << std::left << std::setw(8)
               << fit.target.specular << figures_text(fit.specular_error) << "\n";
   }
@@ -206,7 +208,7 @@ void print_training(const remap::NetworkTraining& training) {
     return "rms " + error_text(errors.rms) + ", p99 " + error_text(errors.p99) + ", max " +
            error_text(errors.max);
   };
-  std::cout << "Errors on " << training.split.held_out_rows << " rows that it was not trained on (seed "
+  std::cout << "Errors on " << training.split.held_out_rows << " rows held out of training (seed "
             << training.split.seed << ")\n  base color  " << figures(training.base_color)
             << "\n  metallic     " << figures(training.metallic) << "\nTraining\n";
   for (const auto& [key, value] : training.method) std::cout << "  " << key << ": " << value << "\n";
@@ -242,7 +244,7 @@ void show_card(const remap::WarpMapFit& fit, const ShowOptions&) {
             << (copied ? "nearest copied" : "blended") << "; " << byte_count(fit.warp) << " bytes\n";
   if (fit.copy_rms_error >= 0.0)
     std::cout << "  " << percent(fit.copy_rms_error)
-              << " of the template's spread from an exact copy (RMS)\n";
+              << " of the template's spread: difference to an exact copy (RMS)\n";
   std::cout << "Method\n";
   for (const auto& [key, value] : fit.method) std::cout << "  " << key << ": " << value << "\n";
 }
@@ -261,14 +263,18 @@ void show(const ShowOptions& options) {
 
 }  // namespace
 
-void add_show_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("show",
-                                         "Show the card of a fit: models, domain, errors, mapping, table; "
-                                         "parameters and conventions of whole materials");
+void add_show_command(remap::Command& app) {
+  remap::Command* command =
+      app.add_subcommand("show", "Show a fit: models, domain, errors, mapping and its table");
+  command->group(kLookStage);
   auto options = std::make_shared<ShowOptions>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
-  command->add_option("--fits", options->fit_folder, "Folder of fits")->capture_default_str();
-  command->add_flag("--json", options->json, "The fit file itself");
+  command->option_group("Input");
+  command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->option_group("Output");
+  command->add_flag("--json", options->json, "Print the fit file itself");
   command->footer("Example:\n  remapc show mitsuba_ward_to_mitsuba_as");
   command->callback([options] { show(*options); });
 }

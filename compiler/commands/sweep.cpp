@@ -1,4 +1,4 @@
-// `remapc sweep`: two models to a table.
+// `remapc sweep` matches a grid of materials of two models and writes a table.
 #include "sweep/sweep.hpp"
 
 #include <chrono>
@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/pair_selection.hpp"
@@ -39,7 +40,7 @@ struct SweepCommand {
 
 remap::Range parse_range(const std::string& option, const std::vector<double>& values) {
   if (values.size() != 2 || !(values[0] <= values[1]))
-    throw Error(ErrorKind::kUsage, option + ": expected MIN,MAX with MIN not above MAX");
+    throw Error(ErrorKind::kUsage, option + ": not a range (write MIN,MAX with MIN not above MAX)");
   return {values[0], values[1]};
 }
 
@@ -52,13 +53,10 @@ void choose_samples(const SweepCommand& command, const Renderer& renderer, Sweep
                         std::filesystem::path(command.samples_of).filename().string();
     return;
   }
-  if (command.roughness_samples == 0 || command.specular_samples == 0)
-    throw Error(ErrorKind::kUsage, "samples: 0; expected at least 1 for roughness and for specular");
   const remap::Range alphas = parse_range("--roughness-range", command.roughness_range);
   const remap::Range speculars =
       command.specular_range.empty()
-          ? canonical_speculars(renderer,
-                                recast(find_model(renderer, options->source), options->source_roles))
+          ? canonical_speculars(renderer, recast(renderer.model(options->source), options->source_roles))
           : parse_range("--specular-range", command.specular_range);
   options->samples = grid_samples(alphas, command.roughness_samples, speculars, command.specular_samples);
   options->sampling = grid_text(alphas, command.roughness_samples, speculars, command.specular_samples);
@@ -85,7 +83,7 @@ void warn_of_subpixel(const Table& table, const SweepOptions& options) {
   if (rows != 0)
     std::cerr << "remapc: warning: " << rows << " rows have alpha1 below "
               << number_text(remap::rounded_up(limit, 2))
-              << ", where the highlight is smaller than a pixel; take more --resolution or --pixel-samples\n";
+              << ", where the highlight is smaller than a pixel (increase --resolution or --pixel-samples)\n";
 }
 
 void report(const SweepCommand& command, const Table& table, const PictureCount& pictures, double seconds) {
@@ -127,51 +125,70 @@ void run(const SweepCommand& command) {
 
 constexpr int kMostSamples = 4096;  // of each axis
 
-void add_options(CLI::App& app, SweepCommand& command) {
-  command.pair.add_options(app);
-  app.add_option("-o,--output", command.output, "Table to write (CSV)")->required();
-  app.add_option("--roughness-samples", command.roughness_samples, "Source widths")
-      ->check(CLI::Range(1, kMostSamples))
+void add_sample_options(remap::Command& app, SweepCommand& command) {
+  app.option_group("Samples");
+  app.add_option("--roughness-samples", command.roughness_samples, "Number of source alphas")
+      ->range(1, kMostSamples)
       ->capture_default_str();
-  app.add_option("--specular-samples", command.specular_samples, "Source speculars at each width")
-      ->check(CLI::Range(1, kMostSamples))
+  app.add_option("--specular-samples", command.specular_samples, "Number of source speculars for each alpha")
+      ->range(1, kMostSamples)
       ->capture_default_str();
-  app.add_option("--roughness-range", command.roughness_range, "MIN,MAX of the source's alpha")
+  app.add_option("--roughness-range", command.roughness_range, "Range of the source's alpha")
+      ->type_name("MIN,MAX")
       ->delimiter(',')
       ->expected(1, 2)
       ->capture_default_str();
   app.add_option("--specular-range", command.specular_range,
-                 "MIN,MAX of the source's specular (F0 for an index); default: all it takes")
+                 "Range of the source's specular, F0 for an index (default: the model's range)")
+      ->type_name("MIN,MAX")
       ->delimiter(',')
       ->expected(1, 2);
-  app.add_option("--samples-of", command.samples_of, "Take the samples of this table instead of a grid");
-  app.add_option("--columns", command.columns, "Its column map: sztrajman-2019, or own=file,...");
-  app.add_option("--stages", command.stages,
-                 "2: diffuse and specular apart; 1: all at once from a fixed guess; 3: all at once from 2")
-      ->check(CLI::Range(1, 3))
+  app.add_option("--diffuse", command.diffuse, "Diffuse reflectance of the source in every sample")
       ->capture_default_str();
-  app.add_option("--diffuse", command.diffuse, "Of the source, in every sample")->capture_default_str();
-  app.add_option("--jobs", command.jobs, "Threads; 0: one a core. The table does not depend on it")
+  app.add_option("--samples-of", command.samples_of, "Use the samples of this table instead of a grid")
+      ->type_name("FILE");
+}
+
+void add_options(remap::Command& app, SweepCommand& command) {
+  command.pair.add_model_options(app);
+  app.option_group("Output");
+  app.add_option("-o,--output", command.output, "Table to write (CSV)")->type_name("FILE")->required();
+  app.add_flag("--force", command.force, "Overwrite the table");
+  app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
+  app.add_flag("--quiet", command.quiet, "Print no progress and no summary");
+  add_sample_options(app, command);
+  command.pair.add_picture_options(app);
+  command.pair.add_rare_options(app);
+  app.option_group(remap::kRareOptions);
+  app.add_option("--columns", command.columns,
+                 "Names of columns in the table of --samples-of: sztrajman-2019, or OWN=FILE,...")
+      ->type_name("MAP");
+  app.add_option(
+         "--stages", command.stages,
+         "2: match diffuse, then specular; 1: all at once from a fixed start; 3: all at once from the "
+         "result of 2")
+      ->range(1, 3)
+      ->capture_default_str();
+  app.add_option("--jobs", command.jobs, "Threads, 0: one per core; the table does not depend on it")
       ->capture_default_str();
   add_renderer_options(app, command.renderers);
-  app.add_flag("--force", command.force, "Replace the table");
-  app.add_flag("--json", command.json, "Summary as JSON on standard output");
-  app.add_flag("--quiet", command.quiet, "No progress, no summary");
 }
 
 }  // namespace
 
-void add_sweep_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("sweep", "Match a grid of source materials with the target model, into a table");
+void add_sweep_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
+      "sweep", "Match a grid of source materials with the target model, and write the table");
+  command->group(kMeasureStage);
   auto options = std::make_shared<SweepCommand>();
   add_options(*command, *options);
   command->footer(
-      "Example:\n  remapc sweep --source mitsuba/ward --target mitsuba/as -o ward_to_as.csv\n"
-      "  remapc sweep --source radiance/plastic --target mitsuba3/ggx --resolution 256 -o "
-      "radiance_to_ggx.csv\n"
-      "  remapc sweep --source mitsuba/ggx-metallic --source-set metallic=0.5 --target mitsuba/ggx -o "
-      "half_metal.csv");
+      "Example:\n"
+      "  remapc sweep --source mitsuba/ward --target mitsuba/as -o ward_to_as.csv\n"
+      "  remapc sweep --source radiance/plastic --target mitsuba3/ggx \\\n"
+      "    --resolution 256 -o radiance_to_ggx.csv\n"
+      "  remapc sweep --source mitsuba/ggx-metallic --source-set metallic=0.5 \\\n"
+      "    --target mitsuba/ggx -o half_metal.csv");
   command->callback([options] { run(*options); });
 }
 

@@ -1,22 +1,40 @@
 #include "commands/table_input.hpp"
 
+#include <utility>
+
+#include "command_line/command.hpp"
 #include "system/files.hpp"
 
 namespace remapc {
 
-void TableInput::add_options(CLI::App& app) {
-  app.add_option("table", path, "Table (CSV)")->required();
-  app.add_option("--columns", columns, "Column map: sztrajman-2019 (the published table), or own=file,...");
-  app.add_option("--source", source, "Source model, where the table does not name it");
-  app.add_option("--target", target, "Target model, where the table does not name it");
+void TableInput::add_options(remap::Command& app) {
+  app.add_option("table", path, "Table (CSV) of remapc sweep or of another program")->required();
+  app.option_group("Input");
+  app.add_option("--columns", columns,
+                 "Names of columns in the file: sztrajman-2019 (the published table), or OWN=FILE,...")
+      ->type_name("MAP");
+  app.add_option("--source", source, "Source model (default: as the table names it)")->type_name("MODEL");
+  app.add_option("--target", target, "Target model (default: as the table names it)")->type_name("MODEL");
 }
 
 Table TableInput::read(std::string* bytes) const {
   std::string content = remap::read_file(path);
-  Table table = parse_table(content, path, columns.empty() ? ColumnMap{} : column_map(columns));
+  Table table = with_models(parse_table(content, path, columns.empty() ? ColumnMap{} : column_map(columns)));
+  if (bytes != nullptr) *bytes = std::move(content);
+  return table;
+}
+
+AnyTable TableInput::read_any(std::string* bytes) const {
+  std::string content = remap::read_file(path);
+  AnyTable table = parse_any_table(content, path, columns.empty() ? ColumnMap{} : column_map(columns));
+  if (Table* sweep = std::get_if<Table>(&table)) *sweep = with_models(std::move(*sweep));
+  if (bytes != nullptr) *bytes = std::move(content);
+  return table;
+}
+
+Table TableInput::with_models(Table table) const {
   if (!source.empty()) table.source.model = source;
   if (!target.empty()) table.target.model = target;
-  if (bytes != nullptr) *bytes = std::move(content);
   return table;
 }
 

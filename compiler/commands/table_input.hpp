@@ -3,20 +3,26 @@
 
 #include <string>
 
-#include <CLI/CLI.hpp>
-
-#include "table/table.hpp"
+#include "command_line/command.hpp"
+#include "table/any_table.hpp"
 
 namespace remapc {
 
 struct TableInput {
   std::string path;
   std::string columns;         // preset or own=file pairs; empty: own names
-  std::string source, target;  // models, where the table does not name them
+  std::string source, target;  // models; empty: as the table names them
 
-  void add_options(CLI::App& app);
-  // Reads the file once; `bytes` takes its content where given.
+  void add_options(remap::Command& app);
+
+  // Reads the file once. `bytes`, if not null, receives its content. Throws kInput and kUsage as parse_table
+  // does; a table of named parameters is an error.
   Table read(std::string* bytes = nullptr) const;
+  // The same for a table of either form.
+  AnyTable read_any(std::string* bytes = nullptr) const;
+
+ private:
+  Table with_models(Table table) const;
 };
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// What sweep and sample say of the table that they have made.
+// The summary that sweep and sample print of their table.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@ namespace remapc {
 
 class TableSummary {
  public:
-  // A row; `error` is its image error, relative RMS.
+  // Adds a row with its image error (relative RMS).
   void add(RowStatus status, double error);
 
-  // Rows, rows by status, error, pictures and `seconds`, appended to `json`.
+  // Appends to `json`: rows, rows by status, error, pictures and `seconds`.
   void append_to(nlohmann::ordered_json* json, const PictureCount& pictures, double seconds) const;
-  // The same as one line without its end.
+  // The same as one line without a line break.
   std::string text(const PictureCount& pictures, double seconds) const;
 
  private:
   double rms_error() const;
 
   std::size_t rows_ = 0;
-  double square_ = 0.0;  // of errors, summed
+  double square_ = 0.0;  // sum of squared errors
   std::map<std::string, std::size_t> statuses_;
 };
 

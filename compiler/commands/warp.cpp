@@ -1,10 +1,11 @@
-// `remapc warp`: the reflectance of one texture set for the pattern of another, by strokes.
+// `remapc warp` gives one texture set the reflectance of another, guided by strokes.
 #include <chrono>
 #include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "commands/warp_command.hpp"
@@ -52,17 +53,17 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::
        {"dimensions", std::to_string(found.dimensions) + " (source " +
                           std::to_string(found.source_dimensions) + ", template " +
                           std::to_string(found.target_dimensions) + ")"},
-       {"stress of source and template", percent(found.source_stress) + ", " + percent(found.target_stress)},
-       {"directions that strokes fix", std::to_string(found.fixed_directions)},
-       {"appearances of the template that are used", percent(found.coverage)},
+       {"stress of source, of template", percent(found.source_stress) + ", " + percent(found.target_stress)},
+       {"directions fixed by strokes", std::to_string(found.fixed_directions)},
+       {"appearances of the template used", percent(found.coverage)},
        {"folds", percent(found.fold_share)},
-       {"strokes apart, of the template's spread", percent(found.stroke_distance)},
-       {"bytes of the converter", std::to_string(byte_count(fit.compiled))}},
+       {"distance of strokes after the warp, of the template's spread", percent(found.stroke_distance)},
+       {"size of the converter in bytes", std::to_string(byte_count(fit.compiled))}},
       file.remarks,
       static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
 }
 
-// Of a fit that has been made, and where it went.
+// A finished fit and the files that were written.
 struct WarpOutcome {
   remap::WarpMapFit file;
   double seconds = 0.0;
@@ -84,21 +85,22 @@ void print_json(const WarpCommand& command, const WarpFit& fit, const WarpOutcom
 void print_words(const WarpCommand& command, const WarpFit& fit, const WarpOutcome& outcome, bool is_albedo) {
   const std::filesystem::path& name = command.output.empty() ? command.copy : command.output;
   std::cerr << name.string() << ": " << summary_of(fit.diagnostics) << "  compiled to "
-            << byte_count(fit.compiled) << " bytes, " << percent(outcome.file.copy_rms_error)
-            << " of the spread from an exact copy\n";
+            << byte_count(fit.compiled) << " bytes; RMS difference to an exact copy "
+            << percent(outcome.file.copy_rms_error) << " of the template's spread\n";
   if (is_albedo)
-    std::cerr << "  the source is diffuse alone: taken with specular 0 and alpha 1, told apart by color\n";
+    std::cerr << "  the source has a diffuse map only: specular 0 and alpha 1 assumed, materials "
+                 "distinguished by color\n";
   for (const std::string& warning : outcome.file.remarks)
     remap::print_message("remapc", "warning: " + warning);
 }
 
 void require_outputs(const WarpCommand& command) {
   if (command.output.empty() && command.copy.empty())
-    throw Error(ErrorKind::kUsage, "--output: is missing; expected a file for the fit, or --copy FOLDER");
+    throw Error(ErrorKind::kUsage, "--output is required (or --copy FOLDER)");
   if (!command.output.empty() && !remap::is_valid_id(command.output.stem().string()))
     throw Error(ErrorKind::kUsage,
                 "--output: " + command.output.string() +
-                    " names the fit; expected letters, digits and single underscores before .json");
+                    " is not usable as an id (use letters, digits and single underscores before .json)");
   if (!command.report.empty()) require_report_path(command.report);
 }
 
@@ -136,63 +138,79 @@ void run(const WarpCommand& command) {
     warp_textures(command);
 }
 
-}  // namespace
-
-void add_warp_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "warp", "Give one texture set the reflectance of another, by pairs of strokes (An et al. 2011)");
-  auto options = std::make_shared<WarpCommand>();
-  command
-      ->add_option("source", options->source,
-                   "Folder of the set whose pattern stays; a diffuse map alone will do")
-      ->required();
-  command->add_option("template", options->target, "Folder of the set whose reflectance is taken")
-      ->required();
-  command
-      ->add_option("--stroke", options->masks,
-                   "Two masks that mark one region: of the source and of the template")
-      ->type_size(2)
-      ->type_name("SOURCE_MASK TEMPLATE_MASK");
-  command
-      ->add_option("--strokes", options->paintings,
-                   "Two images, of the source and of the template, with a color for each region; the "
-                   "background is transparent, or the most frequent color")
+void add_stroke_options(remap::Command& app, WarpCommand& command) {
+  app.option_group("Strokes");
+  app.add_option(
+         "--strokes", command.paintings,
+         "Two images with a color for each region, on a transparent background or on the most frequent "
+         "color")
       ->type_size(2)
       ->type_name("SOURCE_IMAGE TEMPLATE_IMAGE");
-  command->add_option("--box", options->boxes, "The same as boxes of texels, x0,y0,x1,y1 each")
+  app.add_option("--stroke", command.masks, "Two masks that mark one region; may be repeated")
+      ->type_size(2)
+      ->type_name("SOURCE_MASK TEMPLATE_MASK");
+  app.add_option("--box", command.boxes,
+                 "Two boxes of texels, each x0,y0,x1,y1, that mark one region; may be repeated")
       ->type_size(2)
       ->delimiter(' ')
       ->type_name("SOURCE_BOX TEMPLATE_BOX");
-  command->add_option("--source-model", options->source_model, "BRDF model of the source's maps")
+}
+
+void add_method_options(remap::Command& app, WarpCommand& command) {
+  app.option_group("Models and method");
+  app.add_option("--source-model", command.source_model, "BRDF model of the source's maps")
+      ->type_name("MODEL")
       ->capture_default_str();
+  app.add_option("--template-model", command.target_model,
+                 "BRDF model of the template's maps and of the result")
+      ->type_name("MODEL")
+      ->capture_default_str();
+  app.add_flag("--exact", command.exact, "Copy texels of the template instead of blending them");
+  app.option_group(remap::kRareOptions);
+  app.add_option("--method", command.method, "Method that finds the warp")
+      ->one_of(method_names())
+      ->capture_default_str();
+  app.add_option("--distance", command.distance,
+                 "Distance between reflectances (default: relative; plain for scattering profiles)")
+      ->one_of(distance_names());
+  app.add_option("--dimensions", command.dimensions, "Dimensions of appearance space, 0: as many as needed")
+      ->range(0, 3)
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_warp_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
+      "warp", "Give one texture set the reflectance of another, guided by strokes (An et al. 2011)");
+  command->group(kWarpStage);
+  auto options = std::make_shared<WarpCommand>();
   command
-      ->add_option("--template-model", options->target_model,
-                   "BRDF model of the template's maps, and of results")
-      ->capture_default_str();
-  command->add_option("--method", options->method, "How the warp is found")
-      ->check(CLI::IsMember(method_names()))
-      ->capture_default_str();
+      ->add_option("source", options->source,
+                   "Folder of the set that keeps its pattern; may hold a diffuse map only")
+      ->required();
+  command->add_option("template", options->target, "Folder of the set whose reflectance is used")->required();
+  add_stroke_options(*command, *options);
+  command->option_group("Output");
+  command->add_option("-o,--output", options->output, "File for the fit; its name is the fit's id")
+      ->type_name("FILE");
   command
-      ->add_option("--distance", options->distance,
-                   "How reflectances are compared; default: relative, of scattering profiles plain")
-      ->check(CLI::IsMember(distance_names()));
+      ->add_option("--copy", options->copy,
+                   "Folder for the exact copy: maps of texels copied from the template, and an index map")
+      ->type_name("FOLDER");
   command
-      ->add_option("--dimensions", options->dimensions,
-                   "Of appearance space, 1 to 3; 0: as many as are needed")
-      ->check(CLI::Range(0, 3))
-      ->capture_default_str();
-  command->add_flag("--exact", options->exact,
-                    "Results are texels of the template as they are, no blends of them");
-  command->add_option("-o,--output", options->output, "File of the fit; its name is the id");
-  command->add_option("--copy", options->copy,
-                      "Folder for the exact copy: maps whose texels are those of the template, and which");
-  command->add_option("--report", options->report,
-                      "Pictures of materials, strokes, appearance spaces and result: one .html with all of "
-                      "them and the diagnostics, or a sheet as .png");
-  command->add_flag("--json", options->json, "Diagnostics as JSON on standard output");
+      ->add_option(
+          "--report", options->report,
+          "Pictures of materials, strokes, appearance spaces and result: .html with the diagnostics, or "
+          ".png")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "Print the diagnostics as JSON to standard output");
+  add_method_options(*command, *options);
   command->footer(
-      "Example:\n  remapc warp brown_leaf green_leaf --stroke brown_stem.png green_stem.png --stroke "
-      "brown_body.png green_body.png -o leaf.json");
+      "Example:\n"
+      "  remapc warp brown_leaf green_leaf \\\n"
+      "    --stroke brown_stem.png green_stem.png \\\n"
+      "    --stroke brown_body.png green_body.png -o leaf.json");
   command->callback([options] { run(*options); });
 }
 

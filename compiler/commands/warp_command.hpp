@@ -1,5 +1,5 @@
-// `remapc warp` as it was asked for, and what both ways of carrying it out share: a fit of parameters, and
-// the copy of texels.
+// The options of `remapc warp`, and what its two modes share: fitting a converter of texture sets, and
+// copying texels of tables.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,8 @@ struct WarpCommand {
   bool json = false;
 };
 
-// At least one pair. Throws as the readers of strokes do.
+// The stroke pairs of all options, at least one. Throws kUsage if there are none, and as the readers of
+// strokes do.
 std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& source,
                                    const MapFrame& target);
 
@@ -32,11 +33,11 @@ WarpOptions options_of(const WarpCommand& command, AppearanceDistance usual);
 
 nlohmann::ordered_json report_of(const WarpDiagnostics& found);
 
-// What the diagnostics say, in words.
+// The diagnostics as text for people.
 std::string summary_of(const WarpDiagnostics& found);
 
-// A pair of which one at least is a table: measured BRDFs or profiles. There is nothing to fit, texels are
-// copied.
+// Warps a pair of which at least one is a table (measured BRDFs or profiles). Tables have no parameters to
+// fit, so texels are copied.
 void warp_tables(const WarpCommand& command);
 
 }  // namespace remapc

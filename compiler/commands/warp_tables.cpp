@@ -1,4 +1,4 @@
-// `remapc warp` on tables, and what it shares with the fit of texture sets.
+// `remapc warp` for tables, and the functions that it shares with texture sets.
 #include <iostream>
 
 #include "command_line/run_app.hpp"
@@ -17,7 +17,7 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-// A material of either kind.
+// A texture set or a table.
 using MaterialSet = std::variant<TextureMaterial, TabulatedSet>;
 
 MaterialSet read_material_set(const std::string& folder, const std::string& model) {
@@ -36,12 +36,11 @@ MapFrame frame_of(const MaterialSet& set) {
 void require_copy_alone(const WarpCommand& command) {
   const std::string table = is_tabulated_folder(command.source) ? command.source : command.target;
   if (!command.output.empty() || command.copy.empty())
-    throw Error(ErrorKind::kUsage, table +
-                                       ": is a table, of which there is no fit; expected --copy FOLDER in "
-                                       "place of --output");
+    throw Error(ErrorKind::kUsage,
+                table + ": a table cannot be fitted (use --copy FOLDER instead of --output)");
   if (!command.report.empty())
     throw Error(ErrorKind::kUsage,
-                "--report: draws texture sets, and " + table + " is a table; expected no such option");
+                "--report: not available for tables such as " + table + " (remove this option)");
 }
 
 }  // namespace
@@ -58,9 +57,10 @@ std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& s
          read_color_strokes(command.paintings[i], source, command.paintings[i + 1], target))
       strokes.push_back(std::move(pair));
   if (strokes.empty())
-    throw Error(ErrorKind::kUsage,
-                "warp: no stroke; expected --strokes SOURCE_IMAGE TEMPLATE_IMAGE, --stroke SOURCE_MASK "
-                "TEMPLATE_MASK or --box pairs");
+    throw Error(
+        ErrorKind::kUsage,
+        "no strokes given (use --strokes SOURCE_IMAGE TEMPLATE_IMAGE, --stroke SOURCE_MASK TEMPLATE_MASK, "
+        "or --box SOURCE_BOX TEMPLATE_BOX)");
   return strokes;
 }
 
@@ -94,8 +94,8 @@ nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
 std::string summary_of(const WarpDiagnostics& found) {
   return "warp in " + std::to_string(found.dimensions) + " dimensions from " +
          std::to_string(found.strokes.size()) + " stroke pairs\n  template used " + percent(found.coverage) +
-         ", folds " + percent(found.fold_share) + ", strokes " + percent(found.stroke_distance) +
-         " of the template's spread apart\n";
+         ", folds " + percent(found.fold_share) + ", distance of strokes " + percent(found.stroke_distance) +
+         " of the template's spread\n";
 }
 
 void warp_tables(const WarpCommand& command) {

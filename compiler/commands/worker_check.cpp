@@ -1,4 +1,4 @@
-// `remapc worker-check`: what is wrong with a worker, in words.
+// `remapc worker-check` reports what is wrong with a worker.
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
@@ -35,7 +36,7 @@ const char* verdict_word(WorkerFinding::Verdict verdict) {
   return "";
 }
 
-// A worker that is registered, by its name; else a command.
+// The registered worker of that name, or else a worker with that command.
 WorkerEntry entry_of(const std::string& command) {
   for (const WorkerEntry& entry : known_workers({}))
     if (entry.name == command) return entry;
@@ -80,26 +81,27 @@ void run(const WorkerCheck& check) {
   if (wrong != 0)
     throw remap::Error(remap::ErrorKind::kInput, "worker " + check.command + ": " + std::to_string(wrong) +
                                                      " of " + std::to_string(findings.size()) +
-                                                     " checks found something wrong; expected none");
+                                                     " checks failed");
 }
 
 }  // namespace
 
-void add_worker_check_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "worker-check", "Render known scenes with a worker and say what is wrong with its pictures");
+void add_worker_check_command(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
+      "worker-check", "Render known scenes with a worker and report what is wrong with its pictures");
+  command->group(kRendererStage);
   auto options = std::make_shared<WorkerCheck>();
-  command
-      ->add_option("command", options->command,
-                   "Command of the worker, or the name of one that is registered")
+  command->add_option("command", options->command, "Command of the worker, or the name of a registered one")
       ->required();
-  command->add_option("--resolution", options->resolution, "Of the pictures")
-      ->check(CLI::Range(16, 1024))
+  command->option_group("Pictures");
+  command->add_option("--resolution", options->resolution, "Width and height in pixels")
+      ->range(16, 1024)
       ->capture_default_str();
-  command->add_option("--worker-timeout", options->seconds, "Seconds that the worker may take for an answer")
-      ->check(CLI::PositiveNumber)
+  command->add_option("--worker-timeout", options->seconds, "Seconds to wait for an answer")
+      ->positive()
       ->capture_default_str();
-  command->add_flag("--json", options->json, "As JSON on standard output");
+  command->option_group("Output");
+  command->add_flag("--json", options->json, "Print the findings as JSON to standard output");
   command->footer("Example:\n  remapc worker-check \"python3 examples/lambert_worker.py\"");
   command->callback([options] { run(*options); });
 }

@@ -9,7 +9,7 @@
 namespace remapc {
 
 // Functions of namespace detail: held_width(), channel_outside(), and convert_block(), which converts up to
-// kBlock texels by the functions of `code`.
+// kBlock texels by the functions of `code`; Mapping and Block, which it takes.
 std::string block_code(const remap::Fit& fit, const MappingCode& code);
 
 }  // namespace remapc

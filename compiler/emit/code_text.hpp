@@ -1,10 +1,18 @@
-// The code of whole materials as text: the files of runtime/workflow/code and runtime/warp/code, compiled in.
+// Code that headers hold word for word as text: the files of runtime/convert/code, runtime/workflow/code and
+// runtime/warp/code, compiled in.
 #pragma once
 
 #include <string_view>
 
 namespace remapc {
 
+// The domain rule of converters of width and specular.
+extern const std::string_view kDomainText;
+extern const std::string_view kScaleText;
+extern const std::string_view kProportionalText;
+extern const std::string_view kTermsText;
+
+// Whole materials.
 extern const std::string_view kFloatsText;
 extern const std::string_view kConventionsText;
 extern const std::string_view kRowsText;

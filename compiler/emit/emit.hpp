@@ -1,10 +1,11 @@
-// From a fit to C++: the generated header of one fit, and the registry of all. Pure: the same fit and options
-// give the same bytes on every machine.
+// From a fit to C++: the generated header of one fit, and the data of all for texremap. Pure: the same fit
+// and options give the same bytes on every machine.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "converter_data/converter_data.hpp"
 #include "fit_file/any_fit.hpp"
 #include "lower/lower.hpp"
 #include "model/fit.hpp"
@@ -32,9 +33,8 @@ std::string emit_header(const remap::WorkflowFit& fit);
 // Throws kInput for a warp that require_valid() refuses.
 std::string emit_header(const remap::WarpMapFit& fit);
 
-// `registry.hpp` for headers of these fits, which stand beside it: one entry a converter, in the order of
-// ids. Warps are listed among converters of whole materials.
-std::string emit_registry(std::vector<remap::Fit> fits, const std::vector<remap::WorkflowFit>& analytic,
-                          const std::vector<remap::WarpMapFit>& warps = {});
+// `converters.json`: what texremap needs of these converters, in the order of their ids.
+inline constexpr const char* kConverterListName = "converters.json";
+std::string emit_converter_list(std::vector<remap::ConverterData> converters);
 
 }  // namespace remapc

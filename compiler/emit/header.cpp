@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "converter_data/converter_data.hpp"
 #include "emit/block_code.hpp"
 #include "emit/emit.hpp"
 #include "emit/header_frame.hpp"
@@ -32,7 +33,6 @@ constexpr std::string_view kLayout =
 #ifndef @guard@
 #define @guard@
 
-#include <array>
 @include_cmath@
 #include <cstddef>
 #include <cstdint>
@@ -108,7 +108,10 @@ inline std::size_t evaluate_batch(std::size_t count, const float* @in_roughness@
     std::array<float*, Channels> to = @out_specular@_out;
     for (const float*& row : from) row += start;
     for (float*& row : to) row += start;
-    out_of_domain += detail::convert_block<Channels>(size, @in_roughness@ + start, from, @out_roughness@_out + start, to);
+    detail::Block block;
+    detail::convert_block<Channels>(size, detail::Mapping(), @in_roughness@ + start, from.data(), @out_roughness@_out + start,
+                                    to.data(), block);
+    out_of_domain += detail::count_outside(size, block.outside);
     start += size;
   };
   while (count - start >= detail::kBlock) convert(std::integral_constant<std::size_t, detail::kBlock>());
@@ -145,7 +148,9 @@ inline OutputTexel<Channels> evaluate(float @in_roughness@, const std::array<flo
 
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
-  return ((detail::held_width(in.@in_roughness@).outside | detail::channel_outside(in.@in_specular@)) >> 31) == 0;
+  constexpr detail::Domain kDomain = detail::Mapping::domain;
+  return ((detail::held_width(kDomain, in.@in_roughness@).outside | detail::channel_outside(kDomain, in.@in_specular@)) >>
+          31) == 0;
 }
 
 // Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
@@ -269,54 +274,12 @@ std::string provenance(const Fit& fit, const MappingCode& code) {
   return text;
 }
 
-struct Golden {
-  float width, specular, width_out, specular_out, width_within, specular_within;
-};
-
-// Four units in the last place of a float: what conversions of parameters and the scale of a texel add.
-double rounding_of(double value) { return 4.8e-7 * std::fabs(value) + 1e-30; }
-
-// How far the target's own parameter moves where alpha moves by `error`.
-double own_error(RoughnessConvention convention, double own, double error) {
-  const double alpha = remap::to_alpha(convention, own);
-  const double low = remap::from_alpha(convention, std::max(alpha - error, 0.5 * alpha));
-  const double high = remap::from_alpha(convention, alpha + error);
-  return std::max(std::fabs(low - own), std::fabs(high - own)) + rounding_of(std::fabs(own) + 1.0);
-}
-
-// Inputs over and beyond the domain, the outputs by the interpreter. An edge of the domain stands there too.
-std::vector<Golden> golden_vectors(const Fit& fit, const MappingCode& code) {
-  const Range own = remap::own_roughness_range(fit), specular = remap::specular_range(fit);
-  std::vector<Golden> vectors;
-  const auto add = [&](double roughness, double reflectance) {
-    const float r = static_cast<float>(roughness), s = static_cast<float>(reflectance);
-    const double in = s;
-    double out = 0.0;
-    const double width = remap::evaluate_texel(fit, r, {&in, 1}, {&out, 1});
-    const double scale = std::max(1.0, in / specular.max);
-    vectors.push_back({r, s, static_cast<float>(width), static_cast<float>(out),
-                       static_cast<float>(own_error(fit.target.roughness, width, code.alpha_error)),
-                       static_cast<float>(scale * code.specular_error + rounding_of(out))});
-  };
-  constexpr int kWidths = 9;
-  for (int i = 0; i < kWidths; ++i) {
-    const double share = static_cast<double>(i) / (kWidths - 1);
-    add(own.min + share * (own.max - own.min), specular.max * (1.0 - 0.5 * share));
-  }
-  add(0.5 * own.min, 0.5 * specular.max);
-  add(1.5 * own.max, 0.25 * specular.max);
-  add(0.5 * (own.min + own.max), 0.0);
-  add(0.5 * (own.min + own.max), 2.0 * specular.max);
-  return vectors;
-}
-
-std::string golden_text(const std::vector<Golden>& vectors) {
+std::string golden_text(const std::vector<remap::GoldenTexel>& texels) {
   const auto pair = [](float a, float b) { return "{" + float_literal(a) + ", " + float_literal(b) + "}"; };
-  const auto up = [](float value) { return literal(remap::rounded_up(static_cast<double>(value), 2)); };
   std::string text;
-  for (const Golden& v : vectors)
-    text += "{" + pair(v.width, v.specular) + ", " + pair(v.width_out, v.specular_out) + ", {" +
-            up(v.width_within) + ", " + up(v.specular_within) + "}},\n";
+  for (const remap::GoldenTexel& t : texels)
+    text += "{" + pair(t.width, t.specular) + ", " + pair(t.width_out, t.specular_out) + ", " +
+            pair(t.width_within, t.specular_within) + "},\n";
   return text;
 }
 
@@ -343,7 +306,7 @@ std::string header_text(const Fit& fit, const MappingCode& code) {
   require_free_name(fit.source.specular);
   require_free_name(fit.target.specular);
   const Range own = remap::own_roughness_range(fit), specular = remap::specular_range(fit);
-  const auto golden = golden_vectors(fit, code);
+  const auto golden = remap::golden_texels(fit, code.alpha_error, code.specular_error);
   const std::string in_roughness(remap::convention_name(fit.source.roughness));
   const std::string block = block_code(fit, code);
   const bool uses_cmath = block.find("std::sqrt") != std::string::npos;

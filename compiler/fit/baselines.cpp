@@ -16,7 +16,7 @@ std::string width_text(const ModelSide& side) {
   return side.model + " has " + std::string(remap::convention_name(side.roughness));
 }
 
-// A formula from a Phong exponent and a grey specular to perceptual roughness, whose square is alpha.
+// A formula from a Phong exponent and a grey specular to perceptual roughness, which is sqrt(alpha).
 struct ExponentFormula {
   const char* name;
   const char* formula;
@@ -30,7 +30,7 @@ const ExponentFormula kExponentFormulas[] = {
     // xelatihy/yocto-gl, exponent_to_roughness().
     {"Yocto", "roughness = (2 / (n + 2))^(1/4)",
      [](double n, double) { return std::pow(2.0 / (n + 2.0), 0.25); }},
-    // Blender, OBJ importer: Ns is held in 0 to 1000.
+    // Blender, OBJ importer: Ns is clamped to 0 to 1000.
     {"Blender OBJ", "roughness = 1 - sqrt(min(n, 1000) / 1000)",
      [](double n, double) { return 1.0 - std::sqrt(std::clamp(n, 0.0, 1000.0) / 1000.0); }},
     // assimp, glTF2 exporter: the luma of Ks is its specular intensity, which for a grey is its value.
@@ -47,36 +47,36 @@ double pbrt_alpha(double roughness) {
 }
 
 Baseline copied_alpha() {
-  return {"copy", "alpha and specular as they are (MDL distiller, MaterialX)",
+  return {"copy", "alpha and specular unchanged (MDL distiller, MaterialX)",
           [](double alpha, double specular) {
             return MappedTexel{alpha, specular};
           },
           ""};
 }
 
-// The width by the formula of Walter et al. (2007), section 5.2, which Mitsuba and Cycles share. It is what
-// the canonical coordinates are made of, so it copies alpha.
+// The formula of Walter et al. (2007), section 5.2, which Mitsuba and Cycles use. Canonical coordinates use
+// the same formula, so it copies alpha.
 Baseline walter(const ModelSide& source, const ModelSide& target) {
   Baseline baseline{"exponent", "n = 2 / alpha^2 - 2 (Walter et al. 2007)", {}, ""};
   if ((source.roughness == Convention::kExponent) != (target.roughness == Convention::kExponent))
     baseline.map = [](double alpha, double specular) { return MappedTexel{alpha, specular}; };
   else
-    baseline.why_not = source.roughness == Convention::kExponent ? "both widths are exponents"
-                                                                 : "neither width is an exponent";
+    baseline.why_not = source.roughness == Convention::kExponent ? "both models have an exponent"
+                                                                 : "neither model has an exponent";
   return baseline;
 }
 
-// alpha taken for roughness or the other way round: the number is copied, its square root or square is meant.
+// Confuses alpha and sqrt(alpha): the parameter value is copied although the conventions differ.
 Baseline copied_number(const ModelSide& source, const ModelSide& target) {
   Baseline baseline{
-      "copy number", "the width's number as it is, though one is alpha and one sqrt(alpha)", {}, ""};
+      "copy number", "the parameter value unchanged, although one is alpha and one sqrt(alpha)", {}, ""};
   const auto is_width = [](const ModelSide& side) {
     return side.roughness == Convention::kAlpha || side.roughness == Convention::kRoughness;
   };
   if (!is_width(source) || !is_width(target))
     baseline.why_not = width_text(is_width(source) ? target : source);
   else if (source.roughness == target.roughness)
-    baseline.why_not = "both widths are " + std::string(remap::convention_name(source.roughness));
+    baseline.why_not = "both models have " + std::string(remap::convention_name(source.roughness));
   else
     baseline.map = [from = source.roughness, to = target.roughness](double alpha, double specular) {
       return MappedTexel{remap::to_alpha(to, remap::from_alpha(from, alpha)), specular};
@@ -91,7 +91,7 @@ Baseline pbrt(const ModelSide& source) {
       return MappedTexel{pbrt_alpha(remap::from_alpha(Convention::kRoughness, alpha)), specular};
     };
   else
-    baseline.why_not = width_text(source) + ", no roughness";
+    baseline.why_not = width_text(source) + ", not roughness";
   return baseline;
 }
 
@@ -103,7 +103,7 @@ Baseline of_exponent(const ExponentFormula& formula, const ModelSide& source) {
       return MappedTexel{r * r, specular};
     };
   else
-    baseline.why_not = width_text(source) + ", no exponent";
+    baseline.why_not = width_text(source) + ", not an exponent";
   return baseline;
 }
 

@@ -1,4 +1,4 @@
-// The formulas by which parameters are converted today, as mappings that a table can judge.
+// The conversion formulas in common use, as mappings that can be evaluated on a table.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,14 @@ namespace remapc {
 
 struct Baseline {
   std::string name;
-  std::string formula;  // for people
-  // In canonical coordinates, as evaluate_mapping(). Empty where the formula does not apply.
+  std::string formula;  // shown to users
+  // In canonical coordinates, like evaluate_mapping(). Empty if the formula does not apply.
   std::function<remap::MappedTexel(double alpha, double specular)> map;
-  std::string why_not;  // where it does not apply
+  std::string why_not;  // why the formula does not apply
 };
 
-// All of them for these two models, in a fixed order. What applies is decided by the conventions of the two
-// widths. Specular is copied but where the formula says otherwise.
+// Returns all baselines for two models in a fixed order. Whether one applies depends on the roughness
+// conventions of both models. Specular is copied unless the formula converts it.
 std::vector<Baseline> baselines(const remap::ModelSide& source, const remap::ModelSide& target);
 
 }  // namespace remapc

@@ -23,25 +23,25 @@ using remap::ErrorKind;
 constexpr std::size_t kMostRows = 2000;
 constexpr double kEdgeFactor = 2.0;
 constexpr double kEdgeMargin = 2e-3;
-// Shares of the work that the progress counts: the fits with their searches, then the folds.
+// The share of the progress for the fits with their searches; the rest is for the folds.
 constexpr double kShareOfFits = 0.5;
 
-// One contender's errors on the rows that a fold holds back.
+// The errors of one contender on the held-out rows of a fold.
 struct FoldErrors {
   std::vector<double> alpha, specular;
   std::string failure;
 };
 
 std::string reason(const Error& error) {
-  // An interruption is nobody's fault and ends the comparison.
+  // An interruption does not reject a contender; it ends the comparison.
   if (error.kind() == ErrorKind::kInterrupted) throw error;
   return error.what();
 }
 
-class Referee {
+class ComparisonRun {
  public:
-  Referee(const std::vector<TableRow>& rows, const remap::Domain& domain, const ComparisonOptions& options,
-          const FitProgress& progress)
+  ComparisonRun(const std::vector<TableRow>& rows, const remap::Domain& domain,
+                const ComparisonOptions& options, const FitProgress& progress)
       : rows_(rows), domain_(domain), options_(options), progress_(progress) {}
 
   Comparison compare() {
@@ -66,7 +66,7 @@ class Referee {
     std::vector<Contender>& contenders = comparison_.contenders;
     if (contenders.size() == 2 && contenders[0].fitted && contenders[1].fitted &&
         contenders[1].regression.method.at("form") == "paper")
-      contenders.erase(contenders.begin());  // the same; the one that remains records how it was chosen
+      contenders.erase(contenders.begin());  // both are the same; the other one records how it was chosen
     enter("svr", Regressor::kSvr, regression);
     enter("mlp", Regressor::kMlp, regression);
   }
@@ -89,12 +89,12 @@ class Referee {
     comparison_.contenders.push_back(std::move(contender));
   }
 
-  // All folds of all contenders, each a task of its own.
+  // Runs all folds of all contenders, each as one task.
   void judge_by_folds() {
     const std::vector<TableRow> drawn = draw_rows(rows_, kMostRows, options_.regression.seed);
     std::vector<Fold> folds;
     for (std::size_t repeat = 0; repeat < options_.repeats; ++repeat) {
-      // Seeds far apart, so that seed and seed + 1 share no folds.
+      // The seeds are far apart, so that seed and seed + 1 share no folds.
       const auto fold_of_row =
           draw_folds(drawn, options_.folds, options_.regression.seed + 1000003 * (repeat + 1));
       for (std::size_t f = 0; f < options_.folds; ++f) folds.push_back(select_fold(drawn, fold_of_row, f));
@@ -103,7 +103,7 @@ class Referee {
     std::vector<std::vector<FoldErrors>> errors(contenders.size(), std::vector<FoldErrors>(folds.size()));
     const std::size_t count = contenders.size() * folds.size();
     remap::run_parallel(count, options_.regression.jobs, [&](std::size_t task) {
-      // The dearest contenders, which are the last, first.
+      // The last contenders are the slowest, so they start first.
       const std::size_t c = contenders.size() - 1 - task / folds.size(), f = task % folds.size();
       errors[c][f] = errors_in_fold(contenders[c], folds[f]);
       const std::lock_guard lock(mutex_);
@@ -198,7 +198,7 @@ class Referee {
     }
   }
 
-  // What `remapc emit` would refuse is of no use while another can be emitted.
+  // Rejects contenders that `remapc emit` would refuse, if another one can be emitted.
   void judge_by_lowering() {
     std::vector<Contender>& contenders = comparison_.contenders;
     std::vector<std::string> refusals(contenders.size());
@@ -230,7 +230,7 @@ class Referee {
     }
     comparison_.chosen = choose_candidate(candidates, eligible);
     if (comparison_.chosen == candidates.size())
-      throw Error(ErrorKind::kNumeric, "fit: no kind of regression is fit for the table" + reasons);
+      throw Error(ErrorKind::kNumeric, "fit: no regression fits the table" + reasons);
     comparison_.contenders[comparison_.chosen].regression.method["chosen by"] =
         std::to_string(options_.repeats) + " x " + std::to_string(options_.folds) +
         "-fold cross-validation on " + std::to_string(std::min(rows_.size(), kMostRows)) +
@@ -259,7 +259,7 @@ class Referee {
   std::size_t judged_ = 0;
 };
 
-// Least of an error over the candidates that take part, and how much more counts as the same.
+// The error up to which a candidate counts as equal to the best eligible one.
 double error_bound(const std::vector<Candidate*>& candidates, const std::vector<bool>& eligible,
                    const std::function<std::pair<double, double>(const Candidate&)>& error) {
   double best = 1e300, bound = 1e300;
@@ -286,7 +286,7 @@ std::size_t choose_candidate(std::vector<Candidate*> candidates, const std::vect
   double least_excess = 1e300;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!eligible[i]) continue;
-    // 1 for all that are as good as the best: among them the number of constants decides.
+    // 1 for all candidates that count as equal to the best; the number of constants decides among them.
     const double excess =
         std::max({1.0, candidates[i]->alpha.rms / alpha_bound, candidates[i]->specular.rms / specular_bound});
     if (excess < least_excess ||
@@ -312,7 +312,7 @@ std::size_t choose_candidate(std::vector<Candidate*> candidates, const std::vect
 
 Comparison compare_regressions(const std::vector<TableRow>& rows, const remap::Domain& domain,
                                const ComparisonOptions& options, const FitProgress& progress) {
-  return Referee(rows, domain, options, progress).compare();
+  return ComparisonRun(rows, domain, options, progress).compare();
 }
 
 }  // namespace remapc

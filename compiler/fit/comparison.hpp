@@ -1,4 +1,4 @@
-// `--model auto`: all regressions that apply, judged by the same rows, and the choice among them.
+// `--model auto`: fits all regressions that apply, compares them on the same rows and chooses one.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,14 @@ namespace remapc {
 struct ComparisonOptions {
   RegressionOptions regression;
   std::size_t folds = 5;
-  std::size_t repeats = 2;  // of the cross-validation, each with folds of its own
+  std::size_t repeats = 2;  // of the cross-validation, each with different folds
 };
 
 struct Contender {
-  Regression regression;  // of all rows; meaningless where `fitted` is false
+  Regression regression;  // of all rows; undefined if `fitted` is false
   remap::Candidate candidate;
   bool fitted = false;
-  bool sound = false;  // fitted in every fold, and neither negative nor infinite beyond the domain
+  bool sound = false;  // fitted in every fold, finite and not negative beyond the domain
 };
 
 struct Comparison {
@@ -25,26 +25,27 @@ struct Comparison {
   std::size_t chosen = 0;
 };
 
-// Fits the parametric form of the paper, the parametric form that fits best, support vectors and the network
-// to `rows`, and compares them:
-// - by cross-validation on the rows (on 2000 of them, drawn, where there are more); forms and
-//   hyper-parameters are those found on all of `rows`, coefficients are fitted anew in each fold;
-// - on the outermost rows, fitted without them (edge.hpp);
-// - by what they give beyond the domain (edge.hpp);
+// Fits the parametric form of the paper, the best parametric form, support vectors and the network to `rows`.
+// Compares them:
+// - by cross-validation on the rows (on 2000 random rows if there are more); forms and hyper-parameters are
+//   chosen on all of `rows`, coefficients are refitted in each fold;
+// - on the outermost rows, after fitting without them (edge.hpp);
+// - by their values beyond the domain (edge.hpp);
 // - by whether they can be lowered with the default tolerances (lower/lower.hpp).
-// One that cannot be fitted to the rows or to a fold, or that is not finite or negative beyond the domain
-// without the domain rule, or whose error on the outermost rows under the domain rule is more than twice that
-// of the best and 2e-3 more, loses; so does one that cannot be lowered, if another can. Among the others the
-// one of fewest numbers wins whose rms errors of alpha and of specular are both within one standard error of
-// the best, or within kNegligibleError (folds.hpp); where none is, the one whose worse error, as a multiple
-// of that bound, is least. What loses before the folds is not fitted again in them. Throws kNumeric with the
-// reasons where all lose. The result depends on nothing but
-// rows, domain and options.
+//
+// A contender is rejected if it cannot be fitted to the rows or to a fold, if it is not finite or negative
+// beyond the domain without the domain rule, or if its error on the outermost rows under the domain rule
+// exceeds both twice the best error and the best error plus 2e-3. A contender that cannot be lowered is
+// rejected if another can. Of the others, the one with the fewest numbers is chosen whose rms errors of alpha
+// and specular are both within one standard error of the best or within kNegligibleError (folds.hpp). If
+// there is none, the one is chosen whose larger error relative to that bound is least. Contenders that are
+// rejected before the folds are not refitted. Throws kNumeric with the reasons if all are rejected. The
+// result depends only on rows, domain and options.
 Comparison compare_regressions(const std::vector<TableRow>& rows, const remap::Domain& domain,
                                const ComparisonOptions& options, const FitProgress& progress = {});
 
-// The choice among candidates, `eligible` where they take part at all; fills the verdicts of those. Given
-// here for its tests. Returns candidates.size() where none is eligible.
+// Chooses among the candidates that are `eligible` and fills their verdicts. Returns candidates.size() if
+// none is eligible. Public for the tests.
 std::size_t choose_candidate(std::vector<remap::Candidate*> candidates, const std::vector<bool>& eligible);
 
 }  // namespace remapc

@@ -29,7 +29,7 @@ double at(const std::set<double>& values, std::size_t position) {
 
 using Color = std::array<double, 3>;
 
-// The color that `color` times `scale` is mapped to; `fault` is filled where it is none.
+// Maps a color channel by channel, and fills `fault` if the result is not finite or negative.
 Color map_color(const remap::MappingKind& mapping, double alpha, Color color, std::string* fault) {
   for (double& channel : color) {
     const double specular = channel;

@@ -26,19 +26,19 @@ void require_models(const Table& table) {
   if (table.source.model.empty() || table.target.model.empty())
     throw Error(ErrorKind::kInput,
                 table.name +
-                    ": does not say which models it converts; expected `# source: ...` and "
-                    "`# target: ...` lines, or --source and --target");
+                    ": does not name its models (add `# source: ...` and `# target: ...` lines, or use "
+                    "--source and --target)");
   for (const remap::ModelSide& side : {table.source, table.target}) {
     if (!remap::is_valid_model(side.model))
       throw Error(ErrorKind::kInput,
-                  table.name + ": model \"" + side.model + "\"; expected letters, digits and _ - . / only");
+                  table.name + ": invalid model name '" + side.model + "' (use letters, digits and _ - . /)");
     if (!remap::is_valid_specular(side.specular))
-      throw Error(ErrorKind::kInput, table.name + ": specular parameter \"" + side.specular + "\" of " +
-                                         side.model + "; expected an identifier that names no width");
+      throw Error(ErrorKind::kInput, table.name + ": invalid specular parameter '" + side.specular + "' of " +
+                                         side.model + " (use an identifier that is not a roughness name)");
   }
 }
 
-// The pairs of numbers of kSpheresComment; those that are none are left out.
+// Parses the pairs of numbers of kSpheresComment and skips invalid ones.
 std::vector<remap::SphereSimilarity> spheres_of(const Table& table) {
   std::vector<remap::SphereSimilarity> spheres;
   for (const auto& [key, value] : table.comments) {
@@ -55,7 +55,7 @@ std::vector<remap::SphereSimilarity> spheres_of(const Table& table) {
   return spheres;
 }
 
-// How alike the pictures are at the best parameters over `rows`; none where the table does not say.
+// The similarity of the pictures at the best parameters over `rows`, if the table states it.
 std::optional<remap::ImageSimilarity> image_similarity(const Table& table,
                                                        const std::vector<TableRow>& rows) {
   std::vector<double> errors;

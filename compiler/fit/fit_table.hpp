@@ -1,4 +1,4 @@
-// From a table to a fit: split, regression, errors on the rows that were held out, provenance.
+// Fits a table: split of the rows, regression, errors on the held-out rows, provenance.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,25 @@ namespace remapc {
 
 struct FitOptions {
   std::string id;                      // empty: `<source>_to_<target>` from the table
-  std::optional<Regressor> regressor;  // none: the one that compare_regressions() (comparison.hpp) chooses
-  RegressionOptions regression;        // its seed is that of the split too
+  std::optional<Regressor> regressor;  // none: compare_regressions() (comparison.hpp) chooses
+  RegressionOptions regression;        // its seed is also the seed of the split
   double held_out_fraction = 0.2;
 };
 
-// A fit and the others that it was compared with, all of the same table: for plots.
+// A fit and the fits of the same table that it was compared with, for plots.
 struct FittedTable {
   remap::Fit fit;
-  std::vector<remap::Fit> compared;  // with `fit` among them, in the order of fit.candidates; else empty
+  std::vector<remap::Fit>
+      compared;  // includes `fit`, in the order of fit.candidates; empty without a comparison
 };
 
-// Fits `table`, whose file is `bytes` (for the SHA-256 in the fit). Throws kInput where the table does not
-// name its models or cannot be fitted (require_fittable), kUsage for an id that is no identifier, and what
-// the regression throws. The same table and options give the same fit, whatever the number of jobs.
+// Fits `table`. `bytes`: its file, whose SHA-256 the fit records. Throws kInput if the table does not name
+// its models or cannot be fitted (require_fittable), kUsage for an invalid id, and the errors of the
+// regression. The result does not depend on the number of jobs.
 FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
                       const FitProgress& progress = {});
 
-// Errors of `fit` on rows: target alpha and specular, absolute.
+// Absolute errors of `fit` in target alpha and target specular over rows.
 struct RowErrors {
   remap::ErrorFigures alpha;
   remap::ErrorFigures specular;

@@ -12,9 +12,9 @@
 namespace remapc {
 namespace {
 
-constexpr int kProbes = 400;  // widths at which the largest specular is looked for
+constexpr int kProbes = 400;  // alphas at which the largest specular is computed
 
-// The largest target specular that every width gives: the way back covers a box then.
+// The largest target specular that the fit reaches at every alpha. Up to it, the inverse covers a box.
 double reached_specular(const remap::Fit& fit) {
   double least = std::numeric_limits<double>::infinity();
   const remap::Range& alphas = fit.domain.alpha;

@@ -1,4 +1,4 @@
-// The table of the way back through a fit, for a fit of its own.
+// Builds the table of the inverse of a fit, which can be fitted like any other table.
 #pragma once
 
 #include <string_view>
@@ -8,11 +8,12 @@
 
 namespace remapc {
 
-// Samples of the target's parameters with the source's that `fit` takes to them (model/inverse.hpp): `fit`'s
-// target is the table's source. `alpha_count` widths over those that the fit gives at its least sample, and
-// `specular_count` values up to the largest that it gives at every width. Rows that no source parameter in
-// the fit's domain gives are clamped, or flat where even black gives more. `bytes`: the fit file, whose
-// SHA-256 is recorded. Not matched by pictures: errors are NaN.
+// Samples the target parameters of `fit` and finds the source parameters that it maps to them
+// (model/inverse.hpp). The target of `fit` is the source of the table. `alpha_count`: alphas over the range
+// of the fit at its least specular sample. `specular_count`: values up to the largest that the fit reaches at
+// every alpha. Rows that no source parameters in the domain of the fit reach are clamped, or flat if even
+// specular 0 gives more. `bytes`: the fit file, whose SHA-256 is recorded. Errors are NaN, because no
+// pictures are compared.
 Table inverse_table(const remap::Fit& fit, std::string_view bytes, std::size_t alpha_count = 48,
                     std::size_t specular_count = 10);
 

@@ -1,4 +1,4 @@
-// The kinds of regression behind one door: by name, and once more on other rows.
+// A common interface of all regressions: fit rows, and refit other rows with the same hyper-parameters.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,22 @@ enum class Regressor { kParametric, kSvr, kMlp };
 
 struct RegressionOptions {
   std::uint64_t seed = 1;
-  unsigned jobs = 0;  // threads; 0: one a processor. No result depends on it
+  unsigned jobs = 0;  // threads; 0: one per core. Results do not depend on it
   std::string form;   // of the parametric kind; empty: chosen
-  SvrOptions svr;     // its seed and jobs are those above
-  MlpOptions mlp;     // the same
+  SvrOptions svr;     // its seed and jobs are ignored in favor of those above
+  MlpOptions mlp;     // its seed and jobs are ignored, too
 };
 
-// Regresses `rows`. `domain`: where curves have to be sound. Throws what the regression throws.
+// Fits `rows`. `domain`: the range in which curves must be sound. Throws the errors of the regression.
 Regression regress(Regressor regressor, const std::vector<TableRow>& rows, const remap::Domain& domain,
                    const RegressionOptions& options, const FitProgress& progress = {});
 
-// Regresses other rows in the way in which `model` was, without any search: the same form, hyper-parameters,
-// layers. Curves are not checked for soundness.
+// Fits other rows with the form, hyper-parameters and layers of `model`, without a search. Does not check
+// whether curves are sound.
 remap::MappingKind regress_again(const Regression& model, const std::vector<TableRow>& rows,
                                  const RegressionOptions& options);
 
-// The box that rows cover. Specular starts at 0.
+// The bounding box of rows. Specular starts at 0.
 remap::Domain covered_domain(const std::vector<TableRow>& rows);
 
 }  // namespace remapc

@@ -11,15 +11,16 @@
 #include "fit/inverse_table.hpp"
 #include "fit/network/material_network.hpp"
 #include "fit_file/fit_json.hpp"
+#include "lower/lower.hpp"
 #include "manifest/fit_folder.hpp"
 #include "manifest/lock.hpp"
 #include "manifest/report.hpp"
 #include "model/chain.hpp"
 #include "remap/error.hpp"
-#include "remap/version.hpp"
 #include "sweep/material_sample.hpp"
 #include "system/files.hpp"
 #include "system/parallel.hpp"
+#include "table/table_record.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -29,86 +30,13 @@ namespace fs = std::filesystem;
 using remap::Error;
 using remap::ErrorKind;
 
-// Empty for a file that is not there.
-std::string file_sha256(const fs::path& path) {
-  return fs::is_regular_file(path) ? sha256(remap::read_file(path)) : std::string();
-}
-
-struct ItemPaths {
-  fs::path table, fit, header;
-};
-ItemPaths paths_of(const BuildFolders& folders, const std::string& id) {
-  return {folders.fits / "tables" / (id + ".csv"), folders.fits / (id + ".json"),
-          folders.generated / (id + ".hpp")};
-}
-
-bool has_table(const ManifestItem& item) {
-  return std::holds_alternative<SweptItem>(item.kind) || std::holds_alternative<InverseItem>(item.kind) ||
-         std::holds_alternative<NetworkItem>(item.kind);
-}
-
-// What an item is made from. `lock` holds its inputs as they are now.
-std::string recipe_hash(const ManifestItem& item, const Lock& lock) {
-  std::string text = std::string(remap::kVersion) + "\n" + std::to_string(remap::kFitFormatVersion) + "\n" +
-                     item.recipe + "\n" + std::to_string(item.seed);
-  for (const std::string& input : inputs_of(item)) {
-    const auto found = lock.items.find(input);
-    text += "\n" + (found == lock.items.end() ? std::string() : found->second.fit);
-  }
-  return sha256(text);
-}
-
-// Which files of an item are those that the lock knows, and were made from what it is to be made from now.
-struct Freshness {
-  bool table = false, fit = false, header = false;
-  std::string reason;  // of the first that is not
-};
-Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock) {
-  const auto found = lock.items.find(item.id);
-  if (found == lock.items.end()) return {false, false, false, "has not been built"};
-  const LockedItem& known = found->second;
-  const ItemPaths paths = paths_of(folders, item.id);
-  if (known.recipe != recipe_hash(item, lock))
-    return {false, false, false, "its recipe or what it is made from has changed"};
-  const auto same = [](const fs::path& path, const std::string& hash) {
-    return !hash.empty() && file_sha256(path) == hash;
-  };
-  const auto reason = [](const fs::path& path) {
-    return path.string() + (fs::exists(path) ? " is not the file that the last build made" : " is missing");
-  };
-  if (has_table(item) && !same(paths.table, known.table)) return {false, false, false, reason(paths.table)};
-  if (!same(paths.fit, known.fit)) return {true, false, false, reason(paths.fit)};
-  if (!same(paths.header, known.header)) return {true, true, false, reason(paths.header)};
-  return {true, true, true, ""};
-}
-
-// What the report of a folder is made from: its fits, and the bounds that the lock knows.
-std::string report_hash(const BuildFolders& folders, const Lock& lock) {
-  std::set<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folders.fits))
-    if (entry.path().extension() == ".json" && entry.path().filename() != kManifestName)
-      paths.insert(entry.path());
-  std::string text = remap::kVersion;
-  for (const fs::path& path : paths) text += "\n" + path.filename().string() + " " + file_sha256(path);
-  for (const auto& [id, item] : lock.items)
-    text += "\n" + id + " " + remap::number_text(item.alpha_bound) + " " +
-            remap::number_text(item.specular_bound);
-  return sha256(text);
-}
-
-bool has_report(const BuildFolders& folders, const Lock& lock) {
-  return lock.report == report_hash(folders, lock) && fs::exists(folders.fits / kReportName) &&
-         fs::exists(folders.fits / kPlotName);
-}
-
-std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders,
-                                        const Lock& lock) {
-  std::set<std::string> ids;
-  for (const ManifestItem& item : manifest.items) ids.insert(item.id);
-  std::vector<std::string> vanished;
-  for (const auto& [id, item] : lock.items)
-    if (!ids.contains(id) && fs::exists(paths_of(folders, id).fit)) vanished.push_back(id);
-  return vanished;
+// Whether the file of converters has one for each fit of the folder.
+bool lists(const fs::path& path, const FitFolder& folder) {
+  if (!fs::is_regular_file(path)) return false;
+  const auto listed = remap::converters_from_json(remap::read_file(path), path.string());
+  return std::equal(
+      listed.begin(), listed.end(), folder.fits.begin(), folder.fits.end(),
+      [](const remap::ConverterData& data, const remap::Fit& fit) { return data.id == fit.id; });
 }
 
 class Builder {
@@ -127,7 +55,7 @@ class Builder {
     std::vector<const ManifestItem*> waiting;
     for (const ManifestItem& item : manifest_.items) waiting.push_back(&item);
     while (!waiting.empty()) {
-      // Those whose inputs do not wait; the order of a manifest lets there be some.
+      // Items whose inputs are built come first; the order of a manifest guarantees that there are some.
       std::vector<const ManifestItem*> ready, later;
       for (const ManifestItem* item : waiting) {
         const std::vector<std::string> inputs = inputs_of(*item);
@@ -141,7 +69,7 @@ class Builder {
       waiting = later;
     }
     const FitFolder folder = load_fit_folder(folders_.fits);
-    write_registry(folder);
+    write_converters(folder);
     write_report(folder);
     if (lock_ != load_lock(folders_.fits)) save_lock(folders_.fits, lock_);
     std::sort(built_.begin(), built_.end(),
@@ -150,8 +78,8 @@ class Builder {
   }
 
  private:
-  // Items that the manifest no longer has: those whose fits are still there are remembered, so that a later
-  // build can remove them.
+  // Removes vanished items from the lock. Those whose fits still exist are kept, so that a later build can
+  // prune them.
   void forget_vanished() {
     std::set<std::string> kept;
     for (const ManifestItem& item : manifest_.items) kept.insert(item.id);
@@ -164,7 +92,8 @@ class Builder {
     std::erase_if(lock_.items, [&](const auto& entry) { return !kept.contains(entry.first); });
   }
 
-  // Whether all files of a vanished item were as a build left them; they are gone then.
+  // Deletes the files of a vanished item and returns true; does nothing if one was changed after the last
+  // build.
   bool prune(const std::string& id) const {
     const LockedItem& known = last_lock_.items.at(id);
     const ItemPaths paths = paths_of(folders_, id);
@@ -207,7 +136,7 @@ class Builder {
     if (execution_.progress) execution_.progress(done_, manifest_.items.size());
   }
 
-  // Whether the table of the last build serves again, since a renderer that would make it anew is not here.
+  // Whether the table of the last build can be reused because a renderer that would make it is not installed.
   bool keeps_table(const ManifestItem& item, LockedItem* record, std::string* reason) const {
     const auto* swept = std::get_if<SweptItem>(&item.kind);
     const auto last = last_lock_.items.find(item.id);
@@ -306,7 +235,7 @@ class Builder {
     return run_material_sample(renderer_, options, {1, {}, execution_.cancelled});
   }
 
-  // The item says what the ends mean; F0 must be that of the samples.
+  // The item defines the workflows of both ends; the F0 of its dielectrics must be that of the samples.
   remap::WorkflowFit network_of(const NetworkItem& network, const ManifestItem& item,
                                 const ItemPaths& paths) const {
     const std::string bytes = remap::read_file(paths.table);
@@ -321,8 +250,9 @@ class Builder {
     const double own = network.fit.conversion.metallic.dielectric_f0,
                  sampled = fit.conversion.metallic.dielectric_f0;
     if (std::fabs(own - sampled) > 1e-4)
-      throw Error(ErrorKind::kInput, "F0 of a dielectric is " + remap::number_text(sampled) +
-                                         " in the samples; expected " + remap::number_text(own));
+      throw Error(ErrorKind::kInput, "dielectric F0 is " + remap::number_text(sampled) +
+                                         " in the samples and " + remap::number_text(own) +
+                                         " in the manifest");
     fit.conversion.specular = network.fit.conversion.specular;
     fit.conversion.metallic = network.fit.conversion.metallic;
     fit.remarks = network.fit.remarks;
@@ -331,7 +261,8 @@ class Builder {
 
   void require_time() const {
     if (execution_.cancelled != nullptr && *execution_.cancelled)
-      throw Error(ErrorKind::kInterrupted, "build: interrupted; what is finished is kept, run it again");
+      throw Error(ErrorKind::kInterrupted,
+                  "build: interrupted (finished items are kept; run it again to continue)");
   }
 
   remap::Fit chain_of(const ChainItem& chain, const std::string& id) const {
@@ -341,15 +272,19 @@ class Builder {
     return composed_fit(steps, id);
   }
 
-  void write_registry(const FitFolder& folder) const {
+  void write_converters(const FitFolder& folder) const {
     // Warps are made from textures and strokes, so no item of a manifest is one.
     for (const remap::WarpMapFit& fit : folder.warps)
       write_changed(paths_of(folders_, fit.id).header, emit_header(fit));
-    write_changed(folders_.generated / "registry.hpp",
-                  emit_registry(folder.fits, folder.analytic, folder.warps));
+    const fs::path path = folders_.generated / kConverterListName;
+    if (built_.empty() && lists(path, folder)) return;
+    std::vector<remap::ConverterData> converters;
+    for (const remap::Fit& fit : folder.fits)
+      converters.push_back(remap::converter_data(fit, remap::lower(fit.mapping, fit.domain)));
+    write_changed(path, emit_converter_list(std::move(converters)));
   }
 
-  // Which takes a second to compute.
+  // The report takes a second to compute, so it is written only if it changed.
   void write_report(const FitFolder& folder) {
     if (has_report(folders_, lock_)) return;
     for (const ReportFile& file : report(folder, lock_)) write_changed(folders_.fits / file.name, file.text);
@@ -364,7 +299,7 @@ class Builder {
   const Manifest& manifest_;
   const BuildFolders& folders_;
   const BuildExecution& execution_;
-  const Lock last_lock_;  // of the build before
+  const Lock last_lock_;  // of the previous build
   Lock lock_;
   std::mutex mutex_;
   std::size_t done_ = 0;
@@ -399,19 +334,21 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
     if (!fresh.header) reasons.push_back(item.id + ": " + fresh.reason);
   }
   for (const std::string& id : vanished_items(manifest, folders, lock))
-    reasons.push_back(id + ": is no item of the manifest; `remapc build --prune` removes its files");
+    reasons.push_back(id + ": no longer in the manifest (`remapc build --prune` removes its files)");
   if (!has_report(folders, lock))
-    reasons.push_back((folders.fits / kReportName).string() + ": is not the report of these fits");
+    reasons.push_back((folders.fits / kReportName).string() + ": out of date with the fits of the folder");
   const FitFolder folder = load_fit_folder(folders.fits);
+  if (const fs::path list = folders.generated / kConverterListName; !lists(list, folder))
+    reasons.push_back(list.string() + ": does not list the converters of these fits");
   for (const remap::WarpMapFit& fit : folder.warps) {
     const fs::path header = paths_of(folders, fit.id).header;
     if (!fs::exists(header) || remap::read_file(header) != emit_header(fit))
-      reasons.push_back(fit.id + ": " + header.string() + " is not what its fit gives");
+      reasons.push_back(fit.id + ": " + header.string() + " is out of date with its fit");
   }
   for (const remap::Fit& fit : folder.fits) {
     const fs::path table = folders.fits / "tables" / fit.table.name;
     if (fit.table.name.empty() || !fs::exists(table) || file_sha256(table) == fit.table.sha256) continue;
-    reasons.push_back(fit.id + ": " + table.string() + " is not the table that it was fitted to");
+    reasons.push_back(fit.id + ": " + table.string() + " was changed after the fit");
   }
   return reasons;
 }

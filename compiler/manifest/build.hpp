@@ -1,62 +1,57 @@
-// From a manifest to tables, fits, headers, their registry and the report: only what is not there yet.
+// Builds what a manifest describes: tables, fits, headers, the data of all converters and the report. Only
+// what is missing or out of date is made.
 #pragma once
 
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "lower/lower.hpp"
+#include "manifest/freshness.hpp"
 #include "manifest/manifest.hpp"
+#include "model/fit.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remapc {
 
-struct BuildFolders {
-  std::filesystem::path fits = "fits";  // fits, with tables/ in it; the report is its README.md
-  std::filesystem::path generated = "generated";
-};
-
-// How a build is carried out. Nothing of it changes what is made.
+// How a build runs. None of this changes its results.
 struct BuildExecution {
-  unsigned jobs = 0;                                                // items at once; 0: one a core
-  bool force = false;                                               // makes everything anew
-  bool prune = false;                                               // removes what vanished items left
+  unsigned jobs = 0;                                                // items at once; 0: one for each core
+  bool force = false;                                               // remakes everything
+  bool prune = false;                                               // deletes files of vanished items
   std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
-  const std::atomic<bool>* cancelled = nullptr;                     // throws kInterrupted; what is made stays
+  const std::atomic<bool>* cancelled = nullptr;  // throws kInterrupted; finished items stay
 };
 
-// What was made of one item.
+// What was made for one item.
 struct BuiltItem {
   std::string id;
   bool table = false, fit = false, header = false;
   double seconds = 0.0;
-  std::string kept_table;  // why the table is that of an earlier build; empty where that needs no reason
+  std::string kept_table;  // why the table of an earlier build was reused; empty if it was up to date or made
 };
 
 struct BuildResult {
   std::vector<BuiltItem> built;     // by id
-  std::vector<std::string> pruned;  // ids of items that the manifest no longer has, whose files were removed
+  std::vector<std::string> pruned;  // ids of items no longer in the manifest whose files were deleted
 };
 
-// Makes every item of `manifest` whose recipe changed, whose inputs changed, or whose files are not those
-// that the last build left; then the registry of all fits in the folder, and the report. Items are
-// independent of each other but for their inputs: each is swept and fitted by one thread. Throws what
-// sweeping, fitting and lowering throw, opened by the item's id; what other items made stays. Where a
-// renderer is not here, even `force` keeps a table that was made by the same recipe; without one it is an
-// error. Pruning removes only files that are as a build left them.
+// Makes every item of `manifest` whose recipe, inputs or files changed since the last build, then the
+// data of all converters of the folder and the report. Each item is swept and fitted by one thread. Throws what
+// sweeping, fitting and lowering throw, opened by the item's id; finished items stay. If a renderer is not
+// installed, even `force` reuses a table made by the same recipe, and throws if there is none. Pruning
+// deletes only files that have not been changed after their build.
 BuildResult build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
                   const BuildExecution& execution);
 
-// compose() of model/chain.hpp, with the SHA-256 of every step's fit among the comments.
+// Returns compose() of model/chain.hpp with the SHA-256 of every step's fit in the comments.
 remap::Fit composed_fit(const std::vector<remap::Fit>& steps, const std::string& id);
 
-// Items of earlier builds that the manifest no longer has, and whose fits are still there. By id.
+// Returns the items of earlier builds that are no longer in the manifest and whose fits still exist, by id.
 std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders);
 
-// What build() would make anew, and why, a line each; empty: nothing. Also vanished items, and fits whose
-// table is another one than it was fitted to.
+// Returns what build() would make and why, one line each; also vanished items, and fits whose table was
+// changed after the fit. Empty if everything is up to date.
 std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& folders);
 
 }  // namespace remapc

@@ -14,14 +14,14 @@ using remap::ErrorKind;
 
 FitFolder load_fit_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder))
-    throw Error(ErrorKind::kInput, folder.string() + ": is no folder; expected one with fits (*.json)");
+    throw Error(ErrorKind::kInput, folder.string() + ": not a folder (name one with fits, *.json)");
   FitFolder loaded;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".json" || entry.path().filename() == kManifestName) continue;
     remap::AnyFit fit = remap::load_any_fit(entry.path());
     if (entry.path().stem() != fit_id(fit))
-      throw Error(ErrorKind::kInput, entry.path().string() + ": holds the fit " + fit_id(fit) +
-                                         "; expected the file to be named after it");
+      throw Error(ErrorKind::kInput,
+                  entry.path().string() + ": holds the fit " + fit_id(fit) + " (rename the file after it)");
     if (auto* analytic = std::get_if<remap::WorkflowFit>(&fit))
       loaded.analytic.push_back(std::move(*analytic));
     else if (auto* warp = std::get_if<remap::WarpMapFit>(&fit))
@@ -52,7 +52,7 @@ remap::AnyFit find_any_fit(const std::string& name, const std::filesystem::path&
     for (const remap::WarpMapFit& fit : loaded.warps) known.push_back(fit.id);
   }
   throw Error(ErrorKind::kUsage,
-              name + ": is neither a file nor a fit in " + folder.string() + remap::suggestion(name, known));
+              name + ": neither a file nor a fit in " + folder.string() + remap::suggestion(name, known));
 }
 
 remap::Fit find_fit(const std::string& name, const std::filesystem::path& folder) {

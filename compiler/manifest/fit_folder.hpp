@@ -1,4 +1,4 @@
-// The fits of a folder, for the commands that work on all of them.
+// Loads the fits of a folder.
 #pragma once
 
 #include <filesystem>
@@ -8,24 +8,24 @@
 
 namespace remapc {
 
-// Both in the order of ids.
+// All fits of a folder, by id.
 struct FitFolder {
-  std::vector<remap::Fit> fits;  // of width and specular
+  std::vector<remap::Fit> fits;  // converters of width and specular
   std::vector<remap::WorkflowFit> analytic;
   std::vector<remap::WarpMapFit> warps;
 };
 
-// Every `*.json` of `folder` but its manifest as a fit. Throws kInput for a folder that cannot be read, a
-// file that is no fit, and a file whose name is not its id.
+// Loads every `*.json` of `folder` except its manifest. Throws kInput for a folder that cannot be read, a
+// file that does not hold a fit, and a file whose name is not the id of its fit.
 FitFolder load_fit_folder(const std::filesystem::path& folder);
 
-// Those of width and specular alone.
+// Loads the converters of width and specular only.
 std::vector<remap::Fit> load_fits(const std::filesystem::path& folder);
 
-// The fit that `name` means: a file, or an id in `folder`. Throws kUsage with the nearest known id.
+// Loads the fit that `name` means: a file, or an id in `folder`. Throws kUsage with the nearest known id.
 remap::AnyFit find_any_fit(const std::string& name, const std::filesystem::path& folder);
 
-// The same for what needs a fit of width and specular. Throws kUsage for an analytic one.
+// The same for commands that need a converter of width and specular. Throws kUsage for other kinds.
 remap::Fit find_fit(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace remapc

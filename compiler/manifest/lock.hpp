@@ -1,4 +1,4 @@
-// What a build left behind: the hashes by which the next one knows what is still good.
+// The hashes that a build leaves behind, by which the next build decides what is up to date.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@ namespace remapc {
 
 inline constexpr const char* kLockName = "manifest.lock";
 
-// SHA-256 of what an item was made from and of what was made; empty: nothing. Bounds of lowering are those of
-// lower/lowered.hpp, for the report.
+// The SHA-256 of an item's inputs and results; empty if there are none. The bounds of lowering
+// (lower/lowered.hpp) are kept for the report.
 struct LockedItem {
-  std::string recipe;  // its recipe, the tool's version, and the fits that it is made from
+  std::string recipe;  // of its recipe, the tool's version and the fits that it is made from
   std::string table;
   std::string fit;
   std::string header;
@@ -23,11 +23,11 @@ struct LockedItem {
 
 struct Lock {
   std::map<std::string, LockedItem> items;  // by id
-  std::string report;                       // what it was made from: every fit of the folder
+  std::string report;                       // of the inputs of the report: every fit of the folder
   bool operator==(const Lock&) const = default;
 };
 
-// An empty lock where the folder has none, or one that this version does not read: all is made anew then.
+// Returns an empty lock, so that all is remade, if the folder has none or one of an unknown version.
 Lock load_lock(const std::filesystem::path& fit_folder);
 void save_lock(const std::filesystem::path& fit_folder, const Lock& lock);
 

@@ -1,6 +1,7 @@
 #include "manifest/manifest.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "fit_file/fit_fields.hpp"
 #include "fit_file/workflow_fields.hpp"
@@ -21,7 +22,7 @@ std::size_t read_count(const Field& field) {
   return static_cast<std::size_t>(field.count());
 }
 
-// The ordered pairs of a group: all of its `models`, or those of `pairs`, both ways.
+// Returns the ordered pairs of a group: all of its `models`, or its `pairs` in both directions.
 std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) {
   std::vector<std::pair<std::string, std::string>> pairs;
   const auto name = [](const Field& model) { return model.text(); };
@@ -57,14 +58,14 @@ void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
     nlohmann::ordered_json text = group.json();
     text.erase("pairs");
     text["models"] = {source, target};
-    if (text.contains("speculars"))  // that of this source is all that counts
+    if (text.contains("speculars"))  // only the range of this source matters
       text["speculars"] = text["speculars"].contains(source) ? text["speculars"][source] : nullptr;
     items->push_back(
         {remap::converter_id(source, target), SweptItem{source, target, recipe}, text.dump(), seed});
   }
 }
 
-// Coefficients as the paper prints them (Sztrajman et al. 2019, section 7 and appendix A):
+// Coefficients as printed in the paper (Sztrajman et al. 2019, section 7 and appendix A):
 // c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) + c5 / alpha.
 remap::AlphaCurve read_slope(const Field& field) {
   const double c1 = field["c1"].number(), c2 = field["c2"].number();
@@ -127,7 +128,8 @@ std::string read_id(const Field& field, const std::vector<ManifestItem>& items) 
   for (const ManifestItem& item : items) known.push_back(item.id);
   const std::string id = field.text();
   if (std::find(known.begin(), known.end(), id) == known.end())
-    field.fail("is " + id + ", which is no item before it" + remap::suggestion(id, known));
+    field.fail("unknown item " + id + " (items must be defined before their use)" +
+               remap::suggestion(id, known));
   return id;
 }
 
@@ -137,16 +139,13 @@ void require_unique(const std::vector<ManifestItem>& items, const std::string& p
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice != ids.end())
-    throw remap::Error(remap::ErrorKind::kInput,
-                       place + ": makes " + *twice + " twice; expected every id once");
+    throw remap::Error(remap::ErrorKind::kInput, place + ": " + *twice + " is defined twice");
   for (const std::string& id : ids)
     if (!remap::is_valid_id(id))
       throw remap::Error(
           remap::ErrorKind::kInput,
-          place + ": id \"" + id + "\"; expected a C++ identifier without leading or doubled underscore");
+          place + ": id \"" + id + "\" is not a C++ identifier without leading or doubled underscore");
 }
-
-}  // namespace
 
 Manifest manifest_from_json(std::string_view text, const std::string& place) {
   const nlohmann::ordered_json json = remap::parse_json(text, place);
@@ -173,7 +172,7 @@ Manifest manifest_from_json(std::string_view text, const std::string& place) {
     ChainItem chain{entry["steps"].list(2, [&](const Field& step) { return read_id(step, items); })};
     items.push_back({entry["id"].text(), chain, entry.json().dump(), 0});
   });
-  // Manifests from before there were any have no such sections.
+  // Manifests of earlier versions do not have these sections.
   if (json.contains("analytic"))
     each("analytic", [&](const Field& entry) { read_workflow_item(entry, &items); });
   if (json.contains("networks"))
@@ -181,6 +180,8 @@ Manifest manifest_from_json(std::string_view text, const std::string& place) {
   require_unique(items, place);
   return manifest;
 }
+
+}  // namespace
 
 Manifest load_manifest(const std::filesystem::path& fit_folder) {
   const std::filesystem::path path = fit_folder / kManifestName;

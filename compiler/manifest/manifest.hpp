@@ -1,11 +1,10 @@
-// The manifest of a folder of fits: what `remapc build` makes, and how.
+// Reads the manifest of a folder of fits: what `remapc build` makes, and how.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -23,61 +22,59 @@ struct SweepRecipe {
   remap::Range alphas{0.01, 1.0};
   std::size_t roughness_samples = 30;
   std::size_t specular_samples = 30;
-  std::map<std::string, remap::Range> speculars;  // of source models, canonical, where not all that they take
+  std::map<std::string, remap::Range> speculars;  // canonical, by source model; missing: the whole range
 };
 
-// One converter. Every kind but the first needs no renderer.
-struct SweptItem {  // a pair of models, of the built-in renderer or of real ones
+// One converter. SweptItem and NetworkItem need a renderer.
+struct SweptItem {  // a pair of models, built-in or of real renderers
   std::string source, target;
   SweepRecipe recipe;
 };
-struct InverseItem {  // the way back through another item's fit
+struct InverseItem {  // the inverse of another item's fit
   std::string of;
 };
-struct PublishedItem {  // a formula from a paper; `fit` is complete but for the tool's version
+struct PublishedItem {  // a formula from a paper; `fit` lacks only the tool's version
   remap::Fit fit;
 };
-struct ChainItem {  // other items one after another
+struct ChainItem {  // other items, one after another
   std::vector<std::string> steps;
 };
 
-struct WorkflowItem {  // a conversion of whole materials; complete
+struct WorkflowItem {  // a conversion of whole materials; `fit` is complete
   remap::WorkflowFit fit;
 };
 
-// A network from the specular to the metallic workflow, learned from random metallic materials whose pictures
-// are matched by a specular model.
+// A network from the specular to the metallic workflow, trained on random metallic materials that were
+// matched by a specular model.
 struct NetworkItem {
-  remap::WorkflowFit fit;               // without what is learned
-  std::string metallic, specular;       // models that are sampled and matched
+  remap::WorkflowFit fit;               // without the trained part
+  std::string metallic, specular;       // the sampled model and the matched model
   std::map<std::string, double> fixed;  // parameters of the metallic model, by name
-  std::vector<std::string> varied;      // its parameters without role that vary
+  std::vector<std::string> varied;      // its parameters without a role that vary
   std::size_t count = 20000;
   int resolution = 32;
-  std::vector<std::size_t> hidden;  // units of each hidden layer
+  std::vector<std::size_t> hidden;  // units in each hidden layer
   remap::Activation activation = remap::Activation::kRelu;
 };
 
 struct ManifestItem {
   std::string id;
   std::variant<SweptItem, InverseItem, PublishedItem, ChainItem, WorkflowItem, NetworkItem> kind;
-  std::string recipe;      // what it is made from, as text: two items of one recipe are the same
-  std::uint64_t seed = 1;  // of its fit, and of random materials
+  std::string recipe;      // the text that defines the item; equal recipes give equal items
+  std::uint64_t seed = 1;  // of its fit and of random materials
 };
 
-// Items in an order in which each comes after those that it is made from.
+// The items, each after those that it is made from.
 struct Manifest {
   std::vector<ManifestItem> items;
 };
 
-// Throws kInput, opened by `place`, for text that is no manifest of kManifestVersion, an id that stands twice
-// or is no identifier, and an inverse or a chain of something that is no item.
-Manifest manifest_from_json(std::string_view text, const std::string& place);
-
-// The manifest of a folder. Throws kInput where it has none.
+// Loads the manifest of a folder. Throws kInput if it has none, and, opened by its path, for text that is not
+// a manifest of version kManifestVersion, an id that is defined twice or is not an identifier, and an inverse
+// or chain of an unknown item.
 Manifest load_manifest(const std::filesystem::path& fit_folder);
 
-// The items that an item is made from.
+// Returns the ids of the items that an item is made from.
 std::vector<std::string> inputs_of(const ManifestItem& item);
 
 }  // namespace remapc

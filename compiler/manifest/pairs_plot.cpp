@@ -1,9 +1,11 @@
-// The small multiples of the report, drawn without any plotting program so that every machine gives the same
-// bytes.
+// The plot is drawn without a plotting program, so that every machine gives the same bytes.
+#include "manifest/pairs_plot.hpp"
+
 #include <algorithm>
+#include <map>
 #include <set>
 
-#include "manifest/report.hpp"
+#include "manifest/trust.hpp"
 #include "model/interpreter.hpp"
 #include "text/report_text.hpp"
 
@@ -11,7 +13,7 @@ namespace remapc {
 namespace {
 
 constexpr int kPanel = 116, kGap = 12, kMargin = 140, kTop = 40;
-// Panels of the other models carry their names above them.
+// Panels outside of the matrix carry their names above them.
 constexpr int kSpokeTop = 40, kSpokeLabel = 26;
 constexpr int kSteps = 48;
 constexpr double kSpecular = 0.5, kLargestRatio = 2.0;
@@ -50,6 +52,19 @@ std::string panel(const remap::Fit& fit, const Place& corner) {
 std::string label(double x, double y, const std::string& anchor, const std::string& text) {
   return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" text-anchor=\"" + anchor + "\">" + text +
          "</text>\n";
+}
+
+std::set<std::string> hub_models(const std::vector<remap::Fit>& fits) {
+  std::map<std::string, std::set<std::string>> neighbours;
+  for (const remap::Fit& fit : fits) {
+    if (!is_measured(fit)) continue;
+    neighbours[fit.source.model].insert(fit.target.model);
+    neighbours[fit.target.model].insert(fit.source.model);
+  }
+  std::set<std::string> models;
+  for (const auto& [model, others] : neighbours)
+    if (others.size() > 1 || neighbours.at(*others.begin()).size() == 1) models.insert(model);
+  return models;
 }
 
 }  // namespace

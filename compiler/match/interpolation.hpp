@@ -1,4 +1,4 @@
-// Interpolation over neighbouring widths of the target bank.
+// Interpolates over neighbouring widths of the target bank.
 #pragma once
 
 #include <array>
@@ -6,10 +6,10 @@
 
 namespace remapc {
 
-// Nodes of the bank that one interpolation uses: twelve nodes 5 % apart leave 1e-7 of alpha.
+// The number of bank nodes in one interpolation: twelve nodes, 5 % apart, leave an error of 1e-7 in alpha.
 inline constexpr std::size_t kInterpolationNodes = 12;
 
-// Lagrange basis on `nodes` at `x`: values and first derivatives.
+// The Lagrange basis on `nodes` at `x`: values and first derivatives.
 struct LagrangeBasis {
   using Values = std::array<double, kInterpolationNodes>;
   Values value{};

@@ -15,13 +15,13 @@ using remap::Error;
 using remap::ErrorKind;
 using remap::Range;
 
-constexpr double kRivalError = 1.01;    // as for the two-stage match
-constexpr double kRivalDistance = 0.1;  // relative, in a parameter
-// Relative change of the squared error at which a search ends: of one that gives the answer, and of one that
-// is only compared with it to 1 %.
+constexpr double kJointRivalError = 1.01;    // as in match.cpp
+constexpr double kJointRivalDistance = 0.1;  // relative difference of a parameter
+// A search ends at this relative change of the squared error. Rivals are compared with the answer to one
+// percent only, so they need less precision.
 constexpr double kAnswerTolerance = 1e-10;
 constexpr double kRivalTolerance = 1e-7;
-constexpr double kSameError = 1e-4;       // errors below this are rounding of pictures
+constexpr double kJointSameError = 1e-4;  // smaller errors are rounding errors of pictures
 constexpr double kBoundTolerance = 1e-6;  // share of the range
 
 // A small square matrix.
@@ -37,7 +37,7 @@ class Square {
   std::vector<double> values_;
 };
 
-// Upper R with R^T R = gram; rows of dependent columns are 0.
+// Returns upper R with R^T R = gram; rows of linearly dependent columns are 0.
 Square cholesky(const Square& gram) {
   Square r(gram.side());
   for (std::size_t i = 0; i < gram.side(); ++i) {
@@ -68,7 +68,7 @@ ceres::Solver::Summary solve(ceres::Problem* problem, double tolerance) {
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(tolerance), problem, &summary);
   if (!summary.IsSolutionUsable())
-    throw Error(ErrorKind::kNumeric, "joint match: Ceres gave up: " + summary.message);
+    throw Error(ErrorKind::kNumeric, "joint match: Ceres failed: " + summary.message);
   return summary;
 }
 
@@ -85,8 +85,9 @@ double picture_power(const JointChannel& channel) {
 
 }  // namespace
 
-// The residuals of a whole picture as few numbers. A trust-region step depends on J^T J, J^T r and r^T r
-// alone, and the triangle R of [J r] = Q R has the same: its columns stand for the Jacobian and the residual.
+// Reduces the residuals of a whole picture to a few numbers. A trust-region step depends on J^T J, J^T r and
+// r^T r only, and the triangle R of [J r] = Q R gives the same products. Its columns therefore serve as the
+// Jacobian and the residual.
 class JointMatcher::PictureCost final : public ceres::CostFunction {
  public:
   PictureCost(const JointMatcher& matcher, const RoleValues& guess)
@@ -108,7 +109,8 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
   }
 
  private:
-  // Ceres asks for residuals where it tries a step, and for the Jacobian at the same point where it takes it.
+  // Ceres evaluates the residuals when it tries a step, and the Jacobian at the same point when it accepts
+  // it.
   const Square& triangle(const double* values) const {
     const bool known = !last_values_.empty() && std::equal(last_values_.begin(), last_values_.end(), values);
     if (!known) last_triangle_ = cholesky(gram(values));
@@ -116,8 +118,8 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
     return last_triangle_;
   }
 
-  // Inner products of the tangents and, last, of picture - source, over all channels, relative to the power
-  // of the source.
+  // Inner products of the tangents and, in the last row and column, of picture - source. They are summed over
+  // all channels and divided by the power of the source.
   Square gram(const double* values) const {
     Square products(count_ + 1);
     const std::vector<RoleValues> points = matcher_.points_of(values, guess_);
@@ -125,7 +127,7 @@ class JointMatcher::PictureCost final : public ceres::CostFunction {
       const JointChannel& channel = matcher_.channels_[c];
       PictureTangents tangents = matcher_.target_.at(points[c], matcher_.wanted_);
       for (std::size_t i = 0; i < channel.picture.size(); ++i) tangents.picture[i] -= channel.picture[i];
-      std::vector<const float*> columns(count_ + 1, nullptr);  // none where the unknown is another channel's
+      std::vector<const float*> columns(count_ + 1, nullptr);  // null for the unknowns of other channels
       for (std::size_t u = 0; u < count_; ++u)
         if (matcher_.unknowns_[u].concerns(c))
           columns[u] = tangents.by[matcher_.unknowns_[u].coordinate].data();
@@ -218,8 +220,8 @@ JointMatch JointMatcher::search(const RoleValues& guess, double tolerance) const
     problem.SetParameterUpperBound(values.data(), static_cast<int>(u), range.max);
   }
   ceres::Solver::Summary summary = solve(&problem, tolerance);
-  // Ceres projects steps into the bounds and creeps along them. Parameters that have reached one stay there
-  // while the others are searched once more.
+  // Ceres projects steps into the bounds and converges slowly along them. Parameters that have reached a
+  // bound are therefore fixed, and the others are searched once more.
   std::vector<int> fixed;
   for (std::size_t u = 0; u < values.size(); ++u) {
     const Range& range = target_.coordinates()[unknowns_[u].coordinate].range;
@@ -242,7 +244,7 @@ bool JointMatcher::apart(const JointMatch& a, const JointMatch& b) const {
     const double x = target_.value(a.points[unknown.channel], unknown.coordinate);
     const double y = target_.value(b.points[unknown.channel], unknown.coordinate);
     const Range& range = target_.coordinates()[unknown.coordinate].range;
-    return std::fabs(x - y) > kRivalDistance * std::max({x, y, 0.01 * range.max});
+    return std::fabs(x - y) > kJointRivalDistance * std::max({x, y, 0.01 * range.max});
   });
 }
 
@@ -258,11 +260,11 @@ bool JointMatcher::at_bound(const JointMatch& match) const {
 RowStatus JointMatcher::judge(const JointMatch& match, const std::vector<JointMatch>& rivals) const {
   if (!match.converged) return RowStatus::kUnstable;
   for (const JointMatch& rival : rivals) {
-    const bool better = kRivalError * rival.error + kSameError < match.error;
-    const bool as_good = rival.error < kRivalError * match.error + kSameError;
+    const bool better = kJointRivalError * rival.error + kJointSameError < match.error;
+    const bool as_good = rival.error < kJointRivalError * match.error + kJointSameError;
     if (better || (as_good && apart(rival, match))) return RowStatus::kUnstable;
   }
-  return at_bound(match) && match.error > kSameError ? RowStatus::kClamped : RowStatus::kOk;
+  return at_bound(match) && match.error > kJointSameError ? RowStatus::kClamped : RowStatus::kOk;
 }
 
 JointMatch JointMatcher::match_from(const RoleValues& guess) const {

@@ -1,8 +1,7 @@
-// The joint match: all parameters of the target that are free at once, by bounded non-linear least squares
-// over the whole picture (Sztrajman et al. 2019, sections 3.1 and 4.1: one and three stages), over all its
-// color channels together where it has more than one: width and whatever else has no color is common to
-// them, the rest is each channel's own. Also matches targets that are not affine in specular. The sweep meets
-// Ceres here only.
+// The joint match varies all free parameters of the target at once, by bounded non-linear least squares over
+// the whole picture (Sztrajman et al. 2019, sections 3.1 and 4.1: one and three stages). It also serves
+// targets that are not affine in specular. With several color channels, parameters without color (such as
+// width) are shared and the others are found for each channel. In a sweep, only this file uses Ceres.
 #pragma once
 
 #include <span>
@@ -13,59 +12,59 @@
 
 namespace remapc {
 
-// Where a one-stage match starts, as shares of the target's ranges of alpha, specular and diffuse.
+// The initial guess of a one-stage match, as shares of the target's ranges of alpha, specular and diffuse.
 inline const RoleValues kFixedGuess{0.5, 0.5, 0.5};
 
 struct JointOptions {
-  bool free_diffuse = true;        // false: diffuse stays as the guess has it
-  bool source_has_diffuse = true;  // false: diffuse 0 is the answer, and no bound that was hit
+  bool free_diffuse = true;        // false: diffuse keeps the value of the guess
+  bool source_has_diffuse = true;  // false: diffuse 0 is an answer and does not count as a bound that was hit
 };
 
-// One color channel of the source: its picture, and w^2 of each pixel.
+// One color channel of the source: its picture, and w^2 for each pixel.
 struct JointChannel {
   std::vector<float> picture, weights;
 };
 
 struct JointMatch {
-  std::vector<RoleValues> points;  // canonical; one a channel
-  double error = 0.0;              // relative RMS of the picture, weighted, all channels
+  std::vector<RoleValues> points;  // canonical, one for each channel
+  double error = 0.0;              // weighted relative RMS of the picture over all channels
   bool converged = false;
   RowStatus status = RowStatus::kOk;
 
-  const RoleValues& point() const { return points.front(); }  // of a grey match
+  const RoleValues& point() const { return points.front(); }  // for a grey match
 };
 
 class JointMatcher {
  public:
-  // Pictures are as long as the target's, which must outlive the matcher.
+  // The channels' pictures must be as long as the target's. `target` must outlive the matcher.
   JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels, const JointOptions& options);
 
-  // A grey match.
+  // Makes a grey match.
   JointMatcher(const TargetPictures& target, std::vector<float> source, std::vector<float> squared_weights,
                const JointOptions& options);
 
-  // What a trust-region search from `guess`, of every channel, finds (Levenberg and Marquardt with bounds,
-  // Ceres). kUnstable where it does not converge, where a search from one of four other guesses ends with an
-  // error lower by more than 1 %, or with one within 1 % and a parameter further away than 10 %; else
-  // kClamped where a parameter lies at its bound and the pictures differ. A guess out of bounds is moved into
-  // them. Throws kNumeric where Ceres fails.
+  // Searches from `guess` in every channel, by Ceres' bounded Levenberg-Marquardt. A guess out of bounds is
+  // moved into them. The status is kUnstable if the search does not converge, or if a search from one of four
+  // other guesses ends with an error lower by more than 1 %, or within 1 % but with a parameter that differs
+  // by more than 10 %. Otherwise it is kClamped if a parameter is at a bound and the pictures differ. Throws
+  // kNumeric if Ceres fails.
   JointMatch match_from(const RoleValues& guess) const;
 
-  // The best that searches from several guesses find; kUnstable where two of them rival as above.
+  // Returns the best match of searches from several guesses; kUnstable if two of them rival as above.
   JointMatch best_match(const std::vector<RoleValues>& guesses) const;
 
-  // Relative RMS, weighted, of `picture` against the source, of a grey match.
+  // Returns the weighted relative RMS of `picture` against the source, for a grey match.
   double error_of(std::span<const float> picture) const;
 
-  // The parameters that shares (0 to 1) of the target's ranges stand for. Parameters of no role that `shares`
+  // Converts shares (0 to 1) of the target's ranges to parameters. Parameters without a role that `shares`
   // does not name take the shares of alpha, specular and diffuse in turn.
   RoleValues point_of(const RoleValues& shares) const;
 
-  // The guesses by which match_from judges, as shares: narrow and wide, weak and strong, bright and dark.
+  // The other guesses of match_from, as shares: narrow and wide, weak and strong, bright and dark.
   static const std::vector<RoleValues>& other_guesses();
 
  private:
-  // A number that is searched: a coordinate of one channel, or of all.
+  // One searched number: a coordinate of one channel, or of all.
   struct Unknown {
     std::size_t coordinate;
     std::size_t channel;

@@ -11,17 +11,17 @@
 namespace remapc {
 namespace {
 
-// Every sixth node of the bank is looked at first; lobes are far wider than that.
+// The search starts on every sixth node of the bank; minima of the loss are far wider than that.
 constexpr std::size_t kCoarseStride = 6;
-// A second minimum counts as a rival where its error is within 1 % of the best and its width is not a
-// neighbour.
+// A second minimum makes a match unstable if its error is within 1 % of the best and its width is not that of
+// a neighbouring node.
 constexpr double kRivalError = 1.01;
-// The same for a second specular at one width: this share of the range away. Errors up to kSameError are
-// those of pictures.
+// The same for a second specular at one width, if it differs by this share of the range. Errors up to
+// kSameError are rounding errors of pictures.
 constexpr double kRivalDistance = 0.02;
 constexpr double kSameError = 1e-4;
 
-// Losses at neighbouring nodes, to be interpolated coefficient by coefficient.
+// The losses at neighbouring nodes, interpolated coefficient by coefficient.
 struct LossWindow {
   std::array<std::vector<double>, kInterpolationNodes> losses;
   LagrangeBasis::Values logs{};  // log(alpha)
@@ -82,8 +82,8 @@ double Matcher::source_power(const std::vector<double>& coefficients) const {
   return power;
 }
 
-// |I - T|^2 = II - 2 IT + TT, all weighted. II is left out here: it does not depend on the width, and
-// refine() differentiates.
+// |I - T|^2 = II - 2 IT + TT, all weighted. II does not depend on the target and is left out, so that
+// refine() can differentiate the rest without cancellation.
 Matcher::Polynomial Matcher::loss(const Products& products, const std::vector<double>& coefficients) const {
   Polynomial result = products.power;
   Polynomial cross(products.cross.front().size());
@@ -129,8 +129,8 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
     window.losses[i] = loss(products(first + i), coefficients);
     window.logs[i] = std::log(bank_.alpha(first + i));
   }
-  // Derivative of the loss by log(alpha) at the best specular: what the specular would do does not matter
-  // there.
+  // The derivative of the loss by log(alpha) at the best specular. The derivative by specular is 0 there, so
+  // the change of the specular does not contribute.
   const auto derivative = [&](double x) {
     const LagrangeBasis basis(window.logs, x);
     return polynomial_value(window.sum(basis.derivative), least(window.sum(basis.value)).at);
@@ -141,7 +141,7 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   double high = std::log(bank_.alpha(node + 1 == bank_.size() ? node : node + 1));
   double x = std::log(bank_.alpha(node));
   const bool bracketed = derivative(low) <= 0.0 && derivative(high) >= 0.0;
-  // Bisection to the resolution of doubles; each step is a few hundred operations.
+  // Bisects to the resolution of doubles; one step costs a few hundred operations.
   for (int step = 0; bracketed && step < 52; ++step) {
     x = 0.5 * (low + high);
     (derivative(x) < 0.0 ? low : high) = x;
@@ -151,7 +151,7 @@ Match Matcher::refine(std::size_t node, const std::vector<double>& coefficients)
   return match;
 }
 
-// The match at log(alpha) = `x`, from the loss there.
+// Returns the match at log(alpha) = `x` from the loss at that width.
 Match Matcher::match_at(double x, const Polynomial& loss, double power) const {
   const SpecularFamily& family = bank_.family();
   const remap::Range range = family.coordinate_range();
@@ -170,7 +170,7 @@ Match Matcher::match_at(double x, const Polynomial& loss, double power) const {
   return match;
 }
 
-// Minima of the loss on every sixth node.
+// Returns the minima of the loss on every sixth node.
 std::vector<std::size_t> Matcher::coarse_minima(const std::vector<double>& coefficients) {
   std::vector<std::size_t> coarse;
   for (std::size_t node = 0; node < bank_.size(); node += kCoarseStride) coarse.push_back(node);

@@ -1,6 +1,6 @@
-// The match: which width and specular of the target give the picture of the source. At each width the loss is
-// a polynomial in the coordinate of the target's family, whose least value over all speculars is found as
-// such; width by a search over the bank and then the root of the derivative.
+// The match finds the width and specular of the target that give the picture of the source. At each width the
+// loss is a polynomial in the coordinate of the target's family, so its minimum over specular is found
+// exactly. The width is found by a search over the bank, then as the root of the derivative.
 #pragma once
 
 #include <map>
@@ -15,28 +15,28 @@ namespace remapc {
 struct Match {
   double alpha = 0.0;
   double specular = 0.0;
-  double error = 0.0;  // sqrt(loss / weighted source power): relative RMS of the picture
+  double error = 0.0;  // relative RMS of the picture: sqrt(loss / weighted source power)
   RowStatus status = RowStatus::kOk;
 };
 
 // Matches source materials whose pictures share weights and are combinations of the same few pictures: source
-// = sum of coefficient[k] * basis[k]. Inner products with the bank are computed once a node, not once a
-// material. Not safe to share between threads; the bank behind it is.
+// = sum of coefficient[k] * basis[k]. Inner products with the bank are computed once for each node instead of
+// once for each material. Not thread-safe; its bank is.
 class Matcher {
  public:
-  // `basis`: at least one picture; `squared_weights`: w^2 of each pixel, as long as they are.
+  // `basis`: at least one picture; `squared_weights`: w^2 for each of its pixels.
   Matcher(const TargetBank& bank, std::vector<std::vector<float>> basis, std::vector<float> squared_weights);
 
-  // The status is kUnstable where another width or specular gives as good a picture. `minima`: nodes of the
-  // bank to start from, and on return those of the minima found. Empty: the whole bank is searched. Materials
-  // that differ little in specular share their minima, and most of the search with them.
+  // Finds the best match; kUnstable if another width or specular gives as good a picture. `minima` holds the
+  // bank nodes to start from and receives those of the minima found; if it is empty, the whole bank is
+  // searched. Materials of similar specular share their minima, so passing them on saves most of the search.
   Match match(const std::vector<double>& coefficients, std::vector<std::size_t>* minima);
 
  private:
   // A polynomial in the coordinate of the bank's family.
   using Polynomial = std::vector<double>;
-  // Weighted inner products at one bank node: of the target's picture with itself, and with each of the
-  // basis.
+  // Weighted inner products at one bank node: of the target's picture with itself, and with each basis
+  // picture.
   struct Products {
     Polynomial power;
     std::vector<Polynomial> cross;
@@ -56,7 +56,7 @@ class Matcher {
   std::vector<std::vector<float>> basis_;
   std::vector<float> weights_;
   std::vector<std::vector<float>> weighted_basis_;
-  std::vector<std::vector<double>> power_;  // basis against basis
+  std::vector<std::vector<double>> power_;  // inner products of the basis pictures
   std::map<std::size_t, Products> products_;
 };
 

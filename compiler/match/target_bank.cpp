@@ -8,14 +8,15 @@
 namespace remapc {
 namespace {
 
-// Nodes on one side only multiply the error of interpolation by about 40; steps a quarter as wide divide it
-// by 4^11.
+// At the upper end all nodes of an interpolation are on one side, which multiplies its error by about 40;
+// steps a quarter as wide divide it by 4^11.
 constexpr double kEdgeRefinement = 4.0;
 
 constexpr double kNarrowing = 4.0;
 
-// From the top down: a window of narrow steps, then full ones, to the first at or below the bottom; to the
-// bottom itself where that one would be below `least`, which is all that the model takes.
+// Descends from the largest alpha: first a window of narrow steps, then full ones, to the first width at or
+// below the smallest alpha. It ends at that alpha itself if the next step would fall below `least`, the
+// model's limit.
 std::vector<double> bank_alphas(const remap::Range& alphas, double ratio, double least) {
   const double bottom = std::log(alphas.min), top = std::log(alphas.max), step = std::log(ratio);
   double narrow_step = step / kEdgeRefinement;
@@ -27,7 +28,7 @@ std::vector<double> bank_alphas(const remap::Range& alphas, double ratio, double
     logs.push_back(logs.back() - (logs.size() <= kInterpolationNodes ? narrow_step : step));
   const bool below = std::exp(logs.back()) < least;
   if (below) {
-    // A node too near its neighbour would only multiply the noise of pictures.
+    // A node too close to its neighbour would multiply the noise of pictures.
     const double before_last = logs[logs.size() - 2];
     if (logs.size() > kInterpolationNodes && before_last - bottom < 0.5 * (before_last - logs.back()))
       logs.pop_back();

@@ -1,5 +1,5 @@
-// The bank of target pictures: for widths on a geometric grid, the few pictures that all others of that width
-// are combinations of (specular_family.hpp), rendered once, when a search first asks for them.
+// The bank of target pictures. For widths on a geometric grid it holds the few pictures whose combinations
+// give all others of that width (specular_family.hpp). Each is rendered when a search first needs it.
 #pragma once
 
 #include <atomic>
@@ -12,33 +12,32 @@
 
 namespace remapc {
 
-// Neighbouring widths of a bank, at most. Interpolating the loss over twelve of them is good to 1e-7 in
-// alpha.
+// The largest ratio of neighbouring widths. Interpolating the loss over twelve such widths leaves an error of
+// 1e-7 in alpha.
 inline constexpr double kBankRatio = 1.05;
 
-// Widths of `target` that a search looks at for sources whose narrowest width is `narrowest`: from a quarter
-// of that, since no pair of the hub differs by more than 2.
+// Returns the widths of `target` to search for sources whose narrowest width is `narrowest`. They start at a
+// quarter of it; no pair of the hub differs by more than a factor of 2.
 remap::Range searched_widths(const ModelDescription& target, double narrowest);
 
 class TargetBank {
  public:
-  // A bank for widths in `alphas` and no less than the model takes: neighbours at most `ratio` apart (the
-  // last two half as much again), closer at the upper end, where interpolation has nodes on one side only.
-  // `target` must have a family (ProbedModel::family).
+  // Makes a bank for widths in `alphas`, clamped to the model's range. Neighbours are at most `ratio` apart,
+  // the last two 1.5 times that; they are closer at the upper end, where interpolation has nodes on one side
+  // only. `target` must have a family (ProbedModel::family).
   TargetBank(const PictureTaker& picture_taker, const ProbedModel& target, const remap::Range& alphas,
              double ratio);
 
   std::size_t size() const { return alphas_.size(); }
   double alpha(std::size_t node) const { return alphas_[node]; }
-  double log_step() const { return log_step_; }  // largest, in log(alpha)
+  double log_step() const { return log_step_; }  // the largest step in log(alpha)
   const SpecularFamily& family() const { return family_; }
 
-  // The pictures of a node (take_family); rendered on the first call, kept for the next. Safe from many
-  // threads.
+  // Returns the pictures of a node (take_family). The first call renders and keeps them. Thread-safe.
   const std::vector<std::vector<float>>& pictures(std::size_t node) const;
 
-  // Renders those of `nodes` that no other thread has begun: threads that want the same nodes share the work
-  // instead of waiting for each other at every one.
+  // Renders those `nodes` that no other thread has started, so that threads that need the same nodes share
+  // the work instead of waiting for each other at each one.
   void prepare(std::span<const std::size_t> nodes) const;
 
  private:

@@ -1,5 +1,5 @@
-// Pictures of a target on a coarse grid of widths and speculars: where a search starts for a target without a
-// family (ProbedModel::family).
+// Pictures of a target on a coarse grid of widths and speculars. They give a search its starting points if
+// the target has no family (ProbedModel::family).
 #pragma once
 
 #include <deque>
@@ -12,11 +12,11 @@ namespace remapc {
 
 class TargetGrid {
  public:
-  // Widths in `alphas`, evenly in log(alpha), by canonical speculars, evenly; without diffuse.
+  // Samples widths in `alphas`, evenly in log(alpha), and canonical speculars, evenly; without diffuse.
   TargetGrid(const PictureTaker& picture_taker, const ProbedModel& target, const remap::Range& alphas);
 
-  // At most three grid points, best first, where the weighted squared difference from `source` is no larger
-  // than at their neighbours. Pictures are rendered on the first call. Safe from many threads.
+  // Returns at most three grid points, best first, at which the weighted squared difference from `source` is
+  // no larger than at their neighbours. The first call renders the pictures. Thread-safe.
   std::vector<RoleValues> minima(const std::vector<float>& source, const std::vector<float>& weights) const;
 
  private:
@@ -28,7 +28,7 @@ class TargetGrid {
 
   const PictureTaker& picture_taker_;
   ProbedModel target_;
-  std::vector<RoleValues> points_;  // width by width
+  std::vector<RoleValues> points_;  // grouped by width
   mutable std::deque<Slot> slots_;
 };
 

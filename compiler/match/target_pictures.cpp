@@ -11,13 +11,13 @@ namespace {
 
 using remap::Range;
 
-// Step of central differences, as a share of alpha or of the range: its square is what differences leave, and
-// floats divided by it what rounding leaves.
+// Step of central differences, as a share of alpha or of the range. The truncation error is its square, the
+// rounding error that of floats divided by it.
 constexpr double kDifferenceStep = 1e-3;
-// Pixels that are interpolated together: sums of that many lie in the first-level cache.
+// Pixels that are interpolated together: their sums fit into the first-level cache.
 constexpr std::size_t kBlockPixels = 512;
 
-// Nodes of the bank around `alpha` and their Lagrange basis in log(alpha).
+// The nodes of the bank around `alpha` and their Lagrange basis in log(alpha).
 struct Window {
   std::size_t first;
   LagrangeBasis basis;

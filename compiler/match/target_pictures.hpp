@@ -1,5 +1,5 @@
-// The target's picture and how it changes with each parameter, at any parameters: what a non-linear match
-// asks for. From the bank where the target has one, else from renders.
+// The target's picture and its derivatives by each parameter, at any point, for a non-linear match. They come
+// from the bank if the target has one, else from renders.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace remapc {
 
-// One parameter that a match turns: alpha, canonical specular, diffuse, then others by name.
+// One parameter that a match varies: alpha, canonical specular, diffuse, then others by name.
 struct Coordinate {
-  std::string name;     // of others
-  remap::Range range;   // that `at` answers for; a single value where the target has no such parameter
+  std::string name;     // set for others only
+  remap::Range range;   // a single value if the target has no such parameter
   bool shared = false;  // one value for all color channels
 };
 
 inline constexpr std::size_t kAlphaCoordinate = 0, kSpecularCoordinate = 1, kDiffuseCoordinate = 2;
 
-// A picture and its derivatives, one for each coordinate; floats as PictureTaker::take gives them.
+// A picture and its derivatives by each coordinate; floats as from PictureTaker::take.
 struct PictureTangents {
   std::vector<float> picture;
-  std::vector<std::vector<float>> by;  // empty where not asked for
+  std::vector<std::vector<float>> by;  // empty where not wanted
 };
 
 class TargetPictures {
@@ -32,11 +32,11 @@ class TargetPictures {
   double value(const RoleValues& point, std::size_t coordinate) const;
   void set_value(RoleValues* point, std::size_t coordinate, double value) const;
 
-  // `wanted`: by which coordinates it is differentiated. Safe from many threads.
+  // `wanted`: the coordinates by which the picture is differentiated. Thread-safe.
   virtual PictureTangents at(const RoleValues& point, const std::vector<bool>& wanted) const = 0;
 
  protected:
-  // Width, specular and diffuse of `target`, and those of its parameters that `others` names.
+  // The coordinates are width, specular and diffuse of `target`, and its parameters named in `others`.
   TargetPictures(const ProbedModel& target, const remap::Range& alphas,
                  const std::vector<std::string>& others);
 
@@ -44,8 +44,8 @@ class TargetPictures {
   std::vector<Coordinate> coordinates_;
 };
 
-// Pictures of a target to whose specular diffuse adds (probe_diffuse), interpolated between the nodes of the
-// bank: no renders but those of the bank and two for the diffuse picture.
+// Pictures of a target whose diffuse adds to its specular (probe_diffuse), interpolated between the nodes of
+// the bank. Besides the bank they need two renders, for the diffuse picture.
 class BankPictures final : public TargetPictures {
  public:
   BankPictures(const PictureTaker& picture_taker, const ProbedModel& target, const TargetBank& bank);
@@ -54,12 +54,12 @@ class BankPictures final : public TargetPictures {
 
  private:
   const TargetBank& bank_;
-  std::vector<float> diffuse_;  // what diffuse 1 adds
+  std::vector<float> diffuse_;  // added by diffuse 1
 };
 
-// Pictures of any target, rendered, with derivatives by central differences (one-sided at the ends of a
-// range): two renders a coordinate and one for the point. `others`: parameters of no role that the match
-// turns.
+// Rendered pictures of any target, with derivatives by central differences (one-sided at the ends of a
+// range): two renders for each coordinate and one for the point. `others` names the parameters without a role
+// that the match varies.
 class RenderedPictures final : public TargetPictures {
  public:
   RenderedPictures(const PictureTaker& picture_taker, const ProbedModel& target, const remap::Range& alphas,

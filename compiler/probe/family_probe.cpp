@@ -16,19 +16,21 @@ namespace {
 using Picture = std::vector<float>;
 using Matrix = std::vector<std::vector<double>>;
 
-// Points of the finest probing; degrees up to half of it can be checked between their nodes.
+// Number of steps of the finest probing. Degrees up to half of it can be checked between their nodes.
 constexpr std::size_t kFinest = 32;
 constexpr std::size_t kLeastChecked = 8;
 
-// One of Chebyshev's points of the second kind over -1 to 1, where polynomials through them stay tame
-// (Trefethen 2013, chapter 2). Every second is one of half as many; the ends and the middle are exact.
+// A Chebyshev point of the second kind in [-1, 1]; polynomials through these points do not oscillate
+// (Trefethen 2013, chapter 2). Every second point belongs to the set of half the size. The ends and the
+// middle are exact.
 double chebyshev_point(std::size_t index) {
   const double steps = 2.0 * static_cast<double>(index) - static_cast<double>(kFinest);
   return std::sin(std::numbers::pi * steps / (2.0 * static_cast<double>(kFinest)));
 }
 
-// One step of Gauss and Jordan on normal equations: row `pivot` then holds the weights of that picture in the
-// least-squares fits of all others by the pivots so far, and the diagonals of the rest what is left of them.
+// One step of Gauss-Jordan elimination on normal equations. Afterwards row `pivot` holds the weights of that
+// picture in the least-squares fits of the other pictures by all pivots so far, and each diagonal entry of
+// the rest is the squared residual of that picture.
 void eliminate(std::size_t pivot, Matrix* gram) {
   Matrix& g = *gram;
   const double scale = 1.0 / g[pivot][pivot];
@@ -39,7 +41,7 @@ void eliminate(std::size_t pivot, Matrix* gram) {
   }
 }
 
-// Pictures of a model at three widths, over one coordinate of specular.
+// Renders a model at three widths, over one coordinate of specular.
 class FamilyProbe {
  public:
   FamilyProbe(const PictureTaker& picture_taker, const ModelDescription& model, const remap::Range& alphas,
@@ -47,10 +49,10 @@ class FamilyProbe {
       : picture_taker_(picture_taker),
         model_(model),
         axis_{model.parameter(ParameterRole::kSpecular).range, coordinate, {}, {}},
-        // The widest first: its highlight shows all angles, and fails first.
+        // The widest comes first: its highlight covers all angles, so it is the first to fail a check.
         widths_{{alphas.max, {}}, {std::sqrt(alphas.min * alphas.max), {}}, {alphas.min, {}}} {}
 
-  // Whether polynomials of `degree` through the pictures at as many points give those between.
+  // Whether polynomials of `degree` through degree + 1 pictures reproduce the pictures between them.
   bool is_polynomial(std::size_t degree) {
     Matrix identity(degree + 1, std::vector<double>(degree + 1));
     std::vector<std::size_t> points;
@@ -61,7 +63,7 @@ class FamilyProbe {
     return holds(points, family(points, identity), degree);
   }
 
-  // The fewest of those pictures whose combinations give all the others.
+  // The fewest of those pictures whose combinations reproduce all others.
   SpecularFamily smallest(std::size_t degree) {
     Matrix gram = gram_matrix(degree);
     std::vector<std::size_t> pivots;
@@ -76,7 +78,7 @@ class FamilyProbe {
       eliminate(next, &gram);
       pivots.push_back(next);
       std::vector<std::size_t> points;
-      Matrix shares;  // of each pivot in each picture
+      Matrix shares;  // weight of each pivot in each picture
       for (const std::size_t pivot : pivots) {
         points.push_back(pivot * kFinest / degree);
         shares.push_back(gram[pivot]);
@@ -99,8 +101,8 @@ class FamilyProbe {
     return width.pictures.emplace(point, picture_taker_.take(model_, role_values)).first->second;
   }
 
-  // The pictures at `points`, where picture i of the polynomial's nodes is the sum of shares[k][i] times
-  // them.
+  // The family of the pictures at `points`. The picture at node i of the polynomial is the sum over k of
+  // shares[k][i] times the picture at points[k].
   SpecularFamily family(const std::vector<std::size_t>& points, const Matrix& shares) const {
     const std::size_t degree = shares.front().size() - 1;
     std::vector<double> nodes;
@@ -118,7 +120,7 @@ class FamilyProbe {
     return found;
   }
 
-  // Whether the family gives every picture at every width, at twice as many points as `degree` has nodes.
+  // Whether the family reproduces the pictures at every width, at twice as many points as `degree` has nodes.
   bool holds(const std::vector<std::size_t>& points, const SpecularFamily& family, std::size_t degree) {
     const std::size_t stride = kFinest / std::max(kLeastChecked, 2 * degree);
     return std::all_of(widths_.begin(), widths_.end(), [&](Width& width) {
@@ -137,8 +139,8 @@ class FamilyProbe {
     });
   }
 
-  // Inner products of the pictures at the nodes of `degree`, over all widths, each relative to its brightest
-  // pixel.
+  // Sums of inner products of the pictures at the nodes of `degree`, over all widths. Pictures are divided by
+  // the brightest pixel of their width, so that all widths count alike.
   Matrix gram_matrix(std::size_t degree) {
     Matrix gram(degree + 1, std::vector<double>(degree + 1));
     for (Width& width : widths_) {
@@ -155,7 +157,7 @@ class FamilyProbe {
 
   const PictureTaker& picture_taker_;
   const ModelDescription& model_;
-  SpecularFamily axis_;  // range and coordinate, without pictures
+  SpecularFamily axis_;  // range and coordinate only
   std::vector<Width> widths_;
 };
 

@@ -1,4 +1,4 @@
-// Finds, from pictures alone, few pictures that all others of a model without a law are combinations of.
+// For a model without a known specular law, finds a few pictures whose combinations give all its pictures.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,10 @@ namespace remapc {
 class PictureTaker;
 struct ModelDescription;
 
-// The family of `model` (whose canonical specular is its own parameter) with as few pictures as serve at
-// three widths within `alphas`: polynomials in specular, or in its root, of a degree up to 16 that give
-// pictures between the probed ones to picture_tolerance. None where there is no such; 9 to 198 pictures.
+// Returns the family of `model` with the fewest pictures that suffice at three widths within `alphas`. The
+// model's canonical specular must be its own parameter. Polynomials in specular or in its root, of degree 2,
+// 4, 8 or 16, are tried until one reproduces the pictures between its nodes to picture_tolerance. Returns
+// nothing if none does. Renders 9 to 198 pictures.
 std::optional<SpecularFamily> probe_family(const PictureTaker& picture_taker, const ModelDescription& model,
                                            const remap::Range& alphas);
 

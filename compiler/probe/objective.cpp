@@ -15,14 +15,14 @@ Objective objective_preset(const std::string& name) {
   if (name == "natural") return {{Light{60.0, 3.0}}, Weighting::kRelative, 0.1};
   if (name == "paper") return {{Light{}}, Weighting::kUniform, 0.1};
   const std::vector<std::string> known = {"natural", "paper"};
-  throw Error(ErrorKind::kUsage, "objective: " + name + " is unknown" + remap::suggestion(name, known));
+  throw Error(ErrorKind::kUsage, "objective: unknown objective " + name + remap::suggestion(name, known));
 }
 
 Weighting weighting_from_name(const std::string& name) {
   if (name == "uniform") return Weighting::kUniform;
   if (name == "relative") return Weighting::kRelative;
   const std::vector<std::string> known = {"uniform", "relative"};
-  throw Error(ErrorKind::kUsage, "weighting: " + name + " is unknown" + remap::suggestion(name, known));
+  throw Error(ErrorKind::kUsage, "weighting: unknown weighting " + name + remap::suggestion(name, known));
 }
 
 std::string weighting_name(Weighting weighting) {
@@ -38,7 +38,7 @@ std::vector<Light> parse_lights(const std::string& text, double distance) {
     const auto angle = item == "headlight" ? std::optional<double>(0.0) : remap::parse_number(item);
     if (!angle || !(*angle > -180.0 && *angle <= 180.0))
       throw Error(ErrorKind::kUsage,
-                  "light: \"" + item + "\"; expected headlight or degrees from -180 to 180");
+                  "light: unknown light \"" + item + "\" (choose headlight or degrees from -180 to 180)");
     lights.push_back({*angle, distance});
     start = end + 1;
   }

@@ -1,4 +1,4 @@
-// What "the same picture" means: which lights, and how much each pixel counts.
+// The objective of a match: which lights the pictures have, and how much each pixel counts.
 #pragma once
 
 #include <span>
@@ -14,27 +14,27 @@ enum class Weighting {
   kRelative,  // w = cos_view / (I / max(I) + floor), from the source picture I alone
 };
 
-// Minimised over the target's parameters: sum over lights and pixels of w^2 (source - target)^2.
+// A match minimises, over the target's parameters, the sum over lights and pixels of w^2 (source - target)^2.
 struct Objective {
   std::vector<Light> lights;
   Weighting weighting = Weighting::kRelative;
-  double floor = 0.1;  // of kRelative
+  double floor = 0.1;  // used by kRelative
 };
 
-// `paper`: headlight, uniform (the published table; section 4.1). `natural`: light at 60 degrees, relative;
-// it closes three quarters of what any choice of light and metric could gain under environment maps, at the
-// same cost. Throws kUsage for another name.
+// `paper`: headlight, uniform weights, as in the published table (section 4.1). `natural`: light at 60
+// degrees, relative weights; at the same cost it gains three quarters of what the best choice of light and
+// metric gains under environment maps. Throws kUsage for an unknown name.
 Objective objective_preset(const std::string& name);
 
-// `uniform` or `relative`. Throws kUsage for another name.
+// `uniform` or `relative`. Throws kUsage for an unknown name.
 Weighting weighting_from_name(const std::string& name);
 std::string weighting_name(Weighting weighting);
 
-// `headlight` or degrees, comma-separated, each at `distance`. Throws kUsage.
+// Parses lights, comma-separated: `headlight` or degrees, each at `distance`. Throws kUsage.
 std::vector<Light> parse_lights(const std::string& text, double distance);
 
-// w^2 for the pictures of one source material: one picture of `view_cosines.size()` pixels a light, one after
-// the other in `source`. max(I) is taken over each picture.
+// Returns w^2 for the pictures of one source material. `source` holds one picture of `view_cosines.size()`
+// pixels for each light, one after the other; max(I) is taken for each picture separately.
 std::vector<float> squared_weights(const Objective& objective, std::span<const float> source,
                                    std::span<const float> view_cosines);
 

@@ -19,7 +19,7 @@ ParameterDescription& named(ModelDescription* model, const std::string& name) {
   return model->parameters[static_cast<std::size_t>(&found - model->parameters.data())];
 }
 
-// Gives `role` to the parameter `name`. The one that had it is of no role then, and stands in `displaced`.
+// Gives `role` to the parameter `name`. The parameter that had it becomes kOther and is added to `displaced`.
 void give_role(ModelDescription* model, ParameterRole role, const std::string& name,
                std::set<std::string>* displaced) {
   if (name.empty()) return;
@@ -36,24 +36,24 @@ void give_role(ModelDescription* model, ParameterRole role, const std::string& n
 void fix(ModelDescription* model, const std::string& name, double value, std::set<std::string>* displaced) {
   ParameterDescription& parameter = named(model, name);
   if (parameter.role == ParameterRole::kRoughness || parameter.role == ParameterRole::kSpecular)
-    throw Error(ErrorKind::kUsage, model->name + ": " + name + " is fixed, but is the " +
+    throw Error(ErrorKind::kUsage, model->name + ": " + name + " is the " +
                                        std::string(role_word(parameter.role)) +
-                                       " of this remap; expected another parameter");
+                                       " of this sweep and cannot be fixed (fix another parameter)");
   require_value(*model, parameter, value);
   parameter.role = ParameterRole::kOther;
   parameter.standard = value;
   displaced->erase(name);
 }
 
-// Canonical widths of the roughness, whose parameter or convention may be another now.
+// Recomputes the range of alpha after the roughness parameter or its convention changed.
 void measure_widths(ModelDescription* model) {
   const ParameterDescription& roughness = model->parameter(ParameterRole::kRoughness);
   const remap::Range alphas = canonical_widths(model->roughness, roughness.range);
   if (!(alphas.min >= 0.0) || !(alphas.max > 0.0))
     throw Error(ErrorKind::kUsage, model->name + ": the range of " + roughness.name +
-                                       " is none of widths as " +
+                                       " is invalid for the convention " +
                                        std::string(remap::convention_name(model->roughness)) +
-                                       "; expected another convention, " + roughness.name + ":CONVENTION");
+                                       " (name another one: " + roughness.name + ":CONVENTION)");
   model->alpha = alphas;
 }
 
@@ -66,8 +66,8 @@ void cast_roughness(const std::string& text, ParameterRoles* roles) {
   const std::string word = text.substr(colon + 1);
   roles->convention = remap::convention_from_name(word);
   if (!roles->convention)
-    throw Error(ErrorKind::kUsage, text + ": " + word + " is no convention" +
-                                       remap::suggestion(word, remap::convention_names()));
+    throw Error(ErrorKind::kUsage,
+                text + ": unknown convention " + word + remap::suggestion(word, remap::convention_names()));
 }
 
 ParameterRoles recorded_roles(const std::string& roughness, const std::string& specular,
@@ -83,7 +83,8 @@ ParameterRoles recorded_roles(const std::string& roughness, const std::string& s
     const auto value =
         equals == std::string_view::npos ? std::nullopt : remap::parse_number(setting.substr(equals + 1));
     if (!value)
-      throw Error(ErrorKind::kInput, "fixed parameters: \"" + fixed + "\"; expected NAME=VALUE,NAME=VALUE");
+      throw Error(ErrorKind::kInput,
+                  "fixed parameters: cannot read \"" + fixed + "\" (use NAME=VALUE,NAME=VALUE)");
     roles.fixed[std::string(setting.substr(0, equals))] = *value;
   }
   return roles;
@@ -99,10 +100,10 @@ ModelDescription recast(const ModelDescription& model, const ParameterRoles& rol
   for (const auto& [name, value] : roles.fixed) fix(&result, name, value, &displaced);
   if (!displaced.empty())
     throw Error(ErrorKind::kUsage, model.name + ": " + *displaced.begin() +
-                                       " has lost its role and has no value; expected it fixed, " +
-                                       *displaced.begin() + "=VALUE");
+                                       " no longer has a role and needs a value (add " + *displaced.begin() +
+                                       "=VALUE to the fixed parameters)");
   for (const ParameterRole role : {ParameterRole::kRoughness, ParameterRole::kSpecular})
-    if (model.has(role)) result.parameter(role);  // throws where another role has taken the parameter
+    if (model.has(role)) result.parameter(role);  // throws if another role has taken the parameter
   if (!roles.roughness.empty() || roles.convention) measure_widths(&result);
   return result;
 }

@@ -1,6 +1,6 @@
-// Which of a model's parameters a sweep turns, and what the others are held at. A principled material has
-// more parameters than a sweep has roles: base color, metallic, roughness and specular level may each be the
-// one.
+// Chooses which parameters of a model a sweep varies and which values the others keep. A principled material
+// has more parameters than a sweep has roles: base color, metallic and specular level can each be the
+// specular.
 #pragma once
 
 #include <map>
@@ -11,29 +11,29 @@
 
 namespace remapc {
 
-// Empty names: the parameters that the model itself gives the roles to.
+// An empty name keeps the parameter to which the model itself gives the role.
 struct ParameterRoles {
   std::string roughness;
-  std::optional<remap::RoughnessConvention> convention;  // of `roughness`; none: that of the model
+  std::optional<remap::RoughnessConvention> convention;  // of `roughness`; empty: the model's own
   std::string specular;
   std::string diffuse;
   std::map<std::string, double> fixed;  // by name
 };
 
-// `NAME` or `NAME:CONVENTION`, as a command line gives the roughness of a roles. Throws kUsage.
+// Parses the roughness parameter of a command line, `NAME` or `NAME:CONVENTION`. Throws kUsage.
 void cast_roughness(const std::string& text, ParameterRoles* roles);
 
-// The roles that a table of remapc sweep records: the values of its comments `<side>_roughness_parameter`,
-// `<side>_specular` and `<side>_fixed`; empty where it has none.
+// Reads back the roles recorded in a table of remapc sweep, from its comments `<side>_roughness_parameter`,
+// `<side>_specular` and `<side>_fixed`; an empty text stands for a missing comment.
 ParameterRoles recorded_roles(const std::string& roughness, const std::string& specular,
                               const std::string& fixed);
 
-// The model with its roles given as the roles says: parameters that are fixed, and those that have lost
-// their role, are of no role and stay at a value. Throws kUsage, in words that begin with the model's name,
-// for parameters that it has not, values out of range, and a parameter that lost its role without a value.
+// Returns `model` with the roles of `roles`. Fixed parameters, and those that lost their role, become kOther
+// and keep one value. Throws kUsage, opened by the model's name, for an unknown parameter, a value out of
+// range, and a parameter that lost its role without getting a value.
 ModelDescription recast(const ModelDescription& model, const ParameterRoles& roles);
 
-// What a table says of parameters of no role: `metallic=1,specular=0.5`; empty where there are none.
+// Returns the parameters without a role as a table records them: `metallic=1,specular=0.5`.
 std::string fixed_text(const ModelDescription& model);
 
 }  // namespace remapc

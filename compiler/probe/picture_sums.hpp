@@ -1,5 +1,5 @@
-// Sums over the pixels of pictures, in double precision, in as many lanes as two registers hold and in a
-// fixed order, so that the result does not depend on what the compiler makes of the loop.
+// Sums over the pixels of pictures in double precision. They use two registers' worth of lanes in a fixed
+// order, so the result does not depend on how the compiler vectorises the loop.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ using LaneSums = std::array<double, kLanes>;
 
 inline double total(const LaneSums& sums) { return (sums[0] + sums[1]) + (sums[2] + sums[3]); }
 
-// Calls `add(pixel, lane)` for every pixel, pixel i in lane i modulo kLanes.
+// Calls `add(pixel, lane)` for every pixel; pixel i is in lane i modulo kLanes.
 template <typename Add>
 void for_each_pixel(std::size_t count, const Add& add) {
   const std::size_t whole = count - count % kLanes;
@@ -29,7 +29,7 @@ inline double inner_product(const float* a, const float* b, std::size_t count) {
   return total(sums);
 }
 
-// Sum of weights * a * b.
+// Returns the sum of weights * a * b.
 inline double weighted_product(const float* weights, const float* a, const float* b, std::size_t count) {
   LaneSums sums{};
   for_each_pixel(count, [&](std::size_t i, std::size_t lane) {

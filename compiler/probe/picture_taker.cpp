@@ -11,7 +11,7 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-// Throws for a picture of another form than the scene asks for.
+// Throws kInput if the picture's size or channel count is not what the scene asks for.
 void require_form(const Image& image, int resolution, const std::string& model) {
   const auto side = static_cast<std::size_t>(resolution);
   const bool complete = image.width == resolution && image.height == resolution &&
@@ -21,10 +21,11 @@ void require_form(const Image& image, int resolution, const std::string& model) 
     throw Error(ErrorKind::kInput, model + ": the picture is " + std::to_string(image.width) + " x " +
                                        std::to_string(image.height) + " with " +
                                        std::to_string(image.channels) + " channels; expected " +
-                                       std::to_string(resolution) + " squared, 1 or 3");
+                                       std::to_string(resolution) + " x " + std::to_string(resolution) +
+                                       " with 1 or 3");
 }
 
-// In proportion, with pictures of a range from 0: black there, and not rendered.
+// Whether the picture at specular 0 is known to be black, so that it need not be rendered.
 bool has_no_base(const ProbedModel& probed_model) {
   return probed_model.response.proportional() && probed_model.linear_range().min == 0.0;
 }
@@ -44,7 +45,7 @@ PictureTaker::PictureTaker(const Renderer& renderer, const Objective& objective,
     cosines_.push_back(cosines[i]);
   }
   if (pixels_.empty())
-    throw Error(ErrorKind::kUsage, "resolution: no pixel shows the sphere; expected more pixels");
+    throw Error(ErrorKind::kUsage, "resolution: no pixel shows the sphere (use a higher resolution)");
 }
 
 std::vector<std::vector<float>> PictureTaker::take_channels(const Material& material) const {
@@ -58,7 +59,7 @@ std::vector<std::vector<float>> PictureTaker::take_channels(const Material& mate
       for (std::size_t c = 0; c < channels; ++c) {
         const float value = image.values[channels * pixel + c];
         if (!std::isfinite(value))
-          throw Error(ErrorKind::kInput, material.model + ": the picture has a pixel that is not finite");
+          throw Error(ErrorKind::kInput, material.model + ": a pixel of the picture is infinite or NaN");
         rows[c].push_back(value);
       }
   }
@@ -73,7 +74,7 @@ std::vector<float> PictureTaker::take(const Material& material) const {
     const float tolerance = 1e-4f * std::max({red, green, blue, 1e-6f});
     if (std::fabs(red - green) > tolerance || std::fabs(red - blue) > tolerance)
       throw Error(ErrorKind::kInput,
-                  material.model + ": the picture of a grey material has color; expected equal channels");
+                  material.model + ": the picture of a grey material is colored; its channels must be equal");
   }
   return std::move(rows[1]);
 }

@@ -8,10 +8,10 @@ namespace {
 
 using remap::Range;
 
-// Newton's steps at most; each that leaves the bracket halves it instead.
+// Limit of Newton's iterations; a step that would leave the bracket bisects it instead.
 constexpr int kMostSteps = 100;
 
-// The zero of a polynomial of which `low` and `high` bracket one: its values there differ in sign.
+// Returns the zero of a polynomial between `low` and `high`, where its values must differ in sign.
 double bracketed_root(const std::vector<double>& coefficients, const std::vector<double>& derivative,
                       double low, double high) {
   const bool rises = polynomial_value(coefficients, low) < 0.0;
@@ -28,8 +28,8 @@ double bracketed_root(const std::vector<double>& coefficients, const std::vector
   return x;
 }
 
-// Zeros within `range` where the sign changes, ascending. Between neighbouring zeros of the derivative there
-// is one at most.
+// Returns the zeros within `range` at which the sign changes, ascending. Neighbouring zeros of the derivative
+// enclose at most one.
 std::vector<double> roots(const std::vector<double>& coefficients, const Range& range) {
   if (coefficients.size() < 2) return {};
   const std::vector<double> derivative = polynomial_derivative(coefficients);

@@ -1,4 +1,4 @@
-// Polynomials in one variable as their coefficients, ascending powers: how a loss depends on specular.
+// Polynomials in one variable, as coefficients in ascending powers. The loss of a match is one in specular.
 #pragma once
 
 #include <vector>
@@ -7,24 +7,24 @@
 
 namespace remapc {
 
-// Value at `x` (Horner's rule). No coefficients: 0.
+// Returns the value at `x` (Horner's rule); 0 for no coefficients.
 double polynomial_value(const std::vector<double>& coefficients, double x);
 
 std::vector<double> polynomial_derivative(const std::vector<double>& coefficients);
 
 std::vector<double> polynomial_product(const std::vector<double>& a, const std::vector<double>& b);
 
-// Lagrange's basis on `nodes`: the polynomial that is 1 at node `k` and 0 at the others.
+// Returns the Lagrange basis polynomial on `nodes` that is 1 at node `k` and 0 at the others.
 std::vector<double> lagrange_polynomial(const std::vector<double>& nodes, std::size_t k);
 
-// Where a polynomial is at least what it is nearby within a range, and its value there.
+// A local minimum of a polynomial within a range.
 struct PolynomialMinimum {
   double at = 0.0;
   double value = 0.0;
 };
 
-// All local minima over `range`, ends included, least first; at least one. A parabola has its vertex, moved
-// into the range.
+// Returns all local minima over `range`, ends included, the smallest value first; at least one. The vertex of
+// a parabola is moved into the range.
 std::vector<PolynomialMinimum> polynomial_minima(const std::vector<double>& coefficients,
                                                  const remap::Range& range);
 

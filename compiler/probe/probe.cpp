@@ -19,21 +19,21 @@ using remap::Range;
 
 using Picture = std::vector<float>;
 
-// Pictures are floats: three of them combined are good to a few 2^-24 of the brightest pixel.
+// Pictures are floats: a combination of three is exact to a few 2^-24 of the brightest pixel.
 constexpr double kPictureTolerance = 2e-6;
-// A quotient of sums over pixels is better than that.
+// A quotient of sums over many pixels is more accurate than one pixel.
 constexpr double kRatioTolerance = 1e-6;
-// Widths that hold a highlight are told from others to this.
+// Relative precision of the end of the widths that a renderer clamps.
 constexpr double kWidthPrecision = 2e-3;
-// A knee below this share of the range is no knee that a person would meet.
+// Bisection stops here: a knee below this share of the range has no practical effect.
 constexpr int kMostHalvings = 20;
 
-// As picture_tolerance, for a quotient of sums.
+// Like picture_tolerance, for a quotient of sums.
 double ratio_tolerance(const ModelDescription& model) { return std::max(kRatioTolerance, model.precision); }
 
 double brightest(const Picture& picture) { return *std::max_element(picture.begin(), picture.end()); }
 
-// Largest |(1 - t) low + t high - found|, relative to the brightest pixel of `high`.
+// Returns the largest |(1 - t) low + t high - found|, relative to the brightest pixel of `high`.
 double line_deviation(const Picture& low, const Picture& high, double t, const Picture& found) {
   double worst = 0.0;
   for (std::size_t i = 0; i < low.size(); ++i) {
@@ -47,7 +47,7 @@ bool is_black(const Picture& picture) {
   return std::all_of(picture.begin(), picture.end(), [](float value) { return value == 0.0f; });
 }
 
-// The pictures of a model at one width, at the ends and in the middle of its specular range.
+// Renders a model at one width, at the ends and in the middle of its specular range.
 struct WidthProbe {
   double alpha;
   Picture low, middle, high;
@@ -64,7 +64,7 @@ class SpecularProbe {
                        take(alpha, range_.max)};
       if (!(brightest(probe.high) > 0.0))
         throw Error(ErrorKind::kInput,
-                    model.name + ": the picture at full specular is black; expected a highlight");
+                    model.name + ": the picture at full specular is black; a highlight is needed");
       widths_.push_back(std::move(probe));
     }
   }
@@ -92,7 +92,7 @@ class SpecularProbe {
     return picture_taker_.take(model_, RoleValues{alpha, specular, 0.0});
   }
 
-  // Nothing is known of a picture at 0 where the range does not begin there, in F0 for a range of indices.
+  // Unknown (false) if the range does not begin at 0, in F0 for a range of indices.
   bool black_at_zero() const {
     if (range_.min != 0.0 && range_.min != 1.0) return false;
     return std::all_of(widths_.begin(), widths_.end(),
@@ -106,7 +106,7 @@ class SpecularProbe {
     return worst;
   }
 
-  // From affine in F0 of an index: at the middle of the range, and where F0 is half way.
+  // Deviation from affine in the F0 of an index: in the middle of the range, and where F0 is half way.
   double ior_deviation() const {
     if (range_.min < 1.0) return 1.0;
     const double low = normal_reflectance(range_.min), high = normal_reflectance(range_.max);
@@ -121,7 +121,7 @@ class SpecularProbe {
     return worst;
   }
 
-  // How far along the line from `low` to `high` a picture lies; none where it lies beside it.
+  // How far a picture lies along the line from `low` to `high`; nothing if it does not lie on the line.
   std::optional<double> share(const WidthProbe& probe, double specular) const {
     const Picture picture = take(probe.alpha, specular);
     double product = 0.0, power = 0.0;
@@ -136,7 +136,7 @@ class SpecularProbe {
     return product / power;
   }
 
-  // The knee at one width: a value below it says where it must lie, and others on both sides confirm it.
+  // The knee at one width: a picture below the knee determines its place, pictures on both sides confirm it.
   std::optional<double> knee_at(const WidthProbe& probe) const {
     double step = 0.5 * (range_.max - range_.min);
     std::optional<double> reached = share(probe, range_.min + step);
@@ -146,7 +146,7 @@ class SpecularProbe {
       reached = share(probe, range_.min + step);
     }
     if (!reached || !(*reached > 0.0)) return std::nullopt;
-    const double length = step / *reached;  // from the range's minimum to the knee
+    const double length = step / *reached;  // from the start of the range to the knee
     for (const double distance :
          {0.3 * length, 0.97 * length, 1.03 * length, 0.5 * (length + range_.max - range_.min)}) {
       if (range_.min + distance > range_.max) return std::nullopt;
@@ -187,17 +187,18 @@ SpecularResponse probe_specular(const PictureTaker& picture_taker, const ModelDe
 
 EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescription& model,
                              const Range& alphas) {
-  // The peak goes with 1 / alpha^2: a step of the width shows in it twice over, unless the width is held.
+  // The peak is proportional to 1 / alpha^2, so it changes by twice the step unless the renderer clamps the
+  // width.
   const double step = 1.0 + std::max(kWidthPrecision, 4.0 * picture_tolerance(model));
   if (!(alphas.max > step * step * alphas.min)) return {alphas, alphas};
   const double full = model.parameter(ParameterRole::kSpecular).range.max;
   const auto responds = [&](double alpha, double neighbour) {
     const Picture here = picture_taker.take(model, RoleValues{alpha, full, 0.0});
-    const Picture beside = picture_taker.take(model, RoleValues{neighbour, full, 0.0});
-    if (is_black(here) || is_black(beside)) return false;
-    return line_deviation(beside, here, 0.0, here) > picture_tolerance(model);
+    const Picture nearby = picture_taker.take(model, RoleValues{neighbour, full, 0.0});
+    if (is_black(here) || is_black(nearby)) return false;
+    return line_deviation(nearby, here, 0.0, here) > picture_tolerance(model);
   };
-  // From an end towards widths that are free: the middle, or else the other end.
+  // Bisects from a clamped end towards a width that is not clamped: the middle, or else the other end.
   const double middle = std::sqrt(alphas.min * alphas.max);
   const auto end = [&](double held, double other) {
     const double inwards = held < other ? step : 1.0 / step;
@@ -206,7 +207,7 @@ EffectiveWidths probe_widths(const PictureTaker& picture_taker, const ModelDescr
     if (free == other && !responds(other, other / inwards))
       throw Error(ErrorKind::kInput, model.name + ": no width from alpha " + remap::number_text(alphas.min) +
                                          " to " + remap::number_text(alphas.max) +
-                                         " changes its picture; expected a highlight with one");
+                                         " changes its picture (the roughness has no effect)");
     while (std::max(free / held, held / free) > step) {
       const double between = std::sqrt(held * free);
       (responds(between, between / inwards) ? free : held) = between;

@@ -10,8 +10,8 @@ namespace {
 
 using remap::Range;
 
-// Below this share of the range the derivative by specular is taken to be that at this share: that of a root
-// is infinite at 0, and that of a picture made of roots is what rounding leaves of it.
+// Below this share of the range the derivative by specular is evaluated at this share. A root has an infinite
+// derivative at 0, where pictures composed of roots hold rounding errors only.
 constexpr double kLeastShare = 1e-4;
 
 }  // namespace
@@ -41,7 +41,7 @@ std::vector<double> SpecularFamily::weights_at(double specular) const {
 }
 
 std::vector<double> SpecularFamily::slopes_at(double specular) const {
-  double rise = 1.0;  // of the coordinate, by specular
+  double rise = 1.0;  // derivative of the coordinate by specular
   if (coordinate_kind != SpecularCoordinate::kSpecular) rise = 2.0 / (range.max - range.min);
   if (coordinate_kind == SpecularCoordinate::kRoot) {
     const double share = std::max(kLeastShare, (specular - range.min) / (range.max - range.min));

@@ -1,4 +1,4 @@
-// The law that pictures of a model follow over its specular parameter.
+// The law by which the pictures of a model depend on its specular parameter.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@
 
 namespace remapc {
 
-// How pictures depend on the specular parameter of a model. All but kOther have a canonical coordinate in
+// How pictures depend on a model's specular parameter. All laws but kOther have a canonical coordinate in
 // which the picture is base + specular * slope.
 enum class SpecularLaw {
   kProportional,  // specular * slope
@@ -23,13 +23,14 @@ std::string_view law_name(SpecularLaw law);
 struct SpecularResponse {
   SpecularLaw law = SpecularLaw::kOther;
   bool black_base = false;  // the picture is black where the canonical specular is 0
-  double knee = 0.0;        // of kClamped, in the parameter's own unit
-  double residual = 0.0;    // largest deviation from the law (kOther: from affine), relative to the brightest
+  double knee = 0.0;        // for kClamped, in the parameter's own unit
+  double residual =
+      0.0;  // largest deviation from the law (kOther: from affine), relative to the brightest pixel
 
   bool affine() const { return law != SpecularLaw::kOther; }
   bool proportional() const { return affine() && black_base; }
 
-  // The parameter to the canonical coordinate and back: F0 for kIor, else the parameter as it is.
+  // Converts the parameter to the canonical coordinate and back: F0 for kIor, else the parameter itself.
   double canonical(double own) const;
   double own(double canonical) const;
 };

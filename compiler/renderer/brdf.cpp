@@ -39,7 +39,7 @@ double phong(double alpha, const LocalGeometry& g) {
   return (exponent + 2.0) / (2.0 * pi) * std::pow(g.cos_mirror, exponent);
 }
 
-// The torrance-sparrow factor without Fresnel: D G / (4 cos_light cos_view).
+// D G / (4 cos_light cos_view): the Torrance-Sparrow lobe without Fresnel.
 double microfacet(Brdf distribution, double alpha, const LocalGeometry& g) {
   return microfacet_distribution(distribution, alpha, g.cos_half) *
          smith_shadowing(distribution, alpha, g.cos_light) *

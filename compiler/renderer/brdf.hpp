@@ -16,8 +16,8 @@ struct LocalGeometry {
   double cos_mirror;      // mirrored light to view
 };
 
-// Reflectance of one model: `base` + specular * `slope`. With Schlick's Fresnel (1994) base is the part that
-// stays at F0 = 0; models with a plain scale have none.
+// Reflectance of one model: `base` + specular * `slope`. Under Schlick's Fresnel (1994), `base` is the
+// reflectance at F0 = 0. It is 0 for models whose specular is a plain scale.
 struct Lobe {
   double base;
   double slope;
@@ -26,35 +26,37 @@ struct Lobe {
 enum class Brdf { kWard, kWardDuer, kWardBalanced, kPhong, kBeckmann, kGgx, kAs };
 enum class Fresnel { kNone, kSchlick };
 
-// What a model of the built-in renderer is made of.
+// The parts of a built-in model.
 struct BrdfModel {
   Brdf brdf = Brdf::kGgx;
   Fresnel fresnel = Fresnel::kSchlick;
   bool operator==(const BrdfModel&) const = default;
 };
 
-// The built-in model of this name, for those who light it otherwise than by the lights of a Scene. Throws
-// kUsage with the nearest known name, and for a model that is neither scaled nor given by F0.
+// Returns the built-in model `name`, for callers with lights other than those of a Scene. Throws kUsage for
+// an unknown name (with the nearest), and for a model whose specular is neither a scale nor F0.
 BrdfModel builtin_brdf(const std::string& name);
 
-// A model whose specular map holds a scale or F0: `lobe` where reflectance is linear in it; else `lobe` is of
-// a mirror-white surface, and F0 that of a dielectric under exact Fresnel reflectance.
+// A model whose specular map holds a scale or F0. `lobe` is the model itself where reflectance is linear in
+// that value. Otherwise `lobe` is that of a perfect mirror, to be multiplied by the exact Fresnel reflectance
+// of a dielectric with the map's F0.
 struct MapModel {
   BrdfModel lobe;
   bool is_dielectric = false;
 };
 
-// The built-in model of this name for maps, which hold values of 0 to 1: where a model is given by an index,
-// its F0. Throws kUsage with the nearest known name, and for conductors, of which F0 does not tell the index.
+// Returns the built-in model `name` for maps with values of 0 to 1: of a model with an index of refraction,
+// the map holds F0. Throws kUsage for an unknown name (with the nearest), and for conductors, since F0 does
+// not determine their index.
 MapModel builtin_map_model(const std::string& name);
 
-// The lobe of a mirror-white surface: reflectance without Fresnel.
+// Returns the lobe of a perfect mirror: reflectance without Fresnel.
 double evaluate_shape(Brdf brdf, double alpha, const LocalGeometry& geometry);
 
 Lobe evaluate_lobe(Brdf brdf, Fresnel fresnel, double alpha, const LocalGeometry& geometry);
 
-// Normal distribution of microfacets with projected area 1, and separable Smith shadowing for one direction
-// (Walter et al. 2007). For kBeckmann, kGgx, kAs.
+// The normal distribution of microfacets, normalised to projected area 1, and the separable Smith shadowing
+// of one direction (Walter et al. 2007). Both take kBeckmann, kGgx, kAs.
 double microfacet_distribution(Brdf brdf, double alpha, double cos_half);
 double smith_shadowing(Brdf brdf, double alpha, double cos_direction);
 

@@ -1,5 +1,5 @@
-// The built-in renderer: the hub's models on the sweep scene, in double precision, without any approximation
-// but the sampling of the pixel.
+// The built-in renderer renders the hub's models in the sweep scene, in double precision. It approximates
+// nothing but the average over a pixel.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,10 +25,10 @@ using remap::ErrorKind;
 using remap::Range;
 using remap::RoughnessConvention;
 
-// What the parameters beside width and diffuse mean, and which reflectance they give the lobe.
+// What the parameters other than width and diffuse mean, and which reflectance they give the lobe.
 enum class Reflectance {
   kScale,         // `specular`, 0 to 1
-  kTrimmedScale,  // `specular`, 0 to 2, trimmed to 1 so that energy is conserved
+  kTrimmedScale,  // `specular`, 0 to 2, clamped to 1 so that energy is conserved
   kSchlick,       // `f0`, with Schlick's Fresnel
   kSchlickIor,    // `ior`: Schlick's Fresnel with F0 from equation (1) of the paper
   kDielectric,    // `ior`: exact Fresnel of a dielectric
@@ -43,7 +43,7 @@ struct BuiltinModel {
   RoughnessConvention roughness = RoughnessConvention::kAlpha;
 };
 
-// Names as in the hub; `-plain` scales the microfacet lobe by a constant reflectance instead of Schlick's F0.
+// Names as in the hub; `-plain` multiplies the microfacet lobe by a constant instead of Schlick's Fresnel.
 constexpr std::array kModels = {
     BuiltinModel{"mitsuba/ward", Brdf::kWard, Reflectance::kScale},
     BuiltinModel{"mitsuba/ward-duer", Brdf::kWardDuer, Reflectance::kScale},
@@ -71,10 +71,10 @@ constexpr std::array kModels = {
     BuiltinModel{"mitsuba/as-metallic", Brdf::kAs, Reflectance::kMetallic, RoughnessConvention::kRoughness},
 };
 
-// Widths below 1e-4 are mirrors that no picture of the sweep resolves.
+// Below 1e-4 a lobe is a mirror that no picture of the sweep resolves.
 constexpr Range kAlphaRange{1e-4, 1.0};
-// Of dielectrics, from none to germanium's in the infrared; of conductors, what measurements in visible light
-// have, the 0 of values projected into a color space included.
+// Dielectrics: from no boundary to germanium in the infrared. Conductors: the measured values of visible
+// light, including the 0 that a projection into a color space gives.
 constexpr Range kIorRange{1.0, 4.0};
 constexpr Range kEtaRange{0.0, 12.0};
 constexpr Range kExtinctionRange{0.0, 20.0};
@@ -118,15 +118,15 @@ ModelDescription describe(const BuiltinModel& model) {
   return description;
 }
 
-// None where the name is unknown.
+// Returns null for an unknown name.
 const BuiltinModel* find_builtin(const std::string& name) {
   const auto model = std::find_if(kModels.begin(), kModels.end(),
                                   [&](const BuiltinModel& candidate) { return name == candidate.name; });
   return model == kModels.end() ? nullptr : &*model;
 }
 
-// One lit sample of the picture: its pixel, its directions, and cos_light / distance^2 over the samples a
-// pixel.
+// One lit sample of the picture: its pixel, its directions, and cos_light / distance^2 divided by the number
+// of samples in the pixel.
 struct LitSample {
   std::uint32_t pixel;
   LocalGeometry geometry;
@@ -182,7 +182,7 @@ class BuiltinRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
  private:
-  // Directions depend on the scene alone; a sweep takes hundreds of pictures of a few scenes.
+  // The directions depend on the scene only, and a sweep renders hundreds of pictures of a few scenes.
   std::shared_ptr<const std::vector<LitSample>> samples_of(const Scene& scene) const;
 
   mutable std::mutex mutex_;
@@ -192,13 +192,13 @@ class BuiltinRenderer final : public Renderer {
 void require_scene(const Scene& scene) {
   if (scene.resolution < 1 || scene.resolution > 16384)
     throw Error(ErrorKind::kUsage,
-                "resolution: " + std::to_string(scene.resolution) + "; expected 1 to 16384");
+                "resolution: " + std::to_string(scene.resolution) + " is out of range (1 to 16384)");
   if (scene.samples_per_axis < 1 || scene.samples_per_axis > 64)
     throw Error(ErrorKind::kUsage,
-                "samples in a pixel: " + std::to_string(scene.samples_per_axis) + "; expected 1 to 64");
+                "pixel samples: " + std::to_string(scene.samples_per_axis) + " is out of range (1 to 64)");
   if (!(scene.light.distance > 1.0))
     throw Error(ErrorKind::kUsage, "light distance: " + remap::number_text(scene.light.distance) +
-                                       "; expected more than 1, the radius of the sphere");
+                                       " is inside the sphere (use more than 1, its radius)");
 }
 
 std::shared_ptr<const std::vector<LitSample>> BuiltinRenderer::samples_of(const Scene& scene) const {
@@ -215,10 +215,10 @@ struct Channel {
   double specular = 0.0;  // scale, F0, or the index of a dielectric
   double eta = 0.0, k = 0.0;
   double diffuse = 0.0;
-  double metallic = 0.0, level = 0.0;  // of kMetallic, whose base color stands in `specular`
+  double metallic = 0.0, level = 0.0;  // of kMetallic; its base color is in `specular`
 };
 
-// Base color, metallic and specular level as diffuse and F0 (Sztrajman et al. 2019, equation 2).
+// Converts base color, metallic and specular level to diffuse and F0 (Sztrajman et al. 2019, equation 2).
 Channel layered(const Channel& metal) {
   Channel channel = metal;
   channel.diffuse = metal.specular * (1.0 - metal.metallic);
@@ -230,7 +230,7 @@ double channel_value(const std::vector<double>& values, std::size_t channel) {
   return values[values.size() == 1 ? 0 : channel];
 }
 
-// Values of the material for each channel; one channel where all are grey.
+// The parameter values of each channel; one channel where all parameters are grey.
 std::vector<Channel> channels_of(const Material& material, const ModelDescription& description,
                                  Reflectance reflectance) {
   std::vector<Channel> channels(1);
@@ -256,8 +256,8 @@ std::vector<Channel> channels_of(const Material& material, const ModelDescriptio
   return channels;
 }
 
-// A lobe of mirror white, `shape`, with the reflectance of one channel. Schlick's weight is that of the
-// geometry.
+// The reflectance of one channel, from `shape`, the lobe of a perfect mirror, and `schlick`, Schlick's weight
+// at this geometry.
 double specular_reflectance(Reflectance reflectance, double shape, double schlick, const Channel& channel,
                             double cos_light_half) {
   switch (reflectance) {
@@ -310,9 +310,9 @@ BrdfModel builtin_brdf(const std::string& name) {
   const BuiltinModel* model = find_builtin(name);
   if (model->reflectance == Reflectance::kScale) return {model->brdf, Fresnel::kNone};
   if (model->reflectance == Reflectance::kSchlick) return {model->brdf, Fresnel::kSchlick};
-  throw Error(ErrorKind::kUsage, name +
-                                     ": is given by an index of refraction or trimmed; expected a model of a "
-                                     "plain scale or F0");
+  throw Error(
+      ErrorKind::kUsage,
+      name + ": its specular is neither a scale nor F0 (choose a model with `specular` from 0 to 1 or `f0`)");
 }
 
 MapModel builtin_map_model(const std::string& name) {
@@ -331,9 +331,10 @@ MapModel builtin_map_model(const std::string& name) {
     case Reflectance::kConductor:
       break;
   }
-  throw Error(ErrorKind::kUsage, name +
-                                     ": is a conductor, whose index maps of F0 do not tell; expected a "
-                                     "model of a scale, of F0 or of a dielectric");
+  throw Error(ErrorKind::kUsage,
+              name +
+                  ": F0 does not determine the index of a conductor (choose a model with a "
+                  "scale, F0 or the index of a dielectric)");
 }
 
 std::unique_ptr<Renderer> make_builtin_renderer() { return std::make_unique<BuiltinRenderer>(); }

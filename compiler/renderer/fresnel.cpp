@@ -14,7 +14,7 @@ double ior_of_reflectance(double f0) {
 
 PolarisedReflectance fresnel_dielectric(double cosine, double ior) {
   const double sine_2 = std::max(0.0, 1.0 - cosine * cosine);
-  const double transmitted_2 = 1.0 - sine_2 / (ior * ior);  // cosine^2 of the refracted ray, by Snell's law
+  const double transmitted_2 = 1.0 - sine_2 / (ior * ior);  // cos^2 of the refracted ray, by Snell's law
   if (transmitted_2 <= 0.0) return {1.0, 1.0};
   const double transmitted = std::sqrt(transmitted_2);
   const double p = (ior * cosine - transmitted) / (ior * cosine + transmitted);
@@ -23,7 +23,7 @@ PolarisedReflectance fresnel_dielectric(double cosine, double ior) {
 }
 
 PolarisedReflectance fresnel_conductor(double cosine, double eta, double k) {
-  // a and b are the real and imaginary part of sqrt(c^2 - sin^2), the refracted ray's index times its cosine.
+  // a + i b = sqrt(c^2 - sin^2): the index times the cosine of the refracted ray.
   const double cosine_2 = cosine * cosine, sine_2 = std::max(0.0, 1.0 - cosine_2);
   const double real = eta * eta - k * k - sine_2;
   const double length = std::sqrt(real * real + 4.0 * eta * eta * k * k);

@@ -6,29 +6,30 @@
 
 namespace remapc {
 
-// F0 = (c - 1)(c* - 1) / ((c + 1)(c* + 1)) of a complex index of refraction c = eta + i k relative to the
-// outside (Sztrajman et al. 2019, equation 1); in [0, 1] for eta >= 0. The sign of k does not matter.
+// Returns F0 = (c - 1)(c* - 1) / ((c + 1)(c* + 1)) for a complex index of refraction c = eta + i k relative
+// to the outside (Sztrajman et al. 2019, equation 1). The result is in [0, 1] for eta >= 0, whatever the sign
+// of k.
 double normal_reflectance(std::complex<double> ior);
 
-// The real index >= 1 whose normal_reflectance is `f0` in [0, 1): (1 + sqrt(f0)) / (1 - sqrt(f0)).
+// Returns the real index >= 1 whose normal_reflectance is `f0` in [0, 1): (1 + sqrt(f0)) / (1 - sqrt(f0)).
 double ior_of_reflectance(double f0);
 
-// Reflectance for light polarised in the plane of incidence (p) and across it (s).
+// Reflectance of light polarised in the plane of incidence (p) and perpendicular to it (s).
 struct PolarisedReflectance {
   double p;
   double s;
   double mean() const { return 0.5 * (p + s); }
 };
 
-// A dielectric of relative index `ior` > 0 seen from outside under `cosine` in [0, 1] (Fresnel 1823). 1 where
-// all light is reflected (ior < 1).
+// Reflectance of a dielectric with relative index `ior` > 0, seen from outside; `cosine` in [0, 1] is that of
+// the angle of incidence (Fresnel 1823). Returns 1 under total reflection, which needs ior < 1.
 PolarisedReflectance fresnel_dielectric(double cosine, double ior);
 
-// A conductor of index eta + i k, eta > 0, k >= 0 (Born and Wolf 1999, section 14.2; no approximation).
-// With k = 0 it is a dielectric.
+// Reflectance of a conductor with index eta + i k, eta > 0, k >= 0, without approximation (Born and Wolf
+// 1999, section 14.2). At k = 0 it equals fresnel_dielectric.
 PolarisedReflectance fresnel_conductor(double cosine, double eta, double k);
 
-// Schlick's weight of white, (1 - cosine)^5 (Schlick 1994): F = F0 + (1 - F0) weight.
+// Returns (1 - cosine)^5, the weight of white in Schlick's Fresnel (1994): F = F0 + (1 - F0) weight.
 double schlick_weight(double cosine);
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// A linear float image, as renderers give it and the matching reads it.
+// A linear float image: the result of a renderer and the input of the match.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace remapc {
 
-// Row 0 is the top, column 0 is -x; `channels` values a pixel, interleaved. Linear radiance.
+// Linear radiance, `channels` interleaved values a pixel. Row 0 is at the top, column 0 at -x.
 struct Image {
   int width = 0;
   int height = 0;

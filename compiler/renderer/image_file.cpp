@@ -16,23 +16,23 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-// Places of red, green and blue: by name, else the first three; the only channel for all of them.
+// Finds red, green and blue: by name, else the first three channels; a single channel serves as all three.
 std::array<int, 3> color_channels(const OIIO::ImageSpec& spec, const std::filesystem::path& path) {
   if (spec.nchannels == 1) return {0, 0, 0};
   const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
   if (named[0] >= 0 && named[1] >= 0 && named[2] >= 0) return named;
   if (spec.nchannels >= 3) return {0, 1, 2};
-  throw Error(ErrorKind::kInput, path.string() + ": has 2 channels; expected R, G, B or one");
+  throw Error(ErrorKind::kInput, path.string() + ": 2 channels found (provide R, G, B or one channel)");
 }
 
 void require_extension(const std::filesystem::path& path, const std::string& extension,
                        const std::string& expected) {
   if (path.extension() != extension)
     throw Error(ErrorKind::kUsage,
-                path.string() + ": has not the extension " + extension + "; expected " + expected);
+                path.string() + ": the extension must be " + extension + " (" + expected + ")");
 }
 
-// Writes under an unfinished name, asks `is_whole` about that file, renames.
+// Writes to a temporary name, lets `is_whole` check that file, then renames it.
 void write_picture(const std::filesystem::path& path, const Image& image, const OIIO::ImageSpec& spec,
                    const std::function<bool(const std::filesystem::path&)>& is_whole) {
   remap::create_parent(path);
@@ -42,7 +42,7 @@ void write_picture(const std::filesystem::path& path, const Image& image, const 
                        output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) && output->close();
   if (!written || !is_whole(unfinished)) {
     std::string reason = output ? output->geterror() : OIIO::geterror();
-    if (reason.empty()) reason = "the file is not whole";
+    if (reason.empty()) reason = "the file is incomplete";
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);
     throw Error(ErrorKind::kOutput, path.string() + ": cannot be written: " + reason);
@@ -57,14 +57,14 @@ Image read_rgb(const std::filesystem::path& path) {
     throw Error(ErrorKind::kInput, path.string() + ": cannot be read: " + reason);
   };
   if (std::error_code failure; !std::filesystem::is_regular_file(path, failure))
-    refuse(failure ? failure.message() : "is no file");
+    refuse(failure ? failure.message() : "not a file");
   const auto input = OIIO::ImageInput::open(path.string());
   if (!input) refuse(OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
   const std::array<int, 3> channels = color_channels(spec, path);
   const auto count = static_cast<std::size_t>(spec.nchannels);
   std::vector<float> values(spec.image_pixels() * count);
-  // A file that was cut off may be read "successfully": only the pending message tells.
+  // OpenImageIO may read a truncated file without failing; only the pending error message shows it.
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()) || input->has_error())
     refuse(input->geterror());
   Image image{spec.width, spec.height, 3, {}};
@@ -91,7 +91,7 @@ void write_exr(const std::filesystem::path& path, const Image& image,
 void write_png(const std::filesystem::path& path, const Image& image) {
   require_extension(path, ".png", "a PNG file");
   const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
-  // OpenImageIO's PNG writer does not notice a full disk: the file is read back before it gets its name.
+  // OpenImageIO's PNG writer does not report a full disk, so the file is read back before it is renamed.
   write_picture(path, image, spec, [&](const std::filesystem::path& unfinished) {
     const auto input = OIIO::ImageInput::open(unfinished.string());
     std::vector<unsigned char> bytes(image.values.size());
@@ -109,7 +109,7 @@ std::string png_bytes(const Image& image) {
   if (!output || !output->open("memory.png", spec) ||
       !output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) || !output->close())
     throw Error(ErrorKind::kOutput,
-                "a PNG picture cannot be made: " + (output ? output->geterror() : OIIO::geterror()));
+                "PNG image: cannot be encoded: " + (output ? output->geterror() : OIIO::geterror()));
   return {bytes.begin(), bytes.end()};
 }
 

@@ -1,4 +1,4 @@
-// Pictures of the sweep as files. The compiler's only contact with OpenImageIO.
+// Reads and writes the compiler's pictures. Only these two files of the compiler include OpenImageIO.
 #pragma once
 
 #include <filesystem>
@@ -10,22 +10,21 @@
 
 namespace remapc {
 
-// The R, G and B of a picture (EXR, HDR, any that OpenImageIO reads) as linear floats, whatever else it
-// holds; one channel three times where it has only one. Throws kInput where it cannot be read or has two
-// channels.
+// Reads the R, G and B of a picture as linear floats and ignores its other channels. The format is any that
+// OpenImageIO reads (EXR, HDR). A single channel becomes all three. Throws kInput for a file that cannot be
+// read, and for one with two channels.
 Image read_rgb(const std::filesystem::path& path);
 
-// Writes a linear float32 EXR (zip), with `attributes` as metadata. `channels`: their names; where there are
-// none, Y for one and R, G, B for three. Appears under its final name whole or not at all. Throws kOutput.
+// Writes a linear float32 EXR (zip) with `attributes` as metadata. `channels` holds the channel names; if it
+// is empty, one channel is Y and three are R, G, B. The file appears complete or not at all. Throws kOutput.
 void write_exr(const std::filesystem::path& path, const Image& image,
                const std::map<std::string, std::string>& attributes,
                const std::vector<std::string>& channels = {});
 
-// Writes display values, 0 to 1, as an 8-bit PNG. Appears under its final name whole or not at all. Throws
-// kOutput.
+// Writes display values, 0 to 1, as an 8-bit PNG. The file appears complete or not at all. Throws kOutput.
 void write_png(const std::filesystem::path& path, const Image& image);
 
-// The bytes of such a PNG file. Throws kOutput where OpenImageIO cannot make it.
+// Returns the bytes of such a PNG file. Throws kOutput if OpenImageIO cannot encode it.
 std::string png_bytes(const Image& image);
 
 }  // namespace remapc

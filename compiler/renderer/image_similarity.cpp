@@ -25,7 +25,7 @@ Kernel gaussian_kernel() {
   return kernel;
 }
 
-// The position in a line of `count` pixels that is mirrored at its ends, the last pixel twice:
+// Maps a position to a line of `count` pixels that is mirrored at both ends with the last pixel repeated:
 // dcba|abcd|dcba.
 int mirrored(int position, int count) {
   const int period = 2 * count;
@@ -33,14 +33,13 @@ int mirrored(int position, int count) {
   return within < count ? within : period - 1 - within;
 }
 
-// Both pictures, their squares and their product, a pixel: what the similarity takes local means of.
+// Local means of these are needed: both pictures, their squares and their product.
 enum Moment { kMeanA, kMeanB, kSquareA, kSquareB, kProduct, kMomentCount };
 using Moments = std::array<double, kMomentCount>;
 
 Moments moments_of(double a, double b) { return {a, b, a * a, b * b, a * b}; }
 
-// Convolves lines of `count` pixels that lie `step` apart; `lines` of them, whose starts lie `line_step`
-// apart.
+// Convolves `lines` lines of `count` pixels. Pixels of a line are `step` apart, starts of lines `line_step`.
 std::vector<Moments> smoothed(const std::vector<Moments>& values, const Kernel& kernel, int count,
                               std::size_t step, int lines, std::size_t line_step) {
   std::vector<Moments> result(values.size());
@@ -71,8 +70,8 @@ double similarity(const Moments& m) {
 
 void require_same_size(std::size_t a, std::size_t b, std::size_t expected) {
   if (a == expected && b == expected) return;
-  throw remap::Error(remap::ErrorKind::kUsage, "likeness: pictures of " + std::to_string(a) + " and " +
-                                                   std::to_string(b) + " values; expected " +
+  throw remap::Error(remap::ErrorKind::kUsage, "image similarity: pictures of " + std::to_string(a) +
+                                                   " and " + std::to_string(b) + " values; expected " +
                                                    std::to_string(expected) + " each");
 }
 

@@ -46,7 +46,7 @@ const ParameterDescription& ModelDescription::parameter(ParameterRole role) cons
   for (const ParameterDescription& description : parameters)
     if (description.role == role) return description;
   throw remap::Error(remap::ErrorKind::kUsage, name + ": has no parameter for " + role_name(role) +
-                                                   "; expected a model with one (remapc list --models)");
+                                                   " (remapc list --models shows those of every model)");
 }
 
 const ParameterDescription& ModelDescription::parameter(const std::string& parameter_name) const {
@@ -68,15 +68,15 @@ ModelDescription Renderer::model(const std::string& name) const {
     names.push_back(model.name);
   }
   throw remap::Error(remap::ErrorKind::kUsage,
-                     name + ": is no model of " + version() + remap::suggestion(name, names));
+                     name + ": unknown model of " + version() + remap::suggestion(name, names));
 }
 
 void require_value(const ModelDescription& model, const ParameterDescription& parameter, double value) {
   if (parameter.range.contains(value)) return;
   throw remap::Error(remap::ErrorKind::kUsage, model.name + ": " + parameter.name + " = " +
-                                                   remap::number_text(value) + "; expected " +
+                                                   remap::number_text(value) + " is out of range (" +
                                                    remap::number_text(parameter.range.min) + " to " +
-                                                   remap::number_text(parameter.range.max));
+                                                   remap::number_text(parameter.range.max) + ")");
 }
 
 void require_material(const Material& material, const ModelDescription& model) {
@@ -90,7 +90,7 @@ void require_material(const Material& material, const ModelDescription& model) {
       fail("has no parameter " + entry.first + remap::suggestion(entry.first, names));
   for (const ParameterDescription& parameter : model.parameters) {
     const auto found = material.parameters.find(parameter.name);
-    if (found == material.parameters.end()) fail("parameter " + parameter.name + " is missing");
+    if (found == material.parameters.end()) fail("parameter " + parameter.name + " has no value");
     const std::vector<double>& values = found->second;
     const bool is_one = parameter.grey || parameter.role == ParameterRole::kRoughness;
     if (values.size() != 1 && (is_one || values.size() != 3))
@@ -106,7 +106,8 @@ ModelDescription find_model(const Renderer& renderer, const std::string& name) {
 
 namespace {
 
-// A width in the model's own parameter. The end of a range, there and back through alpha, may be an ulp off.
+// Converts a width to the model's own parameter. At the ends of its range, rounding may move it out by one
+// ulp.
 double own_width(const ModelDescription& model, double alpha) {
   const remap::Range range = model.parameter(ParameterRole::kRoughness).range;
   const double own = remap::from_alpha(model.roughness, alpha);

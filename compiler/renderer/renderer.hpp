@@ -1,5 +1,5 @@
-// A renderer as the sweep sees it: a black box that knows models, parameters and scenes, and gives linear
-// images. The built-in renderer is one implementation; nothing in the sweep may look behind this interface.
+// The interface of a renderer: a black box with models, parameters and scenes that returns linear images. The
+// built-in renderer and workers implement it; a sweep uses nothing else of them.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@
 
 namespace remapc {
 
-// What a parameter does, so that a sweep can turn it without knowing its name.
-// A sweep turns the first three; a conductor has an index and an extinction in place of one specular value;
-// any other stays at its standard value.
+// What a parameter does, so that a sweep can vary it without knowing its name. A sweep varies the first
+// three. Conductors have an index and an extinction instead of one specular value. kOther keeps its standard
+// value.
 enum class ParameterRole { kRoughness, kSpecular, kDiffuse, kIndex, kExtinction, kOther };
 inline constexpr std::array kParameterRoles = {ParameterRole::kRoughness,  ParameterRole::kSpecular,
                                                ParameterRole::kDiffuse,    ParameterRole::kIndex,
@@ -28,30 +28,30 @@ inline constexpr std::array kParameterRoles = {ParameterRole::kRoughness,  Param
 std::string_view role_word(ParameterRole role);
 
 struct ParameterDescription {
-  std::string name;  // the model's own word: alpha, exponent, specular, f0, ior, eta, k, diffuse
+  std::string name;  // the model's own name for it: alpha, exponent, specular, f0, ior, eta, k, diffuse
   ParameterRole role = ParameterRole::kSpecular;
   remap::Range range;     // values the renderer accepts, in the parameter's own unit
   double standard = 0.0;  // of kOther
-  bool grey = false;      // takes one value, never three
+  bool grey = false;      // takes one value and refuses three
 };
 
 struct ModelDescription {
   std::string name;  // `renderer/brdf`
   remap::RoughnessConvention roughness = remap::RoughnessConvention::kAlpha;
-  remap::Range alpha;  // widths that the model can take, canonical
+  remap::Range alpha;  // widths that the model accepts, as alpha
   std::vector<ParameterDescription> parameters;
-  bool noise = false;        // another seed gives another picture
-  bool is_external = false;  // of another program: pictures are worth sparing, and claims are checked
-  double precision = 0.0;    // relative error of a pixel, where that is more than a float's
+  bool noise = false;        // the picture depends on the seed
+  bool is_external = false;  // rendered by another program: pictures are expensive, claims are checked
+  double precision = 0.0;    // relative error of a pixel if larger than that of a float, else 0
 
   bool has(ParameterRole role) const;
-  // Throws kUsage where it has none.
+  // Throws kUsage if the model has no parameter of that role.
   const ParameterDescription& parameter(ParameterRole role) const;
   // Throws kUsage with the nearest known name.
   const ParameterDescription& parameter(const std::string& parameter_name) const;
 };
 
-// A model with values for its parameters: one value for a grey parameter, three for red, green, blue.
+// A model with a value for each parameter: one value for grey, three for red, green, blue.
 struct Material {
   std::string model;
   std::map<std::string, std::vector<double>> parameters;
@@ -61,39 +61,39 @@ class Renderer {
  public:
   virtual ~Renderer() = default;
 
-  // Name and version of what makes the pictures; part of every cache key and table.
+  // Name and version of the renderer; part of every cache key and recorded in every table.
   virtual std::string version() const = 0;
-  // The same for one model, where several programs stand behind this renderer.
+  // The same for the program that renders `model`, where this renderer combines several.
   virtual std::string version_of(const std::string& model) const;
 
   virtual std::vector<ModelDescription> models() const = 0;
-  // The description of one model. Throws kUsage with the nearest known name.
+  // Returns the description of one model. Throws kUsage for an unknown name, with the nearest.
   virtual ModelDescription model(const std::string& name) const;
 
-  // Radiance of the sphere with `material` in `scene`. One channel where every parameter is grey, else three.
-  // Safe to call from many threads. Throws kUsage for a model, parameter or value that the renderer does not
-  // know, kInput where it breaks.
+  // Renders the sphere with `material` in `scene`, as radiance: one channel if every parameter is grey, else
+  // three. Thread-safe. Throws kUsage for an unknown model or parameter or a value out of range, kInput if
+  // the renderer fails.
   virtual Image render(const Material& material, const Scene& scene) const = 0;
 };
 
-// The description of `name`. Throws kUsage with the nearest known name.
+// The same as renderer.model(name).
 ModelDescription find_model(const Renderer& renderer, const std::string& name);
 
-// Throws kUsage for a value that `parameter` of `model` does not take.
+// Throws kUsage if `parameter` of `model` does not accept `value`.
 void require_value(const ModelDescription& model, const ParameterDescription& parameter, double value);
 
-// Throws kUsage where `material` lacks a parameter of `model`, has one that the model has not, or a value
-// that it does not take.
+// Throws kUsage if `material` lacks a parameter of `model`, has an unknown one, or has a value out of range.
 void require_material(const Material& material, const ModelDescription& model);
 
-// A grey material from canonical coordinates: the width as alpha, linear specular and diffuse (of a model
-// that has it); other parameters at their standard values.
+// Makes a grey material from canonical values: the width as alpha, linear specular, linear diffuse (ignored
+// by models without diffuse). Other parameters get their standard values.
 Material grey_material(const ModelDescription& model, double alpha, double specular, double diffuse);
 
-// Canonical widths of a range of a model's own, ascending: some conventions fall as alpha rises.
+// Converts a range of a model's own width parameter to alpha, ascending: some conventions fall as alpha
+// rises.
 remap::Range canonical_widths(remap::RoughnessConvention convention, const remap::Range& own);
 
-// The end of a conversion that `model` stands for.
+// Describes `model` as the source or target of a conversion.
 remap::ModelSide model_side(const ModelDescription& model);
 
 std::unique_ptr<Renderer> make_builtin_renderer();

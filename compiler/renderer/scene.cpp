@@ -14,7 +14,7 @@ std::string light_name(const Light& light) {
 }
 
 SurfacePoint camera_ray(int resolution, double column, double row) {
-  // tan of the half field of view whose edge touches the sphere: asin(1 / distance).
+  // The edge of the picture touches the sphere: tan(asin(1 / distance)).
   const double half_extent = 1.0 / std::sqrt(kCameraDistance * kCameraDistance - 1.0);
   return {(2.0 * column / resolution - 1.0) * half_extent, (1.0 - 2.0 * row / resolution) * half_extent,
           -1.0};
@@ -23,7 +23,7 @@ SurfacePoint camera_ray(int resolution, double column, double row) {
 bool sphere_point(int resolution, double column, double row, SurfacePoint* point) {
   const SurfacePoint ray = camera_ray(resolution, column, row);
   const double dx = ray.x, dy = ray.y;
-  // Ray (0, 0, d) + t (dx, dy, -1) against x^2 + y^2 + z^2 = 1; the smaller root.
+  // Ray (0, 0, d) + t (dx, dy, -1) against x^2 + y^2 + z^2 = 1; the smaller root is the visible point.
   const double a = dx * dx + dy * dy + 1.0;
   const double b = kCameraDistance;
   const double discriminant = b * b - a * (b * b - 1.0);

@@ -9,11 +9,11 @@
 namespace remapc {
 namespace {
 
-// A march along a ray by distances to the torus ends as a hit here, and as a miss after so many steps: rays
-// that graze it take the longest.
+// Sphere tracing counts as a hit at this distance and as a miss after this many steps; rays that graze the
+// torus take the most steps.
 constexpr double kHitDistance = 1e-10;
 constexpr int kMostSteps = 500;
-// Shadow rays start this far above the surface, in units of the sphere's radius.
+// Shadow rays start this far above the surface, in sphere radii, so that they do not hit their own point.
 constexpr double kShadowOffset = 1e-6;
 
 const double kSine = std::sin(kTorusTilt * std::numbers::pi / 180.0);
@@ -30,7 +30,7 @@ SurfacePoint normalised(const SurfacePoint& v) {
   return {v.x * scale, v.y * scale, v.z * scale};
 }
 
-// The nearest point of the circle in the middle of the tube.
+// Returns the nearest point of the circle in the middle of the tube.
 SurfacePoint tube_middle(const SurfacePoint& p) {
   const double height = p.y * kSine + p.z * kCosine;  // along the axis
   const SurfacePoint flat = {p.x, p.y - height * kSine, p.z - height * kCosine};
@@ -43,8 +43,8 @@ double torus_distance(const SurfacePoint& p) {
   return length({p.x - middle.x, p.y - middle.y, p.z - middle.z}) - kTubeRadius;
 }
 
-// Sphere tracing (Hart 1996): steps of the exact distance never pass the surface. Negative where the ray
-// misses up to `end`.
+// Sphere tracing (Hart 1996): steps of the exact distance never pass the surface. Returns the distance along
+// the ray, or a negative number if nothing is hit before `end`.
 double march(const SurfacePoint& origin, const SurfacePoint& direction, double start, double end) {
   double t = start;
   for (int step = 0; step < kMostSteps && t < end; ++step) {
@@ -78,7 +78,7 @@ Shape shape_from_name(const std::string& name) {
     names.push_back(shape_name(shape));
   }
   throw remap::Error(remap::ErrorKind::kUsage,
-                     "shape: " + name + " is none" + remap::suggestion(name, names));
+                     "shape: unknown shape " + name + remap::suggestion(name, names));
 }
 
 bool shape_point(Shape shape, int resolution, double column, double row, SurfaceHit* hit) {

@@ -1,4 +1,4 @@
-// What stands in the scene: the sphere of every sweep, or a torus, to look at a conversion on another shape.
+// The object in the scene: the sphere of every sweep, or a torus to preview a conversion on another shape.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@ namespace remapc {
 
 inline constexpr std::array kShapes = {Shape::kSphere, Shape::kTorus};
 
-// `sphere`, `torus`.
+// Returns `sphere` or `torus`.
 std::string shape_name(Shape shape);
-// Throws kUsage with the nearest known name.
+// Throws kUsage for an unknown name, with the nearest.
 Shape shape_from_name(const std::string& name);
 
-// The torus: centre at the origin, within the unit sphere; its axis leans from the camera towards y so that
-// the hole and both flanks show.
+// The torus is centred at the origin, inside the unit sphere. Its axis is tilted from the camera towards +y,
+// so that the hole and both flanks are visible.
 inline constexpr double kTorusRadius = 0.68;  // of the circle in the middle of the tube
 inline constexpr double kTubeRadius = 0.3;
 inline constexpr double kTorusTilt = 40.0;  // degrees from +z to +y
@@ -27,15 +27,15 @@ struct SurfaceHit {
   SurfacePoint normal;
 };
 
-// Where the ray through the image at (column + u, row + v), as sphere_point has it, meets the shape. False
-// where it misses.
+// Intersects the ray through the image at (column, row), as sphere_point does, with the shape. Returns false
+// if it misses.
 bool shape_point(Shape shape, int resolution, double column, double row, SurfaceHit* hit);
 
-// Whether the shape itself keeps light at `light` from the point. A sphere does so only where the light is
-// below the horizon, which is not asked here.
+// Whether the shape casts its own shadow on the point, for a light at `light`. Always false for the sphere:
+// its own shadow is where the light is below the horizon, which this function does not test.
 bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light);
 
-// Indices, row by row, of the pixels whose centres show the shape.
+// Returns the indices, row by row, of the pixels whose centres show the shape.
 std::vector<std::uint32_t> shape_pixels(Shape shape, int resolution);
 
 }  // namespace remapc

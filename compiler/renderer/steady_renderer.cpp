@@ -14,12 +14,13 @@ using remap::ErrorKind;
 using remap::number_text;
 
 constexpr int kResolution = 128;
-// A highlight that covers some hundred pixels.
+// At this width the highlight covers about a hundred pixels.
 constexpr double kNarrowWidth = 0.3;
 
-// Two pictures whose only difference is the seed: each is off by 1 / sqrt(2) of what they differ by.
+// The noise of one picture, from two that differ in the seed only: the difference has sqrt(2) times its
+// error.
 Noise difference(const Image& a, const Image& b) {
-  if (a.values.size() != b.values.size()) return {};  // whoever uses the pictures complains of their form
+  if (a.values.size() != b.values.size()) return {};  // PictureTaker reports pictures of the wrong size
   double apart = 0.0, power = 0.0, largest = 0.0, brightest = 0.0;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     const double x = a.values[i], y = b.values[i], mean = 0.5 * (x + y);
@@ -46,11 +47,11 @@ Noise measure(const Renderer& renderer, const ModelDescription& model, const Lig
   }
   const double needed = std::ceil(noise.level * noise.level / (kSteadyNoise * kSteadyNoise));
   if (needed > kMostSeeds)
-    throw Error(ErrorKind::kInput, model.name + ": another seed changes its pictures by " +
-                                       percent(noise.level) + " rms; a mean with " + percent(kSteadyNoise) +
-                                       " left would take " + number_text(needed) +
-                                       " pictures for one, expected at most " + std::to_string(kMostSeeds) +
-                                       "; take a model without noise, or a worker that takes more samples");
+    throw Error(ErrorKind::kInput,
+                model.name + ": pictures of two seeds differ by " + percent(noise.level) + " rms; " +
+                    number_text(needed) + " pictures would have to be averaged to reduce that to " +
+                    percent(kSteadyNoise) + ", the limit is " + std::to_string(kMostSeeds) +
+                    " (use a model without noise, or more samples per pixel in the worker)");
   noise.pictures = std::max(1, static_cast<int>(needed));
   return noise;
 }

@@ -1,4 +1,4 @@
-// Renderers whose pictures are random: how random they are, and means over seeds in place of single pictures.
+// Averages the pictures of noisy renderers over seeds, after measuring how noisy they are.
 #pragma once
 
 #include <map>
@@ -9,34 +9,34 @@
 
 namespace remapc {
 
-// What another seed does to the pictures of a model.
+// How much the pictures of a model depend on the seed.
 struct Noise {
   double level = 0.0;    // RMS difference from the mean over seeds, relative to the RMS of the picture
-  double largest = 0.0;  // of one pixel, relative to the brightest pixel
-  int pictures = 1;      // that are averaged, so that kSteadyNoise of the level is left
+  double largest = 0.0;  // largest difference of one pixel, relative to the brightest pixel
+  int pictures = 1;      // how many are averaged to reduce the level to kSteadyNoise
 };
 
-// A match averages over thousands of pixels, so this much moves it by some 1e-4.
+// A match sums over thousands of pixels, so this level changes it by about 1e-4.
 inline constexpr double kSteadyNoise = 0.01;
-// More pictures for one are more than a sweep can wait for.
+// Averaging more pictures than this makes a sweep too slow.
 inline constexpr int kMostSeeds = 64;
 
-// `inner` with the pictures of some models averaged over as many seeds as their noise asks for. Other models
-// pass through. The noise is measured, whatever the description of a model says.
+// Renders like `inner`, but averages the pictures of some models over as many seeds as their noise requires.
+// The noise is measured, whatever the model's description claims. Other models are passed through.
 class SteadyRenderer final : public Renderer {
  public:
-  // Measures the noise of those of `models` that are external: two pictures each at two widths, 128^2, under
-  // `light`. Throws kInput where more than kMostSeeds pictures would be needed, kUsage for unknown models.
+  // Measures the noise of those `models` that are external, under `light`: two pictures of 128^2 at two
+  // widths each. Throws kInput if more than kMostSeeds pictures would be needed, kUsage for unknown models.
   SteadyRenderer(const Renderer& inner, const std::vector<std::string>& models, const Light& light);
 
-  // Of a model that was measured.
+  // For a model that was measured.
   const Noise& noise(const std::string& model) const { return noise_.at(model); }
   bool measured(const std::string& model) const { return noise_.contains(model); }
 
   std::string version() const override { return inner_.version(); }
   std::string version_of(const std::string& model) const override { return inner_.version_of(model); }
   std::vector<ModelDescription> models() const override { return inner_.models(); }
-  // With the noise that is left as the precision of its pictures.
+  // The precision in the description includes the remaining noise.
   ModelDescription model(const std::string& name) const override;
   Image render(const Material& material, const Scene& scene) const override;
 

@@ -7,7 +7,7 @@
 namespace remapc {
 namespace {
 
-constexpr float kPaper = 0.97f, kLine = 0.85f;
+constexpr float kPlotPaper = 0.97f, kLine = 0.85f;
 
 // The first two coordinates of row `i`.
 std::array<double, 2> place_of(const Points& positions, Eigen::Index i) {
@@ -15,7 +15,7 @@ std::array<double, 2> place_of(const Points& positions, Eigen::Index i) {
   return {positions(i, 0), positions.cols() > 1 ? positions(i, 1) : golden - std::floor(golden) - 0.5};
 }
 
-// Covers pixels as far as the disc covers them.
+// Draws an antialiased disc.
 void draw_disc(double x, double y, double radius, const DisplayColor& color, Image* picture) {
   const int left = std::max(static_cast<int>(std::floor(x - radius - 1.0)), 0);
   const int right = std::min(static_cast<int>(std::ceil(x + radius + 1.0)), picture->width - 1);
@@ -49,7 +49,7 @@ PlotBox box_around(const std::vector<PlottedPoints>& layers) {
     for (Eigen::Index i = 0; i < layer.positions.rows(); ++i) {
       const std::array<double, 2> place = place_of(layer.positions, i);
       for (std::size_t k = 0; k < 2; ++k) {
-        low[k] = std::min(low[k], place[k]);  // NaN leaves both
+        low[k] = std::min(low[k], place[k]);  // NaN changes neither
         high[k] = std::max(high[k], place[k]);
       }
     }
@@ -61,7 +61,8 @@ PlotBox box_around(const std::vector<PlottedPoints>& layers) {
 
 Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box, int width) {
   const double scale = 0.5 * static_cast<double>(width) / box.half_width;
-  Image picture = blank_picture(width, static_cast<int>(std::lround(2.0 * scale * box.half_height)), kPaper);
+  Image picture =
+      blank_picture(width, static_cast<int>(std::lround(2.0 * scale * box.half_height)), kPlotPaper);
   draw_lines(box, scale, &picture);
   for (const PlottedPoints& layer : layers)
     for (Eigen::Index i = 0; i < layer.positions.rows(); ++i) {

@@ -1,4 +1,4 @@
-// Appearance spaces as clouds of points.
+// Draws appearance spaces as clouds of points.
 #pragma once
 
 #include <vector>
@@ -8,25 +8,24 @@
 
 namespace remapc {
 
-// Points of one kind; later ones lie above earlier ones.
+// Points of one kind. Later points cover earlier ones.
 struct PlottedPoints {
-  Points positions;                  // the first two coordinates are shown; rows that are NaN are not
-  std::vector<DisplayColor> colors;  // one each, or one for all
-  double radius = 1.0;               // pixels
+  Points positions;                  // the first two coordinates are drawn; rows with NaN are skipped
+  std::vector<DisplayColor> colors;  // one per point, or one for all
+  double radius = 1.0;               // in pixels
 };
 
-// A part of the plane.
+// The visible part of the plane.
 struct PlotBox {
   double x = 0.0, y = 0.0;  // centre
   double half_width = 1.0, half_height = 1.0;
 };
 
-// The least one around all layers, a twentieth larger; widened where it is higher than wide or flatter than
-// one to three.
+// The bounding box of all layers, enlarged by a twentieth, and widened to an aspect ratio of 1:1 to 3:1.
 PlotBox box_around(const std::vector<PlottedPoints>& layers);
 
-// `width` pixels wide, as high as the box asks for, both axes to one scale. The second coordinate points up;
-// of one-dimensional points it is spread evenly, for eyes only. Lines mark the zeros.
+// Draws the layers `width` pixels wide, with the aspect ratio of the box. The second coordinate points up;
+// one-dimensional points are spread along it to be visible. Lines mark the zeros.
 Image appearance_plot(const std::vector<PlottedPoints>& layers, const PlotBox& box, int width);
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// Small pictures side by side, for eyes.
+// Sheets of small pictures for visual comparison.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace remapc {
 
-// The display value of a sheet where nothing is shown.
+// The display value of a sheet where it shows no picture.
 inline constexpr float kSheetBackground = 0.12f;
 
-// A dark sheet of display values for `rows` x `columns` square pictures of `side` pixels.
+// Returns a dark sheet of display values for `rows` x `columns` square pictures of `side` pixels.
 Image contact_sheet(std::size_t rows, std::size_t columns, int side);
 
-// Shows a picture at a place of the sheet: three display values for each pixel in `pixels`, which counts
-// through the square row by row.
+// Copies a picture to a cell of the sheet. `pixels`: row-major indices into the square; `colors`: three
+// display values for each of them.
 void place_picture(Image* sheet, int side, std::size_t row, std::size_t column,
                    std::span<const std::uint32_t> pixels, std::span<const float> colors);
 

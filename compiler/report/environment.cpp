@@ -19,13 +19,13 @@ using remap::Error;
 using remap::ErrorKind;
 using std::numbers::pi;
 
-double dot(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double product(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 double angle_between(const Direction& a, const Direction& b) {
-  return std::acos(std::clamp(dot(a, b), -1.0, 1.0));
+  return std::acos(std::clamp(product(a, b), -1.0, 1.0));
 }
 
-// `elevation` above the horizon, `azimuth` from -z towards +x; degrees.
+// `elevation`: above the horizon; `azimuth`: from -z towards +x; both in degrees.
 Direction direction_at(double elevation, double azimuth) {
   return map_direction({0.5 + azimuth / 360.0, 0.5 - elevation / 180.0});
 }
@@ -41,8 +41,7 @@ Environment computed(const std::string& name, int height,
   return environment;
 }
 
-// A sky of the CIE (ISO 15469:2004): how bright it is at a zenith angle and an angle from the sun, not
-// scaled.
+// The relative luminance of a CIE sky (ISO 15469:2004) at a zenith angle and an angle from the sun.
 struct CieSky {
   double a, b, c, d, e;
   double luminance(double cos_zenith, double from_sun) const {
@@ -54,15 +53,15 @@ struct CieSky {
 constexpr CieSky kOvercast{4.0, -0.7, 0.0, -1.0, 0.0};   // type 1
 constexpr CieSky kClear{-1.0, -0.32, 10.0, -3.0, 0.45};  // type 12
 
-// From 1 to 0 over `softness` around `edge`, smoothly.
+// A smooth step from 1 to 0 over `softness` around `edge`.
 double soft_step(double value, double edge, double softness) {
   const double t = std::clamp(0.5 + (edge - value) / softness, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 
-// Sun at 40 degrees, to the right behind the camera; its disc is widened to 1.5 degrees, so that a map of 256
-// rows holds it, and carries five times what a horizontal surface gets from the sky, as on a clear day. Below
-// the horizon lies grey ground.
+// The sun is at 40 degrees, to the right behind the camera. Its disc is widened to 1.5 degrees, so that a map
+// of 256 rows resolves it. It gives a horizontal surface five times the irradiance of the sky, as on a clear
+// day. Below the horizon is grey ground.
 Environment clear_sky(int height) {
   const Direction sun = direction_at(40.0, 120.0);
   const double radius = 1.5 * pi / 180.0;
@@ -86,7 +85,7 @@ Environment overcast_sky(int height) {
   });
 }
 
-// A rectangular light that faces the sphere: its middle, half its extent, in degrees, and its radiance.
+// A rectangular light that faces the sphere: its center and half its extent in degrees, and its radiance.
 struct AreaLight {
   double elevation, azimuth, half_height, half_width;
   Rgb radiance;
@@ -125,17 +124,16 @@ Environment load_environment(const std::filesystem::path& path) {
   Environment environment{path.stem().string(), read_rgb(path)};
   Image& map = environment.map;
   if (map.width != 2 * map.height)
-    throw Error(ErrorKind::kInput, path.string() + ": is " + std::to_string(map.width) + " x " +
-                                       std::to_string(map.height) +
-                                       "; expected a map in latitude and longitude, twice as wide as high");
+    throw Error(ErrorKind::kInput,
+                path.string() + ": size " + std::to_string(map.width) + "x" + std::to_string(map.height) +
+                    " is not that of a map in latitude and longitude (twice as wide as high)");
   for (float& value : map.values) {
     if (!std::isfinite(value))
-      throw Error(ErrorKind::kInput,
-                  path.string() + ": has a value that is not finite; expected finite radiance");
+      throw Error(ErrorKind::kInput, path.string() + ": contains a value that is not finite");
     value = std::max(value, 0.0f);
   }
   if (mean_luminance(environment) <= 0.0)
-    throw Error(ErrorKind::kInput, path.string() + ": is black; expected light");
+    throw Error(ErrorKind::kInput, path.string() + ": the map is black");
   return environment;
 }
 
@@ -153,7 +151,7 @@ void require_names_differ(const std::vector<Environment>& environments) {
   for (const Environment& environment : environments)
     if (!names.insert(environment.name).second)
       throw Error(ErrorKind::kUsage,
-                  "environments: two are named " + environment.name + "; expected names that differ");
+                  "environments: two have the name '" + environment.name + "' (names must differ)");
 }
 
 std::string environment_names(const std::vector<Environment>& environments) {

@@ -26,11 +26,8 @@ using remap::number_text;
 constexpr std::size_t kMostRows = 2000;
 constexpr int kCurvePoints = 200;
 constexpr std::size_t kCurves = 5;  // alphas whose specular is drawn
-// Colors that differ for color-blind eyes too (Okabe and Ito 2008).
-constexpr std::array<const char*, 6> kColors = {"#0072B2", "#D55E00", "#009E73",
-                                                "#CC79A7", "#E69F00", "#56B4E9"};
 
-// A name inside a double-quoted string of gnuplot, without its markup.
+// Quotes a text for gnuplot.
 std::string quoted(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -41,12 +38,12 @@ std::string quoted(const std::string& text) {
   return '"' + escaped + '"';
 }
 
-// The least error that is drawn: below it rounding is all that is left.
+// The least error that is drawn. Smaller errors are rounding.
 constexpr double kLeastError = 1e-8;
 
 std::string shown_error(double error) { return number_text(std::max(std::fabs(error), kLeastError)); }
 
-// `count` of the values, from the least to the largest, evenly by position.
+// Chooses `count` values, evenly by rank, including the least and the largest.
 std::vector<double> spread(const std::set<double>& values, std::size_t count) {
   const std::vector<double> sorted(values.begin(), values.end());
   std::vector<double> chosen;
@@ -67,13 +64,12 @@ class Plot {
 
   std::string script() {
     write_data();
-    out_ << "set terminal svg size 1280,1040 enhanced font 'Helvetica,13' background rgb 'white'\n"
+    out_ << plot_style(1280, 1040)
          << "set multiplot layout 2,2 margins 0.07,0.98,0.16,0.92 spacing 0.08,0.11 title "
          << quoted(fit_.source.model + " to " + fit_.target.model + ", " + std::to_string(rows_.size()) +
                    " rows of " + fit_.table.name)
          << " noenhanced font ',16'\n"
-         << "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
-         << "set tics textcolor rgb 'black'\nset key font ',11' noenhanced\n";
+         << "set key font ',11' noenhanced\n";
     alpha_panel();
     specular_panel();
     residual_panel("alpha", 2);
@@ -143,13 +139,13 @@ class Plot {
          << " noenhanced\nset ylabel " << quoted(y) << " noenhanced\n";
   }
 
-  // The first line is the widest, so that lines on top of each other can all be seen; the rows come last.
+  // The first line is the widest, so that overlapping lines stay visible. The rows are drawn last.
   void plot_curves(const std::string& block, const std::string& rows) {
-    // At least so high: gnuplot wants a range where all is 0.
+    // gnuplot requires a range even if all values are 0.
     out_ << "set yrange [0:1e-3<*]\nset key left top Left reverse\nplot ";
     for (std::size_t f = 0; f < fits_.size(); ++f)
       out_ << "$" << block << f << " using 1:2 with lines linewidth "
-           << 1.2 + 1.8 * static_cast<double>(fits_.size() - 1 - f) << " linecolor rgb '" << kColors[f]
+           << 1.2 + 1.8 * static_cast<double>(fits_.size() - 1 - f) << " linecolor rgb '" << kPlotColors[f]
            << "' title " << quoted(fit_label(fits_[f])) << ", ";
     out_ << rows << " with points pointtype 7 pointsize 0.25 linecolor rgb 'black' title 'rows'\n"
          << "unset yrange\n";
@@ -171,7 +167,7 @@ class Plot {
     plot_curves("specular", "$shown using 1:2");
   }
 
-  // Logarithmic: the errors of the kinds differ by powers of ten.
+  // The axis is logarithmic, because the errors of the kinds differ by powers of ten.
   void residual_panel(const std::string& output, int column) {
     axes("Error of each fit in " + output, "alpha of " + fit_.source.model, "|fit - row|, " + output);
     out_ << "set logscale y\nset yrange [*:1e-6<*]\nset format y '10^{%T}'\n"
@@ -180,7 +176,7 @@ class Plot {
       const RowErrors errors = row_errors(fits_[f], rows_);
       const double rms = column == 2 ? errors.alpha.rms : errors.specular.rms;
       out_ << (f == 0 ? "" : ", ") << "$residuals" << f << " using 1:" << column
-           << " with points pointtype 7 pointsize 0.3 linecolor rgb '" << kColors[f] << "' title "
+           << " with points pointtype 7 pointsize 0.3 linecolor rgb '" << kPlotColors[f] << "' title "
            << quoted(fit_label(fits_[f]) + ", rms " + error_text(rms));
     }
     out_
@@ -188,7 +184,7 @@ class Plot {
   }
 
   const std::vector<Fit>& fits_;
-  const Fit& fit_;  // any of them: models, table and domain are the same
+  const Fit& fit_;  // the first one; models, table and domain are the same for all
   std::vector<TableRow> rows_;
   std::set<double> alphas_, speculars_;
   std::vector<double> shown_;  // alphas of the second panel
@@ -199,20 +195,15 @@ class Plot {
 
 void require_plot(const std::filesystem::path& path) {
   if (path.extension() != ".svg")
-    throw Error(ErrorKind::kUsage, "plot: " + path.string() + "; expected a file name that ends with .svg");
+    throw Error(ErrorKind::kUsage, "plot: " + path.string() + ": the file name must end with .svg");
   require_gnuplot();
   remap::create_parent(path);
 }
 
 void write_plot(const std::filesystem::path& path, const Table& table, const std::vector<Fit>& fits) {
   const std::vector<Fit> drawn(
-      fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(std::min(fits.size(), kColors.size())));
-  const std::string picture = run_gnuplot(Plot(table, drawn).script());
-  // gnuplot does not notice that a disk is full.
-  if (picture.find("</svg>") == std::string::npos)
-    throw Error(ErrorKind::kOutput,
-                "plot: gnuplot's picture is incomplete; is there room for temporary files?");
-  remap::write_file(path, picture);
+      fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(std::min(fits.size(), kPlotColors.size())));
+  write_svg(path, Plot(table, drawn).script());
 }
 
 std::string fit_label(const Fit& fit) {

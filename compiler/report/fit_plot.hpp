@@ -1,4 +1,4 @@
-// One picture of a table and the fits to it: both targets with the curves of the fits, and what they leave.
+// Plots a table and its fits: both target parameters with the curves of the fits, and the errors of the fits.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 
 namespace remapc {
 
-// Throws kUsage where `path` does not end with .svg, kOutput where its folder cannot be made or gnuplot is
-// missing: before the work whose result is plotted.
+// Checks before a long computation that its result can be plotted. Throws kUsage if `path` does not end with
+// .svg, kOutput if its folder cannot be created or gnuplot is missing.
 void require_plot(const std::filesystem::path& path);
 
-// Writes the plot as SVG. `fits`: one to six, all of `table` and of one domain. At most 2000 usable rows are
-// drawn, chosen evenly. Throws kOutput where gnuplot fails or the file cannot be written.
+// Writes the plot as SVG. `fits`: one to six fits of `table` with the same domain. Draws at most 2000 usable
+// rows. Throws kOutput if gnuplot fails or the file cannot be written.
 void write_plot(const std::filesystem::path& path, const Table& table, const std::vector<remap::Fit>& fits);
 
-// `parametric paper`, `svr`, `mlp`: the kind, and its form where it has one.
+// The kind and, if it has one, the form of a fit: for example `parametric paper`, `svr`.
 std::string fit_label(const remap::Fit& fit);
 
 }  // namespace remapc

@@ -21,13 +21,13 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-// A folder for script and output that goes away with the object.
+// A temporary folder for script and output.
 class ScratchFolder {
  public:
   ScratchFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "remapc-plot-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
-      throw Error(ErrorKind::kOutput, name + ": cannot be made: " + std::strerror(errno));
+      throw Error(ErrorKind::kOutput, name + ": cannot be created: " + std::strerror(errno));
     path_ = name;
   }
   ~ScratchFolder() {
@@ -53,7 +53,7 @@ struct FileActions {
   }
 };
 
-// Exit code of `gnuplot argument`, -1 where a signal ended it.
+// Runs `gnuplot argument` and returns its exit code, or -1 if a signal ended it.
 int run(std::string argument, const std::string& output, const std::string& complaints) {
   FileActions actions;
   actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
@@ -67,14 +67,14 @@ int run(std::string argument, const std::string& output, const std::string& comp
   if (failure != 0)
     throw Error(ErrorKind::kOutput,
                 "plot: gnuplot cannot be started: " + std::string(std::strerror(failure)) +
-                    "; Debian has it in the package gnuplot-nox");
+                    " (install gnuplot, on Debian the package gnuplot-nox)");
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return -1;
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// The first line of gnuplot's message that says something: it begins with a picture of the place.
+// The first line of gnuplot's message that states the error. The lines before it only show the place.
 std::string complaint(const std::string& text) {
   std::size_t begin = 0;
   while (begin < text.size()) {
@@ -93,19 +93,31 @@ void require_gnuplot() {
   const int code = run("--version", folder.file("output"), folder.file("complaints"));
   if (code != 0)
     throw Error(ErrorKind::kOutput, "plot: gnuplot --version failed (" + std::to_string(code) +
-                                        "); Debian has it in the package gnuplot-nox");
+                                        ", install the package gnuplot-nox)");
 }
 
-std::string run_gnuplot(const std::string& script) {
+std::string plot_style(int width, int height) {
+  return "set terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
+         " enhanced font 'Helvetica,13' background rgb 'white'\n"
+         "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
+         "set tics textcolor rgb 'black'\n";
+}
+
+void write_svg(const std::filesystem::path& path, const std::string& script) {
   const ScratchFolder folder;
   remap::write_file(folder.file("script"), script);
   const int code = run(folder.file("script"), folder.file("output"), folder.file("complaints"));
   const std::string complaints = remap::read_file(folder.file("complaints"));
-  // What gnuplot says beside a code of 0 is a warning.
+  // Messages with exit code 0 are warnings.
   if (code != 0)
     throw Error(ErrorKind::kOutput,
                 "plot: gnuplot failed (" + std::to_string(code) + "): " + complaint(complaints));
-  return remap::read_file(folder.file("output"));
+  const std::string picture = remap::read_file(folder.file("output"));
+  // gnuplot does not detect that a disk is full.
+  if (picture.find("</svg>") == std::string::npos)
+    throw Error(ErrorKind::kOutput,
+                "plot: the output of gnuplot is incomplete (check the free space for temporary files)");
+  remap::write_file(path, picture);
 }
 
 }  // namespace remapc

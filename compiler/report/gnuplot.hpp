@@ -1,15 +1,24 @@
-// gnuplot as a child process: the one place that starts it.
+// Draws plots with gnuplot, which runs as a child process.
 #pragma once
 
+#include <array>
+#include <filesystem>
 #include <string>
 
 namespace remapc {
 
-// Throws kOutput, naming Debian's package, where gnuplot cannot be started.
+// Throws kOutput with the name of Debian's package if gnuplot cannot be started.
 void require_gnuplot();
 
-// What gnuplot writes to standard output for `script`. Throws kOutput where it cannot be started or fails,
-// with the first line of its complaint.
-std::string run_gnuplot(const std::string& script);
+// Colors that color-blind readers can distinguish (Okabe and Ito 2008).
+inline constexpr std::array<const char*, 6> kPlotColors = {"#0072B2", "#D55E00", "#009E73",
+                                                           "#CC79A7", "#E69F00", "#56B4E9"};
+
+// The gnuplot commands with which every plot starts: an SVG of `width` x `height` pixels with a light grid.
+std::string plot_style(int width, int height);
+
+// Writes the SVG that gnuplot draws for `script`. Throws kOutput if the file cannot be written, or if gnuplot
+// cannot be started or fails, with the first line of its error message.
+void write_svg(const std::filesystem::path& path, const std::string& script);
 
 }  // namespace remapc

@@ -22,7 +22,7 @@ Direction operator+(const Direction& a, const Direction& b) { return {a.x + b.x,
 double dot(const Direction& a, const Direction& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Direction normalised(const Direction& a) { return (1.0 / std::sqrt(dot(a, a))) * a; }
 
-// A normal with two directions across it.
+// A normal with two tangents.
 struct Frame {
   Direction tangent, bitangent, normal;
   Direction to_world(double x, double y, double z) const {
@@ -30,7 +30,7 @@ struct Frame {
   }
 };
 
-// Any frame will do: lobes are isotropic. The normal of a visible point has z > 0.
+// Returns an arbitrary frame, because lobes are isotropic. The normal of a visible point has z > 0.
 Frame frame_about(const Direction& n) {
   const Direction tangent = normalised({n.z, 0.0, -n.x});
   return {tangent,
@@ -39,7 +39,7 @@ Frame frame_about(const Direction& n) {
           n};
 }
 
-// A repeatable number in [0, 1) for a key (finaliser of splitmix64, Steele et al. 2014).
+// A pseudo-random number in [0, 1) for a key (finalizer of splitmix64, Steele et al. 2014).
 double hashed(std::uint64_t key) {
   key += 0x9e3779b97f4a7c15u;
   key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -60,13 +60,13 @@ enum Technique { kNarrowLobe, kWideLobe, kHemisphere, kTechniqueCount };
 constexpr std::array<double, kTechniqueCount> kTechniqueShare = {0.4, 0.4, 0.2};
 constexpr std::size_t kHalves = 2;
 
-// How directions are drawn at every pixel.
+// The mixture from which directions are drawn at every pixel.
 struct Mixture {
-  std::array<double, 2> alphas{};                       // of the lobes
-  std::array<std::uint32_t, kTechniqueCount> counts{};  // of samples of each technique in a half
+  std::array<double, 2> alphas{};                       // of the GGX lobes
+  std::array<std::uint32_t, kTechniqueCount> counts{};  // samples of each technique in a half
   double half_count = 0.0;                              // their sum
 
-  // Expected density of samples of one half about a direction, a steradian.
+  // The expected density of samples of one half at a direction, per steradian.
   double density(const LocalGeometry& g) const {
     double sum = counts[kHemisphere] / (2.0 * pi);
     for (std::size_t lobe = 0; lobe < alphas.size(); ++lobe)
@@ -90,7 +90,7 @@ Mixture mixture_for(std::span<const SphereMaterial> materials, int samples) {
   return mixture;
 }
 
-// Geometry of a light direction at a point, as evaluate_lobe takes it. False where either side is below the
+// Computes the geometry of a light direction for evaluate_lobe. Returns false if light or view is below the
 // horizon.
 bool local_geometry(const Direction& normal, const Direction& view, const Direction& light,
                     LocalGeometry* g) {
@@ -107,7 +107,7 @@ bool local_geometry(const Direction& normal, const Direction& view, const Direct
   return true;
 }
 
-// One pixel: where it is and what all its samples need.
+// Draws the directions of one pixel.
 class PixelSampler {
  public:
   PixelSampler(const Mixture& mixture, const SurfacePoint& point, std::uint64_t key)
@@ -119,7 +119,7 @@ class PixelSampler {
   const Direction& normal() const { return frame_.normal; }
   const Direction& view() const { return view_; }
 
-  // Sample `i` of a technique: points of Hammersley, turned differently for each pixel, technique and half
+  // Sample `i` of a technique: a Hammersley point set with a random shift for each pixel, technique and half
   // (Cranley and Patterson 1976).
   Direction direction(Technique technique, std::size_t half, std::uint32_t i) const {
     const std::uint64_t key = 2 * ((key_ * kTechniqueCount + technique) * kHalves + half);
@@ -136,7 +136,7 @@ class PixelSampler {
   }
 
  private:
-  // A normal of GGX facets that the view sees (Dupuy and Benyoub 2023: a cap of the sphere, stretched).
+  // A visible normal of the GGX distribution, from a stretched spherical cap (Dupuy and Benyoub 2023).
   Direction visible_normal(double alpha, double u, double azimuth) const {
     const Direction stretched = normalised({alpha * dot(view_, frame_.tangent),
                                             alpha * dot(view_, frame_.bitangent), dot(view_, frame_.normal)});
@@ -153,14 +153,14 @@ class PixelSampler {
   std::uint64_t key_;
 };
 
-// Everything that the pixels of one rendering share.
+// The data that all pixels of one rendering share.
 struct Rendering {
   const RadiancePyramid& environments;
   std::span<const SphereMaterial> materials;
   Mixture mixture;
 };
 
-// Radiance towards the camera for light of radiance 1 from a solid angle of 1.
+// Radiance towards the camera for light of radiance 1 from a solid angle of 1 steradian.
 double reflected(const SphereMaterial& material, const LocalGeometry& geometry) {
   const Lobe lobe = evaluate_lobe(material.model.brdf, material.model.fresnel, material.alpha, geometry);
   return (lobe.base + material.specular * lobe.slope + material.diffuse / pi) * geometry.cos_light;
@@ -210,7 +210,7 @@ SpherePictures::SpherePictures(std::size_t material_count, std::size_t channel_c
   values_.resize(material_count * kHalves * pixels_.size() * channel_count_);
 }
 
-// Pixels lie outermost: a thread works on one at a time.
+// Pixels are the outermost dimension, because a thread works on one pixel at a time.
 std::size_t SpherePictures::offset(std::size_t material, std::size_t half, std::size_t pixel) const {
   const std::size_t material_count = values_.size() / (kHalves * pixels_.size() * channel_count_);
   return ((pixel * kHalves + half) * material_count + material) * channel_count_;
@@ -241,11 +241,11 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
                               const SphereSampling& sampling) {
   if (sampling.resolution < 4 || sampling.resolution > 1024)
     throw Error(ErrorKind::kUsage,
-                "resolution: " + std::to_string(sampling.resolution) + "; expected 4 to 1024");
+                "resolution: " + std::to_string(sampling.resolution) + " is out of range (4 to 1024)");
   if (sampling.samples < 16 || sampling.samples > 1 << 20)
-    throw Error(ErrorKind::kUsage, "samples: " + std::to_string(sampling.samples) + "; expected 16 to " +
-                                       std::to_string(1 << 20));
-  if (materials.empty()) throw Error(ErrorKind::kUsage, "spheres: no material; expected at least one");
+    throw Error(ErrorKind::kUsage, "samples: " + std::to_string(sampling.samples) +
+                                       " is out of range (16 to " + std::to_string(1 << 20) + ")");
+  if (materials.empty()) throw Error(ErrorKind::kUsage, "spheres: at least one material is required");
 
   SpherePictures pictures(materials.size(), environments.channel_count(), sampling.resolution);
   const Rendering rendering{environments, materials, mixture_for(materials, sampling.samples)};

@@ -1,4 +1,4 @@
-// The sphere of the sweep scene, seen by its camera and lit by environments instead of a point light.
+// Renders the sphere of the sweep scene under environments in place of a point light.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@
 
 namespace remapc {
 
-// A model of the built-in renderer with its parameters. Specular is linear: a scale, or F0. Diffuse is the
-// reflectance of a Lambertian lobe beside it.
+// A model of the built-in renderer with its parameters. Specular is linear: a scale or F0. Diffuse is the
+// reflectance of an additional Lambertian lobe.
 struct SphereMaterial {
   BrdfModel model;
   double alpha = 0.0;
@@ -23,28 +23,28 @@ struct SphereMaterial {
 };
 
 struct SphereSampling {
-  int resolution = 128;                          // width and height of the pictures, pixels
-  int samples = 1024;                            // directions a pixel
-  unsigned jobs = 0;                             // threads; 0: one a core. The pictures do not depend on it
-  std::function<void()> progress;                // one of `resolution` pixel rows is done; from any thread
-  const std::atomic<bool>* cancelled = nullptr;  // stops soon; throws kInterrupted
+  int resolution = 128;            // width and height of the pictures in pixels
+  int samples = 1024;              // light directions per pixel
+  unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
+  std::function<void()> progress;  // called for each of `resolution` pixel rows, from any thread
+  const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
 };
 
-// Linear RGB pictures of `materials` under each environment, at the pixels that show the sphere. Two sets of
-// directions are kept apart, so that their difference tells the sampling error.
+// Linear RGB pictures of materials under each environment, at the pixels that show the sphere. The directions
+// are in two halves with separate results, whose difference gives the sampling error.
 class SpherePictures {
  public:
   SpherePictures(std::size_t material_count, std::size_t channel_count, int resolution);
 
   int resolution() const { return resolution_; }
-  // Indices, row by row, of the pixels that show the sphere at their centre.
+  // Row-major indices of the pixels whose centers show the sphere.
   const std::vector<std::uint32_t>& pixels() const { return pixels_; }
 
-  // Three values a pixel of pixels(): the mean of both halves, or one of them (0, 1).
+  // Three values for each of pixels(): the mean of both halves, or one half (0 or 1).
   std::vector<float> radiance(std::size_t material, std::size_t environment) const;
   std::vector<float> half_radiance(std::size_t material, std::size_t environment, std::size_t half) const;
 
-  // All channels of a pixel, given as its place in pixels().
+  // All channels of a pixel, which is an index into pixels().
   float* values(std::size_t material, std::size_t half, std::size_t pixel);
 
  private:
@@ -56,10 +56,11 @@ class SpherePictures {
   std::vector<float> values_;
 };
 
-// Directions are drawn for all materials together, by a mixture of GGX half vectors of their least and
-// largest alpha and of a cosine lobe, weighted by the balance heuristic (Veach and Guibas 1995) and read from
-// the pyramid over the solid angle that each stands for. So the noise of two materials is alike and mostly
-// cancels in their difference. Throws kUsage for a resolution or sample count out of range, kInterrupted.
+// Renders `materials` under all environments. All materials share the same directions, so that the noise of
+// two materials mostly cancels in their difference. The directions are a mixture of GGX half vectors of the
+// least and the largest alpha and of a cosine lobe, weighted by the balance heuristic (Veach and Guibas
+// 1995). Radiance is averaged over the solid angle of each sample. Throws kUsage for a resolution or sample
+// count out of range, and kInterrupted.
 SpherePictures render_spheres(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
                               const SphereSampling& sampling);
 

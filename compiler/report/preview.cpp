@@ -21,7 +21,7 @@ using remap::ErrorKind;
 
 constexpr float kDifferenceGain = 4.0f;
 
-// One end of the fit, as a renderer takes it.
+// One side of the fit, ready to be rendered.
 struct End {
   ModelDescription model;
   SpecularResponse response;  // between the fit's specular and the model's own
@@ -55,7 +55,7 @@ Material material_of(const End& end, double alpha, const std::vector<double>& sp
   return material;
 }
 
-// Display values, red, green and blue, of the pixels that show the shape.
+// RGB display values of the pixels that show the shape.
 using Colors = std::vector<float>;
 
 Colors photograph(const Renderer& renderer, const End& end, const Material& material, const Scene& scene,
@@ -92,7 +92,7 @@ Colors difference(const Colors& a, const Colors& b) {
   return result;
 }
 
-// Where the fit takes the source; `figure` has its alpha.
+// Converts the source by the fit. `figure` has the source's alpha.
 void convert(const remap::Fit& fit, const std::vector<double>& specular, PreviewFigure* figure) {
   figure->target_specular.resize(specular.size());
   const double own = remap::evaluate_texel(fit, remap::from_alpha(fit.source.roughness, figure->alpha),
@@ -101,17 +101,16 @@ void convert(const remap::Fit& fit, const std::vector<double>& specular, Preview
 }
 
 void require_options(const PreviewOptions& options) {
-  if (options.shapes.empty())
-    throw Error(ErrorKind::kUsage, "preview: nothing to show; expected at least one shape");
+  if (options.shapes.empty()) throw Error(ErrorKind::kUsage, "preview: at least one shape is required");
   if (!options.specular.empty() && options.specular.size() != 1 && options.specular.size() != 3)
-    throw Error(ErrorKind::kUsage, "preview: specular has " + std::to_string(options.specular.size()) +
-                                       " values; expected 1 or 3");
+    throw Error(ErrorKind::kUsage,
+                "preview: specular must have 1 or 3 values, not " + std::to_string(options.specular.size()));
   for (const double alpha : options.alphas)
     if (!(alpha > 0.0))
-      throw Error(ErrorKind::kUsage, "preview: alpha " + remap::number_text(alpha) + "; expected above 0");
+      throw Error(ErrorKind::kUsage, "preview: alpha " + remap::number_text(alpha) + " must be above 0");
 }
 
-// The options with what they leave to the domain of `fit`.
+// Fills missing options from the domain of `fit`.
 PreviewOptions filled(PreviewOptions options, const remap::Fit& fit) {
   if (options.alphas.empty()) options.alphas = preview_alphas(fit.domain);
   if (options.specular.empty()) options.specular = {0.5 * fit.domain.specular.max};

@@ -14,14 +14,14 @@ using std::numbers::pi;
 
 constexpr int kCoarsestHeight = 4;  // rows
 
-// How much of each row or column of the input a row or column of the output takes; shares sum to 1.
+// The weight of a row or column of the input in a row or column of the output. The weights sum to 1.
 struct Share {
   std::size_t source;
   double weight;
 };
 using Shares = std::vector<std::vector<Share>>;
 
-// `measure(a, b)`: how much lies between two positions, in shares of the whole extent.
+// `measure(a, b)`: the weight of the interval between two positions, which are 0 to 1.
 template <typename Measure>
 Shares overlaps(int from, int to, const Measure& measure) {
   Shares shares(static_cast<std::size_t>(to));
@@ -39,7 +39,7 @@ Shares overlaps(int from, int to, const Measure& measure) {
   return shares;
 }
 
-// Solid angle of a row is the difference of the cosines of its edges.
+// The solid angle of a row is proportional to the difference of the cosines of its edges.
 Shares row_shares(int from, int to) {
   return overlaps(from, to, [](double a, double b) { return std::cos(pi * a) - std::cos(pi * b); });
 }
@@ -47,7 +47,7 @@ Shares column_shares(int from, int to) {
   return overlaps(from, to, [](double a, double b) { return b - a; });
 }
 
-// `channels` values of each texel of `from`, averaged over the texels of the grid of `rows` and `columns`.
+// Averages `from`, with `channels` values per texel, over the texels of the grid of `rows` and `columns`.
 std::vector<float> resampled(const float* from, std::size_t width, std::size_t channels, const Shares& rows,
                              const Shares& columns) {
   std::vector<float> texels;
@@ -67,11 +67,11 @@ std::vector<float> resampled(const float* from, std::size_t width, std::size_t c
   return texels;
 }
 
-constexpr double kLampThreshold = 4.0;  // of the mean luminance
+constexpr double kLampThreshold = 4.0;  // relative to the mean luminance
 constexpr std::size_t kMostLamps = 128;
 constexpr int kLampTexels = 2;  // width and height of a spot
 
-// What a spot of a map has above a luminance, and from where.
+// The light of a spot of a map above a luminance.
 struct Spot {
   int row, column;  // of its first texel
   Lamp lamp;
@@ -103,7 +103,7 @@ Spot spot_at(const Image& map, int row, int column, double threshold) {
   return spot;
 }
 
-// Takes the brightest spots out of a map.
+// Removes the brightest spots from a map and returns them.
 std::vector<Lamp> take_lamps(Image* map, double mean) {
   const double threshold = kLampThreshold * mean;
   std::vector<Spot> spots;
@@ -133,9 +133,10 @@ std::vector<Lamp> take_lamps(Image* map, double mean) {
 RadiancePyramid::RadiancePyramid(std::span<const Environment> environments, int height)
     : channel_count_(3 * environments.size()) {
   if (height < 2 * kCoarsestHeight || (height & (height - 1)) != 0)
-    throw remap::Error(remap::ErrorKind::kUsage, "environments: a grid of " + std::to_string(height) +
-                                                     " rows; expected a power of two from " +
-                                                     std::to_string(2 * kCoarsestHeight));
+    throw remap::Error(remap::ErrorKind::kUsage,
+                       "environments: the number of rows must be a power of two of at "
+                       "least " +
+                           std::to_string(2 * kCoarsestHeight) + ", not " + std::to_string(height));
   Level finest{2 * height, height, {}};
   finest.texels.resize(static_cast<std::size_t>(2 * height * height) * channel_count_);
   for (std::size_t e = 0; e < environments.size(); ++e) {
@@ -176,9 +177,9 @@ void RadiancePyramid::add_bilinear(const Level& level, const MapPosition& positi
 
 void RadiancePyramid::look_up(const Direction& direction, double solid_angle, float* radiance) const {
   const MapPosition position = map_position(direction);
-  // A texel at the horizon of the finest level; each level has four times its solid angle. No further level
-  // is added for overlap, as Krivanek and Colbert do for few samples: without lamps the maps are tame, and
-  // blur makes pictures look more alike than they are.
+  // The size of a texel at the horizon of the finest level; each level has four times the solid angle of the
+  // one before. Krivanek and Colbert add a level of overlap for few samples. That is not done here, because
+  // the maps vary little without lamps, and blur makes pictures more similar than they are.
   const double texel = pi / levels_.front().height;
   const double level = std::clamp(0.5 * std::log2(solid_angle / (texel * texel)), 0.0,
                                   static_cast<double>(levels_.size() - 1));

@@ -1,5 +1,5 @@
-// Environments prepared for lookups over cones of directions: all of them on one grid, in levels that halve
-// it.
+// Environments prepared for lookups over cones of directions: a pyramid of grids, each half as large as the
+// one before.
 #pragma once
 
 #include <cstddef>
@@ -11,29 +11,30 @@
 
 namespace remapc {
 
-// A bright spot of an environment, small enough to be lit by from one direction.
+// A bright spot of an environment that is small enough to be treated as one direction.
 struct Lamp {
   Direction direction;
   Rgb flux{};  // radiance times solid angle
 };
 
-// Filtered importance sampling (Krivanek and Colbert 2008): a sample that stands for a solid angle reads the
-// average radiance over about that solid angle. Channels of all environments lie side by side, since every
-// sample asks for all of them.
+// Filtered importance sampling (Krivanek and Colbert 2008): a sample that represents a solid angle reads the
+// average radiance over about that solid angle. The channels of all environments are adjacent, because every
+// sample reads all of them.
 class RadiancePyramid {
  public:
-  // Maps of any size become `height` rows and twice as many columns, each texel the mean over its directions.
-  // `height`: a power of two from 8.
+  // Resamples maps of any size to `height` rows and twice as many columns; each texel is the mean over its
+  // directions. `height`: a power of two, at least 8.
   explicit RadiancePyramid(std::span<const Environment> environments, int height = 256);
 
   // Three for each environment, in their order.
   std::size_t channel_count() const { return channel_count_; }
 
-  // At most 128 spots of 1.4 degrees (on 256 rows) with what they have above four times the mean of the map.
+  // At most 128 spots of 1.4 degrees (for 256 rows), with their radiance above four times the mean of the
+  // map.
   const std::vector<Lamp>& lamps(std::size_t environment) const { return lamps_[environment]; }
 
-  // Radiance without lamps from `direction`, averaged over about `solid_angle` (steradian, > 0), into
-  // `radiance`, one float a channel. Trilinear; constant environments are returned as they are.
+  // Writes the radiance without lamps from `direction`, averaged over about `solid_angle` (steradian, > 0),
+  // to `radiance`, one float per channel. Interpolation is trilinear and exact for constant environments.
   void look_up(const Direction& direction, double solid_angle, float* radiance) const;
 
  private:

@@ -13,7 +13,7 @@ using Vector = std::array<double, 3>;  // x to the right, y up, z to the camera
 using Radiance = std::array<double, 3>;
 
 constexpr double kSteepest = 0.7;      // tangent of the cushion's slope at its ends
-constexpr double kSurroundings = 0.3;  // radiance, even from all sides
+constexpr double kSurroundings = 0.3;  // uniform radiance from all sides
 constexpr double kLeastAlpha = 0.02;   // narrower highlights would be smaller than a pixel
 
 struct DistantLight {
@@ -24,14 +24,14 @@ constexpr std::array<DistantLight, 2> kLights = {{{{-0.45, 0.50, 0.74}, 0.75}, {
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-Vector normalised(const Vector& v) {
+Vector unit_vector(const Vector& v) {
   const double length = std::sqrt(dot(v, v));
   return {v[0] / length, v[1] / length, v[2] / length};
 }
 
 LocalGeometry geometry_of(const Vector& normal, const Vector& light) {
   const Vector sum = {light[0], light[1], light[2] + 1.0};  // the camera is at z
-  const Vector half = normalised(sum);
+  const Vector half = unit_vector(sum);
   LocalGeometry geometry{};
   geometry.cos_light = dot(normal, light);
   geometry.cos_view = normal[2];
@@ -72,7 +72,7 @@ Image shaded_map(const PictureGrid& grid, const std::vector<remap::WarpTexel>& s
     const double down =
         (2.0 * static_cast<double>(y) + 1.0 - static_cast<double>(samples.size() / columns)) / longer;
     const Radiance own =
-        radiance_of(samples[i], model, normalised({kSteepest * across, -kSteepest * down, 1.0}));
+        radiance_of(samples[i], model, unit_vector({kSteepest * across, -kSteepest * down, 1.0}));
     const auto step = static_cast<std::size_t>(grid.samples);
     Radiance& pixel = pixels[y / step * static_cast<std::size_t>(grid.width) + x / step];
     for (std::size_t c = 0; c < 3; ++c) pixel[c] += own[c];

@@ -5,7 +5,7 @@
 namespace remapc {
 namespace {
 
-// Colors that differ for color-blind eyes too (Okabe and Ito 2008).
+// Colors that color-blind readers can distinguish (Okabe and Ito 2008).
 constexpr std::array<DisplayColor, 7> kStrokeColors = {{{0.84f, 0.37f, 0.00f},
                                                         {0.00f, 0.45f, 0.70f},
                                                         {0.00f, 0.62f, 0.45f},

@@ -1,4 +1,4 @@
-// Strokes on the picture of a map.
+// Draws strokes on the picture of a map.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@ namespace remapc {
 
 using StrokeSide = std::vector<std::uint32_t> StrokePair::*;
 
-// Of the stroke with this index; seven differ.
+// The color of the stroke with this index. Seven colors are repeated.
 const DisplayColor& stroke_color(std::size_t stroke);
 
-// The picture, dimmed, with one side of the strokes in their colors. `grid` is that of the picture.
+// Dims the picture and draws one side of the strokes in their colors. `grid`: the grid of the picture.
 Image with_strokes(const Image& picture, const PictureGrid& grid, const std::vector<StrokePair>& strokes,
                    StrokeSide side);
 

@@ -12,7 +12,7 @@
 namespace remapc {
 namespace {
 
-constexpr int kSide = 512;  // pixels
+constexpr int kSide = 512;  // in pixels
 constexpr std::size_t kMostPoints = 16384, kMostStrokePoints = 512;
 constexpr DisplayColor kGrey = {0.72f, 0.72f, 0.72f};
 
@@ -25,7 +25,7 @@ std::vector<remap::WarpTexel> texels_at(const TextureMaterial& material,
   return texels;
 }
 
-// A material as points of its own space.
+// The points of a material in its space.
 struct Cloud {
   PlottedPoints texels;
   std::vector<PlottedPoints> strokes;
@@ -66,7 +66,7 @@ std::vector<PlottedPoints> layers_of(const Cloud& cloud) {
   return layers;
 }
 
-// The source's points over the template's.
+// Draws the source's points over the template's.
 std::vector<PlottedPoints> layers_over(const Cloud& below, const Cloud& cloud) {
   std::vector<PlottedPoints> layers{{below.texels.positions, {kGrey}, 1.6}};
   append(cloud, layers);
@@ -131,20 +131,21 @@ std::string report_html(const WarpPictures& pictures, const WarpWords& words) {
     html += "<p class=\"warning\">" + escaped(warning) + "</p>\n";
   html += "<div class=\"row\">\n" + figure_html(pictures.source, "Source") +
           figure_html(pictures.target, "Template") +
-          figure_html(pictures.result, "Result: the source's pattern, the template's reflectance") +
+          figure_html(pictures.result, "Result: pattern of the source, reflectance of the template") +
           "</div>\n<h2>Strokes</h2>\n" + stroke_key(words.stroke_count) + "<div class=\"row\">\n" +
-          figure_html(pictures.source_strokes, "On the source") +
-          figure_html(pictures.target_strokes, "On the template") +
-          "</div>\n<h2>Appearance spaces</h2>\n<p>The first two coordinates; a point a texel, in its color; "
-          "those of strokes in the colors of the strokes.</p>\n<div class=\"row small\">\n" +
+          figure_html(pictures.source_strokes, "Strokes on the source") +
+          figure_html(pictures.target_strokes, "Strokes on the template") +
+          "</div>\n<h2>Appearance spaces</h2>\n<p>The first two coordinates. Each point is a texel in its "
+          "color; texels of strokes have the colors of the strokes.</p>\n<div class=\"row small\">\n" +
           figure_html(pictures.source_space, "Source") + figure_html(pictures.target_space, "Template") +
-          figure_html(pictures.before, "Before the warp: the source over the template (grey)") +
-          figure_html(pictures.after, "After it") + "</div>\n<h2>Figures</h2>\n<table>\n";
+          figure_html(pictures.before, "Before the warp: source over template (grey)") +
+          figure_html(pictures.after, "After the warp") + "</div>\n<h2>Figures</h2>\n<table>\n";
   for (const auto& [name, value] : words.facts)
     html += "<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n";
   return html +
-         "</table>\n<p>Maps are shown on a cushion under a key light from the upper left, a weaker one from "
-         "the lower right and even surroundings: highlights are as wide as the material's lobe.</p>\n"
+         "</table>\n<p>Maps are shown on a cushion under a key light from the upper left, a weaker light "
+         "from "
+         "the lower right and uniform surroundings. Highlights are as wide as the material's lobe.</p>\n"
          "</body>\n</html>\n";
 }
 
@@ -180,7 +181,7 @@ WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial&
 void require_report_path(const std::filesystem::path& path) {
   if (path.extension() != ".html" && path.extension() != ".png")
     throw remap::Error(remap::ErrorKind::kUsage,
-                       "--report: is " + path.string() + "; expected a name that ends in .html or .png");
+                       "--report: " + path.string() + ": the file name must end with .html or .png");
 }
 
 void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,

@@ -1,5 +1,5 @@
-// A warp to look at: both materials, their strokes and appearance spaces, and the result (An et al. 2011,
-// figure 1).
+// Reports a warp in pictures: both materials, their strokes and appearance spaces, and the result (An et al.
+// 2011, figure 1).
 #pragma once
 
 #include <filesystem>
@@ -13,22 +13,22 @@
 
 namespace remapc {
 
-// Display values; maps with a longer side of 512 pixels, spaces as wide.
+// Pictures in display values. The longer side of maps and the width of spaces are 512 pixels.
 struct WarpPictures {
-  Image source, target, result;          // as shaded_map() lights them
-  Image source_strokes, target_strokes;  // the maps, dimmed, with the strokes in their colors
-  // The first two coordinates: points in the colors of texels, those of strokes larger, in the strokes'
-  // colors.
+  Image source, target, result;          // shaded by shaded_map()
+  Image source_strokes, target_strokes;  // the dimmed maps with the strokes in their colors
+  // The first two coordinates: points in the colors of texels; points of strokes are larger and in the colors
+  // of the strokes.
   Image source_space, target_space;
-  Image before, after;  // the source's points over the template's, which are grey; and their images
+  Image before, after;  // the source's points, or their images, over the template's (grey)
 };
 
-// The result is what the compiled converter makes of the source. At most 16384 points of each material are
-// drawn, and 512 of each stroke.
+// Draws the pictures. The result is that of the compiled converter. Draws at most 16384 points of each
+// material and 512 points of each stroke.
 WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial& target,
                            const std::vector<StrokePair>& strokes, const WarpFit& fit);
 
-// What the report says in words.
+// The texts of the report.
 struct WarpWords {
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  // name and value
@@ -36,12 +36,12 @@ struct WarpWords {
   std::size_t stroke_count = 0;
 };
 
-// Throws kUsage for a file that is neither .html nor .png.
+// Throws kUsage unless the name ends with .html or .png.
 void require_report_path(const std::filesystem::path& path);
 
-// One HTML file that holds its pictures; or one PNG, three pictures a row: source, template, result; the
-// strokes on source and template, the source's points over the template's; both spaces, the points after the
-// warp. Throws kUsage as require_report_path() does, kOutput.
+// Writes one HTML file with embedded pictures, or one PNG with three rows of pictures: source, template,
+// result; strokes on source and template, points before the warp; both spaces, points after the warp. Throws
+// the errors of require_report_path(), and kOutput.
 void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,
                        const WarpWords& words);
 

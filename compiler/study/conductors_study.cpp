@@ -21,13 +21,13 @@ namespace {
 
 using remap::number_text;
 
-const std::string kSource = "mitsuba/as", kTarget = "mitsuba/ward-conserving";
+const std::string kConductorSource = "mitsuba/as", kConductorTarget = "mitsuba/ward-conserving";
 
 double reflectance(const Conductor& metal, std::size_t channel) {
   return normal_reflectance({metal.eta[channel], metal.k[channel]});
 }
 
-// A straight line through points, least squares.
+// The least squares line through a set of points.
 struct Line {
   double slope = 0.0, offset = 0.0;
 
@@ -56,7 +56,7 @@ Material conductor(double alpha, double eta, double k) {
   return {"mitsuba/as-conductor", {{"alpha", {alpha}}, {"eta", {eta}}, {"k", {k}}, {"diffuse", {0.0}}}};
 }
 
-// What exact Fresnel is compared with, and remapped to.
+// Matches pictures of metals with exact Fresnel to the target model.
 struct ExactMatching {
   const PictureTaker& picture_taker;
   ModelDescription source;
@@ -82,7 +82,8 @@ double square_sum(const std::vector<float>& a) {
   return sum;
 }
 
-// One metal at one width: its rows by index, and how far Schlick's picture is from the exact one.
+// Matches one metal at one alpha by its index of refraction, and measures the error of Schlick's
+// approximation.
 void match_metal(const ExactMatching& matching, const Conductor& metal, double alpha, ConductorRow* rows,
                  FresnelDifference* fresnel) {
   double difference = 0.0, power = 0.0;
@@ -101,12 +102,13 @@ void match_metal(const ExactMatching& matching, const Conductor& metal, double a
 }
 
 void match_exactly(const Renderer& renderer, const StudyOptions& options, ConductorsStudy* study) {
-  const SweepOptions setting = study_sweep_options(kSource, kTarget, {}, options.resolution);
+  const SweepOptions setting =
+      study_sweep_options(kConductorSource, kConductorTarget, {}, options.resolution);
   const PictureTaker picture_taker(renderer, setting.objective, options.resolution, 1);
-  const ModelDescription target = find_model(renderer, kTarget);
+  const ModelDescription target = find_model(renderer, kConductorTarget);
   const remap::Range alphas{options.alphas.front() / 4.0, target.alpha.max};
   const ProbedModel probed_model{target, probe_specular(picture_taker, target, alphas)};
-  const ExactMatching matching{picture_taker, find_model(renderer, kSource),
+  const ExactMatching matching{picture_taker, find_model(renderer, kConductorSource),
                                TargetBank(picture_taker, probed_model, alphas, kBankRatio)};
   const auto metals = measured_conductors();
   const std::size_t tasks = metals.size() * options.alphas.size();
@@ -153,14 +155,16 @@ std::vector<TableRow> rows_of_alpha(const Table& table, double alpha) {
   return rows;
 }
 
-// From Ward back, the rows that can be trusted.
+// Converts the usable rows from Ward back to Ashikhmin-Shirley.
 void travel_back(const Renderer& renderer, const StudyOptions& options, const SweepExecution& execution,
                  ConductorsStudy* study) {
   const std::vector<TableRow> there = usable_rows(study->there);
   std::vector<SamplePoint> samples;
   for (const TableRow& row : there) samples.push_back({row.alpha2, row.specular2});
   study->back = run_sweep(
-      renderer, study_sweep_options(kTarget, kSource, std::move(samples), options.resolution), execution);
+      renderer,
+      study_sweep_options(kConductorTarget, kConductorSource, std::move(samples), options.resolution),
+      execution);
   RoundTrip trip;
   std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < there.size(); ++i) {
@@ -177,7 +181,7 @@ void travel_back(const Renderer& renderer, const StudyOptions& options, const Sw
   study->round_trip = trip;
 }
 
-// Largest difference in alpha and specular, over the rows that are ok in both.
+// The largest difference in alpha and specular over the rows that are ok in both tables.
 double difference(const Table& a, const Table& b) {
   double worst = 0.0;
   for (std::size_t i = 0; i < a.rows.size(); ++i)
@@ -187,7 +191,7 @@ double difference(const Table& a, const Table& b) {
   return worst;
 }
 
-// Gives each row of a metal its row of the sweep by F0.
+// Assigns to each row of a metal the row of the sweep with the same F0.
 void join_rows(ConductorsStudy* study) {
   std::map<std::pair<double, double>, const TableRow*> by_sample;
   for (const TableRow& row : study->there.rows) by_sample[{row.alpha1, row.specular1}] = &row;
@@ -205,7 +209,8 @@ ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& o
   ConductorsStudy study;
   SweepExecution execution;
   execution.jobs = options.jobs;
-  SweepOptions there = study_sweep_options(kSource, kTarget, metal_samples(options), options.resolution);
+  SweepOptions there =
+      study_sweep_options(kConductorSource, kConductorTarget, metal_samples(options), options.resolution);
   study.there = run_sweep(renderer, there, execution);
   if (options.progress) options.progress(0.2);
   there.target = "mitsuba/ward";
@@ -222,39 +227,41 @@ ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& o
 
 std::vector<std::string> conductors_words(const ConductorsStudy& study) {
   std::vector<std::string> words;
-  words.push_back(std::to_string(measured_conductors().size()) + " metals, three channels each, " + kSource +
-                  " to " + kTarget + ", light at 45 degrees:");
+  words.push_back(std::to_string(measured_conductors().size()) + " metals, three channels each, " +
+                  kConductorSource + " to " + kConductorTarget + ", light at 45 degrees:");
   double deviation = 0.0, shift = 0.0;
   for (const ConductorCurve& curve : study.curves) {
-    words.push_back("alpha " + number_text(curve.alpha) + ": " + std::to_string(curve.ok) + " of " +
-                    std::to_string(curve.ok + curve.clamped + curve.other) +
-                    " rows ok and on a straight line within " + short_text(curve.line_deviation) +
-                    " in specular; specular of Ward passes 1 at F0 " + short_text(curve.limit_f0) +
-                    ", beyond it " + std::to_string(curve.clamped) + " rows are flagged as clamped" +
-                    (curve.other == 0 ? "" : ", " + std::to_string(curve.other) + " as unstable or flat") +
-                    (curve.clamped == 0 ? ""
-                                        : ", where target alpha drifts by up to " +
-                                              percent_text(curve.clamped_alpha_shift)));
+    words.push_back(
+        "alpha " + number_text(curve.alpha) + ": " + std::to_string(curve.ok) + " of " +
+        std::to_string(curve.ok + curve.clamped + curve.other) + " rows are ok, within " +
+        short_text(curve.line_deviation) + " of a straight line in specular; Ward specular reaches 1 at F0 " +
+        short_text(curve.limit_f0) + "; above it, " + std::to_string(curve.clamped) +
+        " rows are flagged as clamped" +
+        (curve.other == 0 ? "" : ", " + std::to_string(curve.other) + " as unstable or flat") +
+        (curve.clamped == 0
+             ? ""
+             : " (target alpha changes by up to " + percent_text(curve.clamped_alpha_shift) + ")"));
     deviation = std::max(deviation, curve.line_deviation);
     shift = std::max(shift, curve.clamped_alpha_shift);
   }
   words.push_back("figure 6: smooth (largest distance from a line " + short_text(deviation) +
-                  ") except where specular of Ward passes 1; every such row is flagged");
-  words.push_back("mitsuba/ward, which ends at 1, gives the same ok rows within " +
+                  ") except where Ward specular exceeds 1; every such row is flagged");
+  words.push_back("mitsuba/ward, whose specular is limited to 1, gives the same ok rows within " +
                   short_text(study.plain_difference));
   const RoundTrip& trip = study.round_trip;
-  words.push_back("figure 7: the " + std::to_string(trip.rows) + " ok rows back to " + kSource + ": slope " +
-                  short_text(trip.slope, 6) + ", offset " + short_text(trip.offset) + ", F0 within " +
-                  short_text(trip.f0_deviation) + ", alpha within " + short_text(trip.alpha_deviation));
+  words.push_back("figure 7: the " + std::to_string(trip.rows) + " ok rows converted back to " +
+                  kConductorSource + ": slope " + short_text(trip.slope, 6) + ", offset " +
+                  short_text(trip.offset) + ", F0 within " + short_text(trip.f0_deviation) +
+                  ", alpha within " + short_text(trip.alpha_deviation));
   const auto worst = std::max_element(
       study.fresnel.begin(), study.fresnel.end(),
       [](const FresnelDifference& a, const FresnelDifference& b) { return a.error < b.error; });
   double mean = 0.0;
   for (const FresnelDifference& item : study.fresnel)
     mean += item.error / static_cast<double>(study.fresnel.size());
-  words.push_back("Schlick from F0 against exact Fresnel: the pictures differ by " + percent_text(mean) +
+  words.push_back("Schlick (from F0) against exact Fresnel: pictures differ by " + percent_text(mean) +
                   " on average, at most " + percent_text(worst->error) + " (" + worst->material + ", alpha " +
-                  number_text(worst->alpha) + "); Ward specular by at most " +
+                  number_text(worst->alpha) + "); Ward specular differs by at most " +
                   percent_text(study.exact_specular_shift));
   return words;
 }
@@ -278,9 +285,14 @@ std::vector<std::string> write_conductors(const ConductorsStudy& study, const st
   remap::write_file(folder / "fresnel.csv", fresnel);
   remap::write_file(folder / "as_to_ward.csv", table_text(study.there));
   remap::write_file(folder / "ward_to_as.csv", table_text(study.back));
+  return {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"};
+}
 
-  StudyPlot there{
-      "Figure 6: metals, one curve a width; open: flagged", "F0 of " + kSource, "specular of " + kTarget, {}};
+std::string conductors_plot_script(const ConductorsStudy& study) {
+  StudyPlot there{"Figure 6: metals, one curve per alpha; open points: flagged",
+                  "F0 of " + kConductorSource,
+                  "specular of " + kConductorTarget,
+                  {}};
   for (const ConductorCurve& curve : study.curves) {
     StudyCurve ok{"alpha " + number_text(curve.alpha), {}, false}, flagged{"", {}, true};
     for (const TableRow& row : rows_of_alpha(study.there, curve.alpha))
@@ -288,13 +300,11 @@ std::vector<std::string> write_conductors(const ConductorsStudy& study, const st
     there.curves.push_back(ok);
     there.curves.push_back(flagged);
   }
-  StudyPlot trip{"Figure 7: there and back", "F0", "F0 that came back", {{"ok rows", {}, true}}};
+  StudyPlot trip{"Figure 7: round trip", "F0", "F0 after the round trip", {{"ok rows", {}, true}}};
   const std::vector<TableRow> usable = usable_rows(study.there);
   for (std::size_t i = 0; i < usable.size(); ++i)
     trip.curves[0].points.emplace_back(usable[i].specular1, study.back.rows[i].specular2);
-  std::vector<std::string> files = {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"};
-  if (write_study_plot(folder / "figure6_7.svg", {there, trip})) files.push_back("figure6_7.svg");
-  return files;
+  return study_plot_script({there, trip});
 }
 
 }  // namespace remapc

@@ -9,7 +9,7 @@
 namespace remapc {
 namespace {
 
-// A source width and the parameters of the target, for each alpha of the options.
+// The target parameters for each alpha of the options.
 using Parameters = std::vector<SamplePoint>;
 
 Parameters copied(const EnvironmentsOptions& options) {
@@ -36,7 +36,8 @@ Parameters matched(const EnvironmentsOptions& options, const Renderer& renderer,
   return parameters;
 }
 
-// As headers and texremap evaluate it: polynomials in floats, behind the domain rule (model/interpreter.hpp).
+// Evaluates the fit as generated headers and texremap do: as polynomials in floats, after the domain rule
+// (model/interpreter.hpp).
 Parameters shipped(const EnvironmentsOptions& options, const remap::Fit& fit) {
   const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
   const double held_specular = std::min(options.specular, fit.domain.specular.max);
@@ -78,8 +79,7 @@ std::vector<Conversion> conversions_of(const EnvironmentsOptions& options,
     add(p, Method::kNatural, matched(options, *renderer, pair, "natural"));
     const remap::Fit* fit = find_pair(options.fits, pair);
     add(p, Method::kShipped, fit == nullptr ? Parameters{} : shipped(options, *fit));
-    if (fit == nullptr)
-      remarks->push_back(pair_name(pair) + " has no fit, so nothing is said of it as shipped");
+    if (fit == nullptr) remarks->push_back(pair_name(pair) + " has no fit, so `shipped` is not compared");
   }
   std::stable_sort(conversions.begin(), conversions.end(),
                    [](const Conversion& a, const Conversion& b) { return a.alpha < b.alpha; });

@@ -1,4 +1,4 @@
-// What the methods of the study of environments make of the source materials.
+// The target materials that each method of the environments study computes.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace remapc {
 
-// Every pair and alpha by every method that the pair has, by alpha, pair, method. A pair without a fit among
-// `options.fits` adds a sentence to `remarks`.
+// Returns every pair and alpha converted by every method that applies to the pair, sorted by alpha, pair and
+// method. Adds a remark for each pair without a fit in `options.fits`.
 std::vector<Conversion> conversions_of(const EnvironmentsOptions& options, std::vector<std::string>* remarks);
 
 }  // namespace remapc

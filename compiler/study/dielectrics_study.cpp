@@ -23,10 +23,10 @@ using remap::number_text;
 const std::string kSource = "mitsuba/as-dielectric", kTarget = "mitsuba/ward";
 constexpr remap::Range kIors{1.05, 2.5};
 constexpr std::size_t kIorCount = 30;  // 0.05 apart
-constexpr double kLostError = 1.01;    // above the best error known: another minimum
-constexpr double kSameError = 1e-4;    // errors below this are rounding of pictures
+constexpr double kLostError = 1.01;  // times the best known error: a match above it ended in another minimum
+constexpr double kSameError = 1e-4;  // smaller errors are rounding of the pictures
 
-// Guesses of every kind: narrow, middle and wide, without and with all specular, dark and bright.
+// All combinations of narrow, middle and wide alpha, least and largest specular, dark and bright diffuse.
 std::vector<RoleValues> trial_guesses() {
   std::vector<RoleValues> guesses;
   for (const double alpha : {0.02, 0.3, 0.98})
@@ -41,7 +41,7 @@ double grid_ior(std::size_t i) {
          1e6;
 }
 
-// The uniform grid of indices, and those of the measured materials.
+// The uniform grid of indices and the indices of the measured materials.
 std::vector<SamplePoint> dielectric_samples(const StudyOptions& options) {
   std::set<double> iors;
   for (std::size_t i = 0; i < kIorCount; ++i) iors.insert(grid_ior(i));
@@ -58,7 +58,7 @@ std::map<std::pair<double, double>, const TableRow*> rows_by_sample(const Table&
   return rows;
 }
 
-// The rows of the uniform grid at one width.
+// The rows of the uniform grid at one alpha.
 std::vector<const TableRow*> grid_rows(const Table& table, double alpha) {
   const auto rows = rows_by_sample(table);
   std::vector<const TableRow*> grid;
@@ -98,10 +98,10 @@ DielectricCurve curve_of(const std::vector<Table>& stages, int stage_count, doub
   return curve;
 }
 
-// One row of trials: every guess, at one sample.
+// The image errors of one sample, one for each guess.
 using Errors = std::vector<double>;
 
-// The image errors that one-stage matches from every trial guess end with, for each width and grid index.
+// Runs the one-stage match from every trial guess, for each alpha and grid index.
 std::map<std::pair<double, double>, Errors> try_guesses(const Renderer& renderer, const StudyOptions& options,
                                                         double diffuse) {
   const SweepOptions setting = study_sweep_options(kSource, kTarget, {}, options.resolution);
@@ -184,13 +184,13 @@ std::string curve_words(const DielectricCurve& curve) {
                                   : "smooth") +
          "; largest second difference " + percent_text(curve.second_difference) + " and largest step " +
          percent_text(curve.largest_step) + " (at ior " + number_text(curve.step_ior) +
-         ") of the range of two stages, specular at least " + percent_text(curve.least_highlight) +
-         " of theirs; image error " + percent_text(curve.mean_error) + " mean, " +
+         ") of the two-stage range; specular at least " + percent_text(curve.least_highlight) +
+         " of two stages; image error " + percent_text(curve.mean_error) + " mean, " +
          percent_text(curve.worst_error) + " largest; of " + std::to_string(curve.rows) + " rows " +
          std::to_string(curve.unstable) + " unstable, " + std::to_string(curve.clamped) + " clamped";
 }
 
-// What the one-stage match does from other guesses than its own.
+// Describes the one-stage match from guesses other than its own.
 void add_guess_words(const DielectricsStudy& study, std::vector<std::string>* words) {
   std::size_t losing = 0, jumping = 0;
   const GuessTrial* example = nullptr;
@@ -200,22 +200,23 @@ void add_guess_words(const DielectricsStudy& study, std::vector<std::string>* wo
     if (trial.jumps > 0 && (example == nullptr || trial.jumps < example->jumps)) example = &trial;
   }
   words->push_back("one stage from " + std::to_string(trial_guesses().size()) +
-                   " other fixed guesses at each width: " + std::to_string(losing) + " of " +
-                   std::to_string(study.trials.size()) + " curves leave the best minimum somewhere, " +
-                   std::to_string(jumping) + " of them by a jump along the index");
+                   " other fixed guesses at each alpha: " + std::to_string(losing) + " of " +
+                   std::to_string(study.trials.size()) + " curves miss the best minimum at some index, " +
+                   std::to_string(jumping) + " of them with a jump along the index");
   if (example != nullptr)
-    words->push_back("such a jump: guess " + guess_text(example->guess) +
-                     " of the ranges of alpha, specular, diffuse at alpha " + number_text(example->alpha) +
-                     " ends in a worse minimum at ior " + number_text(example->first_lost_ior) + " to " +
-                     number_text(example->last_lost_ior) + " (" + std::to_string(example->lost) + " of " +
-                     std::to_string(example->rows) + " rows)");
+    words->push_back("example of a jump: guess " + guess_text(example->guess) +
+                     " (shares of the ranges of alpha, specular, diffuse) at alpha " +
+                     number_text(example->alpha) + " ends in a worse minimum at ior " +
+                     number_text(example->first_lost_ior) + " to " + number_text(example->last_lost_ior) +
+                     " (" + std::to_string(example->lost) + " of " + std::to_string(example->rows) +
+                     " rows)");
 }
 
 StudyPlot stage_plot(const Table& table, int stages) {
   StudyPlot plot{std::string(stages == 1   ? "Figure 8"
                              : stages == 2 ? "Figure 10a"
                                            : "Figure 10b") +
-                     ": " + stages_name(stages) + "; open: flagged",
+                     ": " + stages_name(stages) + "; open points: flagged",
                  "ior of " + kSource,
                  "specular of " + kTarget,
                  {}};
@@ -304,14 +305,14 @@ std::vector<std::string> dielectrics_words(const DielectricsStudy& study) {
     unstable[stage] += curve.unstable;
   }
   words.push_back(
-      "figure 8 (a jump in one stage; near ior 1.3 in the paper, which prints neither width nor "
+      "figure 8 (a jump in one stage; near ior 1.3 in the paper, which states neither alpha nor "
       "guess): " +
       (jumps.empty() ? std::string("not found") : "found at " + jumps) +
-      ", from the guess in the middle of the ranges" + losing);
+      " from the guess in the middle of the ranges" + losing);
   add_guess_words(study, &words);
-  words.push_back("figure 10: three stages lower the image error of two by " +
-                  percent_text(study.error_gain) + " on average, and move specular by up to " +
-                  percent_text(study.worst_difference) + " of the curve's range");
+  words.push_back("figure 10: three stages lower the image error of two stages by " +
+                  percent_text(study.error_gain) + " on average and change specular by up to " +
+                  percent_text(study.worst_difference) + " of its range");
   words.push_back("unstable rows: " + std::to_string(unstable[0]) + " in one stage, " +
                   std::to_string(unstable[1]) + " in two, " + std::to_string(unstable[2]) + " in three");
   return words;
@@ -324,15 +325,18 @@ std::vector<std::string> write_dielectrics(const DielectricsStudy& study,
     remap::write_file(folder / name, text);
     files.push_back(name);
   };
-  std::vector<StudyPlot> plots;
-  for (std::size_t i = 0; i < study.stages.size(); ++i) {
+  for (std::size_t i = 0; i < study.stages.size(); ++i)
     write("stages" + std::to_string(i + 1) + ".csv", table_text(study.stages[i]));
-    plots.push_back(stage_plot(study.stages[i], static_cast<int>(i + 1)));
-  }
   write("guesses.csv", trials_text(study.trials));
   write("dielectrics.csv", materials_text(study.stages[1]));
-  if (write_study_plot(folder / "figure8_10.svg", plots)) files.push_back("figure8_10.svg");
   return files;
+}
+
+std::string dielectrics_plot_script(const DielectricsStudy& study) {
+  std::vector<StudyPlot> plots;
+  for (std::size_t i = 0; i < study.stages.size(); ++i)
+    plots.push_back(stage_plot(study.stages[i], static_cast<int>(i + 1)));
+  return study_plot_script(plots);
 }
 
 }  // namespace remapc

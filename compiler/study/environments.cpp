@@ -23,7 +23,7 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-constexpr std::size_t kMethodCount = 4;  // of Method, without kBest
+constexpr std::size_t kMethodCount = 4;  // methods without kBest
 
 double mean_radiance(const std::vector<float>& radiance) {
   double sum = 0.0;
@@ -31,11 +31,11 @@ double mean_radiance(const std::vector<float>& radiance) {
   return sum / (static_cast<double>(radiance.size()) / 3.0);
 }
 
-// A picture of one material under one environment, with what comparisons need of it.
+// A picture of one material under one environment.
 struct Picture {
   DisplayedSphere display;
   double mean = 0.0;                           // linear luminance
-  std::array<std::vector<float>, 2> halves{};  // display colors by each half of the directions
+  std::array<std::vector<float>, 2> halves{};  // display colors from each half of the light directions
 };
 
 Picture picture_of(const SpherePictures& pictures, std::size_t material, std::size_t environment) {
@@ -47,7 +47,7 @@ Picture picture_of(const SpherePictures& pictures, std::size_t material, std::si
   return picture;
 }
 
-// The materials of one alpha, each once: sources, and what they become.
+// The distinct source and target materials at one alpha.
 struct RenderedMaterials {
   std::vector<SphereMaterial> materials;
   std::size_t place(const SphereMaterial& material) {
@@ -60,11 +60,11 @@ struct RenderedMaterials {
 
 struct ComparedPair {
   Conversion conversion;
-  std::size_t source, target;  // places in RenderedMaterials::materials
+  std::size_t source, target;  // indices into RenderedMaterials::materials
 };
 
-// Mean square over the colors of half of what two differences of pictures differ by: each was made with one
-// half of the directions, so this is the sampling error of their mean.
+// The mean square sampling error of the difference of two pictures. It is estimated from the differences that
+// each half of the light directions gives: the error of their mean is half of their difference.
 double squared_noise(const Picture& source, const Picture& target) {
   double sum = 0.0;
   for (std::size_t i = 0; i < source.halves[0].size(); ++i) {
@@ -75,7 +75,7 @@ double squared_noise(const Picture& source, const Picture& target) {
   return sum / static_cast<double>(source.halves[0].size());
 }
 
-// Shows the comparisons of one environment on its sheet.
+// Places the pictures of one environment on its sheet.
 void fill_sheet(const std::vector<ComparedPair>& pairs, const std::vector<Picture>& shots,
                 const SpherePictures& pictures, Image* sheet) {
   for (const ComparedPair& pair : pairs) {
@@ -89,7 +89,7 @@ void fill_sheet(const std::vector<ComparedPair>& pairs, const std::vector<Pictur
   }
 }
 
-// One alpha: renders all of its materials together and compares them.
+// Renders all materials of one alpha together and compares them.
 void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                    std::span<const Conversion> conversions, EnvironmentsResult* result) {
   RenderedMaterials rendered;
@@ -128,7 +128,7 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
   result->comparisons.insert(result->comparisons.end(), comparisons.begin(), comparisons.end());
 }
 
-// The search for the best starts from what the objective `natural` finds.
+// Adds the best conversions. The search starts from the matches by the objective `natural`.
 void add_best(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
               std::vector<Conversion>* conversions) {
   std::vector<Conversion> starts;
@@ -141,7 +141,7 @@ void add_best(const EnvironmentsOptions& options, const RadiancePyramid& pyramid
 void require_options(const EnvironmentsOptions& options) {
   if (options.pairs.empty() || options.alphas.empty() || options.environments.empty())
     throw Error(ErrorKind::kUsage,
-                "environments: no pair, alpha or environment; expected one at least of each");
+                "environments: at least one pair, one alpha and one environment are required");
   require_names_differ(options.environments);
   const auto renderer = make_builtin_renderer();
   for (const ModelPair& pair : options.pairs)
@@ -149,13 +149,13 @@ void require_options(const EnvironmentsOptions& options) {
       const ModelDescription model = find_model(*renderer, name);
       for (const double alpha : options.alphas)
         if (!model.alpha.contains(alpha))
-          throw Error(ErrorKind::kUsage, "alpha: " + remap::number_text(alpha) + "; expected " +
-                                             remap::number_text(model.alpha.min) + " to " +
-                                             remap::number_text(model.alpha.max));
+          throw Error(ErrorKind::kUsage, "alpha: " + remap::number_text(alpha) + " is out of range for " +
+                                             name + " (" + remap::number_text(model.alpha.min) + " to " +
+                                             remap::number_text(model.alpha.max) + ")");
     }
   if (!(options.specular > 0.0 && options.specular <= 1.0))
-    throw Error(ErrorKind::kUsage,
-                "specular: " + remap::number_text(options.specular) + "; expected more than 0, 1 at most");
+    throw Error(ErrorKind::kUsage, "specular: " + remap::number_text(options.specular) +
+                                       " is out of range (above 0, at most 1)");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The study of environments: how alike source and converted spheres look under environment light, for ways to
-// convert parameters.
+// The environments study: compares pictures of source and converted spheres under environment maps, for
+// several methods of conversion.
 #pragma once
 
 #include <atomic>
@@ -13,47 +13,47 @@
 
 namespace remapc {
 
-// The pairs and widths whose figures this project states.
+// The pairs and alphas whose figures the documentation states.
 std::vector<ModelPair> default_pairs();
 std::vector<double> default_alphas();
 
-// How many times `progress` will be called.
+// The number of calls of `progress`.
 std::size_t progress_steps(const EnvironmentsOptions& options);
 
-// How far the pictures of source and target are apart, over the pixels that show the sphere.
+// The difference between two pictures over the pixels that show the sphere.
 struct PictureSimilarity {
-  double rmse = 0.0;    // of display values, all channels; percent of the display's range
-  double ssim = 0.0;    // structural similarity of luma, 1 for equal pictures
-  double energy = 0.0;  // mean radiance of the target relative to the source's, less 1; linear luminance
+  double rmse = 0.0;    // of display values over all channels, percent of the display range
+  double ssim = 0.0;    // of luma; 1 for equal pictures
+  double energy = 0.0;  // mean linear luminance of the target over that of the source, minus 1
 };
 
 struct EnvironmentComparison {
   Conversion conversion;
   std::size_t environment = 0;  // index into EnvironmentsOptions::environments
   PictureSimilarity image_similarity;
-  double squared_noise = 0.0;  // mean square sampling error of the difference of the pictures, display values
+  double squared_noise = 0.0;  // mean square sampling error of the difference, display values
 };
 
 struct EnvironmentsResult {
-  std::vector<EnvironmentComparison> comparisons;  // by alpha, pair, method, environment
-  std::vector<std::string> remarks;                // what was left out, a sentence each
-  // For each environment where `sheet_alpha` is given, in display values: a row a pair; the source, then what
-  // it becomes by each method. Dark where a pair has no such method.
+  std::vector<EnvironmentComparison> comparisons;  // sorted by alpha, pair, method, environment
+  std::vector<std::string> remarks;                // what was not compared, one sentence each
+  // One sheet for each environment if `sheet_alpha` is set, in display values: one row for each pair; the
+  // source, then the result of each method. Dark where a method does not apply to a pair.
   std::vector<Image> sheets;
-  // RMS sampling error of the difference of two pictures that are compared, percent of the display's range.
-  // What it adds to an RMSE, it adds in squares.
+  // RMS sampling error of the difference of two compared pictures, percent of the display range. It adds to
+  // an RMSE in squares.
   double noise = 0.0;
 };
 
-// Compares every pair, alpha, method and environment. Pairs without a fit have no comparisons of kShipped,
-// and a remark. Throws kUsage for unknown models, numbers out of range, empty lists and names given twice,
-// kNumeric where a fit cannot be lowered, kInterrupted.
+// Compares every pair, alpha, method and environment. Pairs without a fit have a remark in place of
+// comparisons of kShipped. Throws kUsage for unknown models, numbers out of range, empty lists and repeated
+// environment names, kNumeric if a fit cannot be lowered, and kInterrupted.
 EnvironmentsResult study_environments(const EnvironmentsOptions& options);
 
-// Means over comparisons; energy is the mean of its magnitude.
+// Means over the comparisons; `energy` is the mean of the absolute values.
 PictureSimilarity mean_similarity(const std::vector<const EnvironmentComparison*>& comparisons);
 
-// The comparisons of one method, of one pair where `pair` is an index.
+// The comparisons of one method, over all pairs or of the pair with index `pair`.
 inline constexpr std::size_t kAllPairs = static_cast<std::size_t>(-1);
 std::vector<const EnvironmentComparison*> comparisons_of(const EnvironmentsResult& result, Method method,
                                                          std::size_t pair = kAllPairs);

@@ -1,4 +1,4 @@
-// What the study of environments compares.
+// Options of the environments study.
 #pragma once
 
 #include <atomic>
@@ -16,35 +16,35 @@ struct ModelPair {
   std::string source, target;
 };
 
-// `a -> b`, as people read it.
+// Returns `source -> target`.
 std::string pair_name(const ModelPair& pair);
 
 enum class Method {
-  kCopy,     // alpha and specular are taken over as they are
-  kPaper,    // matched by the objective `paper`
-  kNatural,  // matched by the objective `natural`
-  kShipped,  // a fit, lowered to the polynomials in floats that a header and texremap evaluate
-  kBest,     // of least mean RMSE over the given environments: what no conversion can do better
+  kCopy,     // alpha and specular are copied
+  kPaper,    // match by the objective `paper`
+  kNatural,  // match by the objective `natural`
+  kShipped,  // a fit, evaluated as generated headers and texremap do
+  kBest,     // least mean RMSE over the given environments; no conversion can be better
 };
 std::string method_name(Method method);
 
 struct EnvironmentsOptions {
-  std::vector<ModelPair> pairs;           // of models of the built-in renderer
-  std::vector<double> alphas;             // of the source
-  double specular = 0.5;                  // of the source, linear
-  std::vector<Environment> environments;  // names differ; of one mean luminance
-  std::vector<remap::Fit> fits;           // what kShipped may use
-  int resolution = 128;                   // of the pictures, pixels
-  int samples = 1024;                     // directions a pixel
-  int match_resolution = 512;             // of the pictures that paper and natural are matched by
-  unsigned jobs = 0;                      // threads; 0: one a core
-  bool least_error = false;               // compare kBest too
-  std::optional<double> sheet_alpha;      // of `alphas`: spheres of this width are kept for contact sheets
-  std::function<void()> progress;         // one of progress_steps() is done; from any thread
-  const std::atomic<bool>* cancelled = nullptr;  // stops soon; throws kInterrupted
+  std::vector<ModelPair> pairs;                  // models of the built-in renderer
+  std::vector<double> alphas;                    // of the source
+  double specular = 0.5;                         // of the source, linear, above 0 to 1
+  std::vector<Environment> environments;         // of different names and equal mean luminance
+  std::vector<remap::Fit> fits;                  // fits for kShipped
+  int resolution = 128;                          // width and height of the pictures in pixels
+  int samples = 1024;                            // light directions per pixel
+  int match_resolution = 512;                    // width and height of the pictures for kPaper and kNatural
+  unsigned jobs = 0;                             // threads; 0: one per core
+  bool least_error = false;                      // compare kBest, too
+  std::optional<double> sheet_alpha;             // one of `alphas`: draw contact sheets of it
+  std::function<void()> progress;                // called progress_steps() times, from any thread
+  const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
 };
 
-// What a source material becomes.
+// The target parameters for one source material.
 struct Conversion {
   std::size_t pair = 0;  // index into EnvironmentsOptions::pairs
   Method method = Method::kCopy;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "remap/version.hpp"
+#include "report/gnuplot.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -15,21 +16,21 @@ using remap::number_text;
 
 constexpr std::array kMethods = {Method::kCopy, Method::kPaper, Method::kNatural, Method::kShipped,
                                  Method::kBest};
-constexpr double kRmseStep = 0.01, kSsimStep = 0.001;  // of the figures in the text
+constexpr double kRmseStep = 0.01, kSsimStep = 0.001;  // last digits of the figures in the text
 
 std::string figures_text(const PictureSimilarity& image_similarity) {
   return fixed(image_similarity.rmse, 2, 8) + fixed(image_similarity.ssim, 3, 8) +
          fixed(100.0 * image_similarity.energy, 1, 8);
 }
 
-// All environments are as bright; maps are floats, so not to the last digit.
+// All environments have the same mean luminance, up to rounding of their floats.
 std::string brightness_text(const EnvironmentsOptions& options) {
   return number_text(std::round(1e6 * mean_luminance(options.environments.front())) / 1e6);
 }
 
-// What the figures depend on besides the rows themselves.
+// Comment lines with the settings that the figures depend on.
 std::string comments_of(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  return comment_lines({{"tool", std::string("remapc ") + remap::kVersion},
+  return comment_lines({{"tool", std::string("remap-study ") + remap::kVersion},
                         {"resolution", std::to_string(options.resolution)},
                         {"samples", std::to_string(options.samples)},
                         {"mean_luminance", brightness_text(options)},
@@ -64,7 +65,7 @@ std::string heading(const EnvironmentsOptions& options, const EnvironmentsResult
          number_text(options.specular) + ", " + std::to_string(options.resolution) + " x " +
          std::to_string(options.resolution) + " pixels, sampling noise " +
          number_text(remap::rounded_up(result.noise, 2)) +
-         " %\nRMSE in % of the display's range, SSIM of luma, energy: error of mean radiance in %\n";
+         " %\nRMSE: % of the display range; SSIM: of luma; energy: error of the mean radiance in %\n";
 }
 
 std::string verdict_text(const EnvironmentsOptions& options, const EnvironmentsResult& result,
@@ -72,12 +73,13 @@ std::string verdict_text(const EnvironmentsOptions& options, const EnvironmentsR
   std::string text;
   for (const WorsePair& worse : worse_than_copy(options, result)) {
     if (worse.method != method) continue;
-    text += (text.empty() ? " is worse than copying for " : ", ") + pair_name(options.pairs[worse.pair]) +
-            " (RMSE" + fixed(worse.image_similarity.rmse, 2, 5) + " against" + fixed(worse.copy.rmse, 2, 5) +
-            ", SSIM" + fixed(worse.image_similarity.ssim, 3, 6) + " against" + fixed(worse.copy.ssim, 3, 6) +
-            ")";
+    text += (text.empty() ? "" : ", ") + pair_name(options.pairs[worse.pair]) + " (RMSE" +
+            fixed(worse.image_similarity.rmse, 2, 5) + " against" + fixed(worse.copy.rmse, 2, 5) + ", SSIM" +
+            fixed(worse.image_similarity.ssim, 3, 6) + " against" + fixed(worse.copy.ssim, 3, 6) + ")";
   }
-  return method_name(method) + (text.empty() ? " is worse than copying for no pair" : text) + ".\n";
+  return "With `" + method_name(method) + "`, " +
+         (text.empty() ? "no pair is worse than copying" : "these pairs are worse than copying: " + text) +
+         ".\n";
 }
 
 }  // namespace
@@ -156,15 +158,15 @@ std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsR
 }
 
 std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  // Colors that differ for color-blind eyes too (Okabe and Ito 2008), in the order of Method.
-  static constexpr std::array<const char*, kMethods.size()> kColors = {"#000000", "#D55E00", "#0072B2",
-                                                                       "#009E73", "#999999"};
+  // In the order of Method.
+  static constexpr std::array<const char*, kMethods.size()> kColors = {
+      "black", kPlotColors[1], kPlotColors[0], kPlotColors[2], "#999999"};
   std::ostringstream out;
   std::array<std::string, 2> curves;
   for (const Method method : methods_of(result)) {
     const std::string name = method_name(method);
     if (pair_count(options, result, method) != options.pairs.size())
-      continue;  // means of other pairs mislead
+      continue;  // means over different pairs cannot be compared
     out << "$" << name << " << EOD\n";
     for (const double alpha : options.alphas) {
       const PictureSimilarity mean = mean_similarity(at_alpha(comparisons_of(result, method), alpha));
@@ -177,15 +179,14 @@ std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsRe
                        " with linespoints linewidth 2 pointtype 7 pointsize 0.5 " + "linecolor rgb '" +
                        kColors[static_cast<std::size_t>(method)] + "' title '" + name + "'";
   }
-  out << "set terminal svg size 1200,480 enhanced font 'Helvetica,13' background rgb 'white'\n"
+  out << plot_style(1200, 480)
       << "set multiplot layout 1,2 margins 0.07,0.98,0.13,0.85 spacing 0.09,0.1 title 'Spheres under "
       << options.environments.size() << " environments, mean of " << options.pairs.size()
       << " pairs of models' font ',16'\n"
-      << "set grid linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
-      << "set tics textcolor rgb 'black'\nset xlabel 'alpha of the source'\n"
-      << "set title 'RMSE, % of the display''s range (less is more alike)'\nset yrange [0:*]\nset key bottom "
+      << "set xlabel 'alpha of the source'\n"
+      << "set title 'RMSE, % of the display range (lower is better)'\nset yrange [0:*]\nset key bottom "
          "left\n"
-      << curves[0] << "\nset title 'SSIM of luma (1 is equal)'\nset yrange [*:1]\nset key bottom right\n"
+      << curves[0] << "\nset title 'SSIM of luma (1: equal)'\nset yrange [*:1]\nset key bottom right\n"
       << curves[1] << "\nunset multiplot\n";
   return out.str();
 }

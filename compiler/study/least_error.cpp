@@ -7,24 +7,25 @@
 #include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
 #include "report/lit_sphere.hpp"
+#include "study/golden_section.hpp"
 #include "system/parallel.hpp"
 
 namespace remapc {
 namespace {
 
 constexpr int kWidths = 11;
-constexpr double kWidthRatio = 1.085;  // of neighbouring widths
+constexpr double kWidthRatio = 1.085;  // between neighboring alphas
 constexpr int kLeastErrorSamples = 256;
-constexpr double kWidestAlpha = 1.0;  // of the models of the built-in renderer
+constexpr double kWidestAlpha = 1.0;  // limit of the built-in models
 
-// Pictures of the target at one width, as functions of specular: dark + specular * (bright - dark).
+// Pictures of the target at one alpha, as functions of specular: dark + specular * (bright - dark).
 struct Width {
   double alpha = 0.0;
   std::vector<std::vector<float>> dark, bright;  // for each environment
 };
 
 struct Search {
-  std::vector<std::vector<float>> source;  // display values for each environment
+  std::vector<std::vector<float>> source;  // display values, for each environment
   std::array<Width, kWidths> widths;
 };
 
@@ -46,26 +47,15 @@ struct Optimum {
   double specular = 0.0, rmse = 0.0;
 };
 
-// Golden section over all of specular: the error has one minimum, since brightness only rises with it.
+// The error has one minimum over specular, because brightness increases with specular.
 Optimum best_specular(const Search& search, const Width& width) {
-  constexpr double kGolden = 0.6180339887498949;
   constexpr int kSteps = 16;  // to 5e-4
-  double low = 0.0, high = 1.0;
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = mean_rmse(search, width, a), at_b = mean_rmse(search, width, b);
-  for (int step = 0; step < kSteps; ++step) {
-    if (at_a < at_b) {
-      high = b, b = a, at_b = at_a;
-      a = high - kGolden * (high - low), at_a = mean_rmse(search, width, a);
-    } else {
-      low = a, a = b, at_a = at_b;
-      b = low + kGolden * (high - low), at_b = mean_rmse(search, width, b);
-    }
-  }
-  return at_a < at_b ? Optimum{a, at_a} : Optimum{b, at_b};
+  const auto [specular, rmse] =
+      golden_section(0.0, 1.0, kSteps, [&](double value) { return mean_rmse(search, width, value); });
+  return {specular, rmse};
 }
 
-// Where the parabola through three values at -1, 0 and 1 is least, within them.
+// The position of the minimum of the parabola through three values at -1, 0 and 1, clamped to [-1, 1].
 double vertex(double before, double middle, double after) {
   const double bend = before - 2.0 * middle + after;
   return bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0.0;
@@ -86,7 +76,7 @@ Conversion best_of(const Search& search, const Conversion& start) {
   return best;
 }
 
-// Materials of one search, in a row: the source, then for each width specular 0 and 1.
+// Appends the materials of one search: the source, then specular 0 and 1 at each alpha.
 void add_materials(const EnvironmentsOptions& options, const Conversion& start,
                    std::vector<SphereMaterial>* materials) {
   const ModelPair& pair = options.pairs[start.pair];

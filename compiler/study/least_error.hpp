@@ -1,5 +1,5 @@
-// The least error of the study of environments: how alike two models can be made to look under given
-// environments by any conversion of parameters.
+// The least error of the environments study: the best agreement of two models under given environments that
+// any conversion of parameters can reach.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace remapc {
 
-// Pixel rows of the pictures that the search compares, and the progress that it reports for each alpha.
+// The height of the pictures that the search compares, which is also its number of progress calls per alpha.
 inline constexpr int kLeastErrorResolution = 48;
 
-// For each of `starts` (all of one source alpha) the target parameters of least mean RMSE over the
-// environments: the best specular at each of eleven widths around that of the start, a parabola through the
-// best three. Where the best width lies within a factor of 1.5 of the start, its RMSE is found to about a
-// hundredth.
+// Returns the target parameters of least mean RMSE over the environments for each of `starts`, which have one
+// source alpha. Searches for the best specular at each of eleven alphas around the start and interpolates by
+// a parabola through the best three. If the best alpha is within a factor of 1.5 of the start, the RMSE is
+// accurate to about 1 %.
 std::vector<Conversion> best_conversions(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
                                          std::span<const Conversion> starts);
 

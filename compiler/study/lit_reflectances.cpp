@@ -17,9 +17,9 @@ std::vector<float> difference(const std::vector<float>& a, const std::vector<flo
   return values;
 }
 
-// Grey pictures of the built-in renderer with the light at the camera, as RGB of `pixels`.
+// RGB values of `pixels` in grey pictures of the built-in renderer with the light at the camera.
 BasisPictures headlight_basis(double alpha, int resolution, const std::vector<std::uint32_t>& pixels) {
-  // A light of distance d gives a white diffuse surface at its nearest point 1 / (pi (d - 1)^2).
+  // A light at distance d gives the nearest point of a white diffuse sphere the radiance 1 / (pi (d - 1)^2).
   constexpr double kNearest = 2.0, kExposure = std::numbers::pi * kNearest * kNearest;
   const auto renderer = make_builtin_renderer();
   Scene scene;

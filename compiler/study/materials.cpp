@@ -1,6 +1,6 @@
-// The values are those that the material database physicallybased.info (Palmqvist, CC0, April 2026) gives for
-// linear sRGB, made from the spectra of refractiveindex.info (Polyanskiy 2024). Each entry repeats the source
-// that the database names. Some parts of an index are 0 there.
+// The values are from the material database physicallybased.info (Palmqvist, CC0, April 2026) for linear
+// sRGB, which derives them from the spectra of refractiveindex.info (Polyanskiy 2024). Each entry names the
+// source that the database states. Some parts of an index are 0 in the database.
 #include "study/materials.hpp"
 
 namespace remapc {

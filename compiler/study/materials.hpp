@@ -1,4 +1,4 @@
-// Measured metals and dielectrics: the materials that the studies remap.
+// The measured metals and dielectrics that the studies convert.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@ struct Conductor {
   const char* name;
   std::array<double, 3> eta;
   std::array<double, 3> k;
-  const char* source;  // page of refractiveindex.info, shelf/book/author of the measurement
+  const char* source;  // page of refractiveindex.info: shelf/book/author
 };
 
 struct Dielectric {
   const char* name;
   double ior;          // in visible light
-  const char* source;  // the same, or author, year and title
+  const char* source;  // page of refractiveindex.info, or author, year and title
 };
 
 std::span<const Conductor> measured_conductors();

@@ -30,7 +30,7 @@ MetallicMaterial drawn(FamilyKind kind, std::mt19937_64& generator) {
   return material;
 }
 
-// There by equation (2), and back by the conversion.
+// `there` is equation (2); `back` is the conversion under test.
 struct RoundTrip {
   remap::WorkflowConversion there, back;
 };
@@ -78,7 +78,7 @@ std::string family_name(FamilyKind kind) {
 
 std::vector<FamilyLine> study_family(const std::vector<NamedConversion>& learned, std::size_t count,
                                      std::uint64_t seed, unsigned jobs) {
-  if (count == 0) throw remap::Error(remap::ErrorKind::kUsage, "family: 0 materials; expected at least one");
+  if (count == 0) throw remap::Error(remap::ErrorKind::kUsage, "--family-count must be at least 1");
   std::vector<FamilyLine> lines;
   std::vector<RoundTrip> trips;
   const auto add = [&](const std::string& name, const RoundTrip& trip) {
@@ -88,7 +88,7 @@ std::vector<FamilyLine> study_family(const std::vector<NamedConversion>& learned
   for (const WorkflowMethod& method : plain_methods(learned)) {
     RoundTrip trip = round_trip(method.conversion);
     const bool is_khronos = std::holds_alternative<remap::KhronosSolver>(method.conversion.formula);
-    // Its formula with maps of the other convention.
+    // The solver is also tested on maps of the other convention.
     if (is_khronos)
       trip.there.specular.diffuse = trip.there.metallic.diffuse = remap::DiffuseConvention::kPlain;
     add(is_khronos ? method.name + ", plain" : method.name, trip);

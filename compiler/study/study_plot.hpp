@@ -1,7 +1,6 @@
-// Curves of a study as one SVG.
+// Draws the curves of a study as one SVG.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +10,7 @@ namespace remapc {
 struct StudyCurve {
   std::string label;
   std::vector<std::pair<double, double>> points;
-  bool flagged = false;  // drawn as open points without a line: rows that a fit would leave out
+  bool flagged = false;  // rows that a fit would ignore; drawn as open points without a line
 };
 
 struct StudyPlot {
@@ -19,8 +18,7 @@ struct StudyPlot {
   std::vector<StudyCurve> curves;
 };
 
-// Writes `plots` side by side. False, and nothing is written, where gnuplot is missing. Throws kOutput where
-// it fails or the file cannot be written.
-bool write_study_plot(const std::filesystem::path& path, const std::vector<StudyPlot>& plots);
+// A gnuplot script that draws `plots` side by side as SVG.
+std::string study_plot_script(const std::vector<StudyPlot>& plots);
 
 }  // namespace remapc

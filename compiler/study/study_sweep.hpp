@@ -1,5 +1,5 @@
-// Sweeps as the studies of materials take them: light at 45 degrees and uniform weights, the setting of
-// section 4.1 of the paper.
+// Sweep options for the studies of measured materials: light at 45 degrees and uniform weights, the setting
+// of section 4.1 of the paper.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +13,18 @@ namespace remapc {
 
 struct StudyOptions {
   int resolution = 256;
-  std::vector<double> alphas;                  // rising
-  unsigned jobs = 0;                           // 0: one a core
-  std::function<void(double share)> progress;  // 0 to 1, called from any thread
+  std::vector<double> alphas;                  // in increasing order
+  unsigned jobs = 0;                           // threads; 0: one per core
+  std::function<void(double share)> progress;  // share done, 0 to 1; called from any thread
 };
 
 SweepOptions study_sweep_options(const std::string& source, const std::string& target,
                                  std::vector<SamplePoint> samples, int resolution);
 
-// A percentage with three significant digits, rounded: `0.123 %`.
+// Formats a share as a percentage, rounded to three significant digits: `0.123 %`.
 std::string percent_text(double share);
 
-// A number with `digits` significant digits.
+// Formats a number, rounded to `digits` significant digits.
 std::string short_text(double value, int digits = 3);
 
 }  // namespace remapc

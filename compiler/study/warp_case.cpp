@@ -31,7 +31,7 @@ WarpCase case_of(WarpSet set, std::size_t stroke_sets) {
   return made;
 }
 
-// The picture, which must have the size of the case; the first one gives it.
+// Reads a map. The first map sets the size of the case; all others must have the same size.
 Image read_map(const fs::path& path, WarpCase& made) {
   Image image = read_rgb(path);
   const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
@@ -40,9 +40,9 @@ Image read_map(const fs::path& path, WarpCase& made) {
     made.height = height;
   }
   if (width != made.width || height != made.height)
-    throw Error(ErrorKind::kInput, path.string() + ": is " + std::to_string(width) + " x " +
-                                       std::to_string(height) + "; expected " + std::to_string(made.width) +
-                                       " x " + std::to_string(made.height) + ", as the other maps");
+    throw Error(ErrorKind::kInput, path.string() + ": size " + std::to_string(width) + "x" +
+                                       std::to_string(height) + " does not match the other maps (" +
+                                       std::to_string(made.width) + "x" + std::to_string(made.height) + ")");
   return image;
 }
 
@@ -59,8 +59,7 @@ std::vector<remap::WarpTexel> read_texels(const fs::path& folder, WarpCase& made
     texels[i][6] = maps[2].values[3 * i];
     if (!is_finite(texels[i]))
       throw Error(ErrorKind::kInput, folder.string() + ": texel " + std::to_string(i % made.width) + ", " +
-                                         std::to_string(i / made.width) +
-                                         " is not finite; expected numbers in all three maps");
+                                         std::to_string(i / made.width) + " is not finite");
   }
   return texels;
 }
@@ -90,8 +89,9 @@ std::vector<std::string> case_names(const fs::path& folder) {
     if (fs::is_directory(entry->path() / "source")) names.push_back(entry->path().filename().string());
   if (failure) throw Error(ErrorKind::kInput, folder.string() + ": cannot be read: " + failure.message());
   if (names.empty())
-    throw Error(ErrorKind::kInput,
-                folder.string() + ": has no set; expected folders with source, template, truth and strokes");
+    throw Error(
+        ErrorKind::kInput,
+        folder.string() + ": contains no set (a set is a folder with source, template, truth and strokes)");
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -107,9 +107,10 @@ std::vector<std::string> builtin_warp_names() {
 std::vector<WarpCase> builtin_warp_cases(std::size_t size, std::size_t stroke_sets,
                                          const std::vector<std::string>& names) {
   if (size < 32 || size > 2048)
-    throw Error(ErrorKind::kUsage, "--size: " + std::to_string(size) + "; expected 32 to 2048");
+    throw Error(ErrorKind::kUsage, "--size: " + std::to_string(size) + " is out of range (32 to 2048)");
   if (stroke_sets < 1 || stroke_sets > 100)
-    throw Error(ErrorKind::kUsage, "--stroke-sets: " + std::to_string(stroke_sets) + "; expected 1 to 100");
+    throw Error(ErrorKind::kUsage,
+                "--stroke-sets: " + std::to_string(stroke_sets) + " is out of range (1 to 100)");
   std::vector<WarpCase> cases;
   for (const Recipe& recipe : kRecipes)
     if (names.empty() || std::find(names.begin(), names.end(), recipe.name) != names.end())

@@ -1,4 +1,4 @@
-// What the study of warps looks at: pairs of materials with a known answer, and strokes.
+// Input of the warps study: pairs of materials with a known result, and strokes.
 #pragma once
 
 #include <filesystem>
@@ -11,24 +11,25 @@ namespace remapc {
 
 struct WarpCase {
   std::string name;
-  std::size_t width = 0, height = 0;             // texels, of all maps
-  WarpMaterial source, target;                   // row by row
-  std::vector<remap::WarpTexel> truth;           // what the source's texels ought to become
-  std::vector<std::vector<StrokePair>> strokes;  // several sets of strokes, all of the same regions
+  std::size_t width = 0, height = 0;             // size of all maps in texels
+  WarpMaterial source, target;                   // row-major
+  std::vector<remap::WarpTexel> truth;           // the correct result for each source texel
+  std::vector<std::vector<StrokePair>> strokes;  // several sets of strokes in the same regions
 };
 
-// `leaf`, `wood`, `rust`: the sets of warp_sets.hpp.
+// The names of the sets of warp_sets.hpp: `leaf`, `wood`, `rust`.
 std::vector<std::string> builtin_warp_names();
 
-// Those of `names`, all where it is empty, `size` x `size`, each with `stroke_sets` sets of strokes. Throws
-// kUsage for a size outside 32 to 2048, and for no set of strokes or more than 100.
+// Returns the sets of `names` (all if empty) with `size` x `size` texels and `stroke_sets` sets of strokes
+// each. Throws kUsage unless `size` is 32 to 2048 and `stroke_sets` 1 to 100.
 std::vector<WarpCase> builtin_warp_cases(std::size_t size, std::size_t stroke_sets,
                                          const std::vector<std::string>& names = {});
 
-// A case for each subfolder, in the order of names, of the first folder: source, template and truth/
-// {diffuse,specular,alpha}.exr, GGX with Schlick's Fresnel, linear; strokes/{source,template}<k>.exr from 0
-// on, masks above a half. Each further folder has the same cases and another set of strokes. Throws kInput
-// for files that are missing, cannot be read, are not of one size, and for texels that are not finite.
+// Reads one case from each subfolder of the first folder, in the order of their names:
+// {source,template,truth}/ {diffuse,specular,alpha}.exr, linear, GGX with Schlick's Fresnel;
+// strokes/{source,template}<k>.exr from k = 0, masks of texels above 0.5. Each further folder has the same
+// cases with another set of strokes. Throws kInput for files that are missing, cannot be read or differ in
+// size, and for texels that are not finite.
 std::vector<WarpCase> read_warp_cases(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace remapc

@@ -8,10 +8,11 @@
 namespace remapc {
 namespace {
 
-constexpr double kShift = 0.02, kMostApart = 0.05;  // of neighbours, in spreads of the source
-constexpr int kAxes = 3;                            // on which texels are beside each other
-constexpr double kTorn = 0.25;                      // of the template's spread
-constexpr int kLeastTexels = 4;                     // of an occupied bin
+constexpr double kShift = 0.02,
+                 kMostApart = 0.05;  // distances of neighbors, relative to the spread of the source
+constexpr int kAxes = 3;             // along which neighbors are found
+constexpr double kTorn = 0.25;       // relative to the spread of the template
+constexpr int kLeastTexels = 4;      // of an occupied bin
 
 Eigen::MatrixXd columns_of(const AppearanceFeatures& features, const std::vector<remap::WarpTexel>& texels) {
   Eigen::MatrixXd columns(3 * kFeatureBasis, static_cast<Eigen::Index>(texels.size()));
@@ -20,7 +21,8 @@ Eigen::MatrixXd columns_of(const AppearanceFeatures& features, const std::vector
   return columns;
 }
 
-// For each texel one that is a little farther along one axis, each axis in turn. Texels at the rim have none.
+// Finds for each texel a neighbor along one axis; the axis alternates from texel to texel. Texels at the edge
+// of the distribution have no neighbor.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours_of(const Points& positions) {
   Points beside = positions;
   for (Eigen::Index i = 0; i < positions.rows(); ++i) beside(i, i % positions.cols()) += kShift;
@@ -33,7 +35,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours_of(const Points&
   return neighbours;
 }
 
-// The value that `share` of all are below.
+// The value below which a share of `share` of the values lies.
 double quantile(std::vector<double> values, double share) {
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + place, values.end());

@@ -1,6 +1,6 @@
-// How good a result is where the right one is known: measures of warps over all texels. Distances are those
-// of appearance (features.hpp), in percent of the template's spread, the RMS distance of its texels from
-// their mean; two unrelated texels of the template are 141 % apart (RMS).
+// Measures the error of a warp whose correct result is known, over all texels. Distances are appearance
+// distances (features.hpp) in percent of the template's spread, which is the RMS distance of its texels from
+// their mean. Two unrelated texels of the template are 141 % apart (RMS).
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,25 @@
 
 namespace remapc {
 
-// For each texel of the source the texel of the template that it gets.
+// The template texel that each source texel is replaced by.
 using TexelCopy = std::vector<std::uint32_t>;
 
 struct WarpFigures {
-  double mean = 0.0, rms = 0.0, median = 0.0, p95 = 0.0;  // distance to the truth over all texels, %
-  double strokes = 0.0;  // of texels on source strokes, mean distance to the nearest texel of the template's
-                         // stroke, %
-  double used = 0.0;     // template's occupied bins (four texels or more) that the result has, %
-  double tears = 0.0;    // neighbours in the source's appearance space, at most .05 of its spread apart,
-                         // that land more than 25 % apart, %
-  double variation = 0.0;  // mean distance between texels side by side, over that of the truth
+  double mean = 0.0, rms = 0.0, median = 0.0, p95 = 0.0;  // distance to the truth, %
+  double strokes = 0.0;  // mean distance of results on source strokes to the template's stroke, %
+  double used = 0.0;     // share of the template's occupied bins (four texels or more) in the result, %
+  double tears = 0.0;    // share of neighbors in the source's appearance space, at most 0.05 of its
+  // spread apart, whose results are more than 25 % apart, %
+  double variation = 0.0;  // mean distance between adjacent texels, relative to the truth
 };
 
-// Of what a fit compiles to.
+// The error of the compiled converter.
 struct CompiledFigures {
   double mean = 0.0;        // distance to the truth, %
   double difference = 0.0;  // mean distance to the exact copy, %
 };
 
-// What measures of one case have in common. Rows and columns: Eigen's.
+// Measures the results for one case, which must outlive it.
 class WarpMeasures {
  public:
   explicit WarpMeasures(const WarpCase& measured);
@@ -43,8 +42,8 @@ class WarpMeasures {
   // Distance of each texel to the truth, %.
   std::vector<double> distances(const TexelCopy& copy) const;
 
-  // The nearest texel of the template to each of the source without any warp, and to the truth: what no copy
-  // can be better than.
+  // The template texel nearest to each source texel without a warp, and nearest to the truth. No copy is more
+  // accurate than the latter.
   TexelCopy nearest() const;
   TexelCopy of_truth() const;
 
@@ -58,9 +57,9 @@ class WarpMeasures {
   const WarpCase& case_;
   FeaturePair pair_;
   AppearanceSpace target_space_;
-  Eigen::MatrixXd source_, target_, truth_;  // features, a column a texel
+  Eigen::MatrixXd source_, target_, truth_;  // features, one column per texel
   std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours_;
-  std::vector<long> bins_;  // of the template's texels; -1: none that counts
+  std::vector<long> bins_;  // of the template's texels; -1: bin with too few texels
   double bin_count_ = 0.0;
   double truth_variation_ = 1.0;
 };

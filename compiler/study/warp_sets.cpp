@@ -82,7 +82,7 @@ remap::WarpTexel wood_template(const std::array<double, 3>& l) {
                   0.12 + 0.3 * l[1] + 0.08 * l[0] * l[1]);
 }
 
-// The material at `latents` with texel noise of 1 %.
+// Evaluates the material at `latents` and adds texel noise of 1 %.
 std::vector<remap::WarpTexel> material_of(Law law, const Latents& latents, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<remap::WarpTexel> texels;
@@ -106,11 +106,42 @@ WarpSet set_of(std::string name, std::size_t size, Law source, Law target, Laten
   return set;
 }
 
+// Smooth noise, uniformly distributed in 0 to 1 and stretched along rows by `stretch`.
+std::vector<double> ranked_noise(std::size_t size, double roughness, std::uint32_t seed,
+                                 std::size_t stretch = 1) {
+  std::mt19937 random(seed);
+  std::vector<double> values(size * size, 0.0);
+  for (std::size_t cells = 2; cells <= size / 2; cells *= 2) {
+    const std::size_t across = std::max<std::size_t>(cells / stretch, 1);
+    std::vector<double> knots((across + 1) * (cells + 1));
+    for (double& knot : knots) knot = uniform(random) - 0.5;
+    const double amplitude = std::pow(static_cast<double>(cells), 1.0 - roughness);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double x = static_cast<double>(i % size * across) / static_cast<double>(size);
+      const double y = static_cast<double>(i / size * cells) / static_cast<double>(size);
+      const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
+      const double s = smooth_step(x - static_cast<double>(column), 0.0, 1.0);
+      const double t = smooth_step(y - static_cast<double>(row), 0.0, 1.0);
+      const double* knot = knots.data() + row * (across + 1) + column;
+      const double above = knot[0] + s * (knot[1] - knot[0]);
+      const double below = knot[across + 1] + s * (knot[across + 2] - knot[across + 1]);
+      values[i] += amplitude * (above + t * (below - above));
+    }
+  }
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  for (std::size_t rank = 0; rank < order.size(); ++rank)
+    values[order[rank]] = static_cast<double>(rank) / static_cast<double>(order.size() - 1);
+  return values;
+}
+
 Latents leaf_latents(std::size_t size, std::uint32_t seed, double power) {
   const auto age = ranked_noise(size, 1.4, seed), vein = ranked_noise(size, 2.0, seed + 1);
   Latents latents(age.size());
   for (std::size_t i = 0; i < age.size(); ++i) {
-    const double distance = std::abs(vein[i] - 0.5);  // stems follow a level of smooth noise
+    const double distance = std::abs(vein[i] - 0.5);  // stems follow an isoline of smooth noise
     latents[i] = {std::pow(age[i], power), 1.0 - smooth_step(distance, 0.02, 0.09), 0.0};
   }
   return latents;
@@ -125,7 +156,7 @@ Latents rust_latents(std::size_t size, std::uint32_t seed, double power) {
   return latents;
 }
 
-// Grain runs along rows.
+// The grain is stretched along rows.
 Latents wood_latents(std::size_t size, std::uint32_t seed, double power) {
   const auto grain = ranked_noise(size, 1.3, seed, 8), wear = ranked_noise(size, 1.7, seed + 1);
   Latents latents(grain.size());
@@ -180,36 +211,6 @@ std::vector<std::uint32_t> scribbles(const Latents& latents, std::size_t size, c
 }
 
 }  // namespace
-
-std::vector<double> ranked_noise(std::size_t size, double roughness, std::uint32_t seed,
-                                 std::size_t stretch) {
-  std::mt19937 random(seed);
-  std::vector<double> values(size * size, 0.0);
-  for (std::size_t cells = 2; cells <= size / 2; cells *= 2) {
-    const std::size_t across = std::max<std::size_t>(cells / stretch, 1);
-    std::vector<double> knots((across + 1) * (cells + 1));
-    for (double& knot : knots) knot = uniform(random) - 0.5;
-    const double amplitude = std::pow(static_cast<double>(cells), 1.0 - roughness);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double x = static_cast<double>(i % size * across) / static_cast<double>(size);
-      const double y = static_cast<double>(i / size * cells) / static_cast<double>(size);
-      const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
-      const double s = smooth_step(x - static_cast<double>(column), 0.0, 1.0);
-      const double t = smooth_step(y - static_cast<double>(row), 0.0, 1.0);
-      const double* knot = knots.data() + row * (across + 1) + column;
-      const double above = knot[0] + s * (knot[1] - knot[0]);
-      const double below = knot[across + 1] + s * (knot[across + 2] - knot[across + 1]);
-      values[i] += amplitude * (above + t * (below - above));
-    }
-  }
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  for (std::size_t rank = 0; rank < order.size(); ++rank)
-    values[order[rank]] = static_cast<double>(rank) / static_cast<double>(order.size() - 1);
-  return values;
-}
 
 WarpSet leaf_set(std::size_t size) {
   return set_of("leaf", size, leaf_source, leaf_template, leaf_latents(size, 11, 1.5),

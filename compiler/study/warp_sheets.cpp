@@ -7,10 +7,10 @@
 namespace remapc {
 namespace {
 
-constexpr int kSide = 256;        // pixels of a picture
+constexpr int kSide = 256;        // width and height of a picture in pixels
 constexpr std::size_t kZoom = 4;  // of figure 3
 
-// One set of a study.
+// One set of a study, as its sheets show it.
 struct Shown {
   const WarpCase& studied;
   const WarpsResult& result;
@@ -33,13 +33,13 @@ struct Shown {
   Image lit_source() const {
     return shaded_map(grid, samples_of(grid, studied.source.texels), studied.source.model);
   }
-  // Of what has the template's reflectance.
+  // Shades texels with the template's reflectance model.
   Image lit(const std::vector<remap::WarpTexel>& texels) const {
     return shaded_map(grid, samples_of(grid, texels), studied.target.model);
   }
 };
 
-// From black over red and yellow to white at 100 %.
+// Shows distances as colors from black over red and yellow to white (100 %).
 Image distance_picture(const PictureGrid& grid, const std::vector<double>& distances) {
   Image picture = blank_picture(grid.width, grid.height, 0.0f);
   const auto step = static_cast<std::size_t>(grid.samples), columns = grid.sample_width();
@@ -68,15 +68,15 @@ WarpSheet methods_sheet(const Shown& shown, const WarpMeasures& measures) {
   for (const char* name : {"registration", "paper", "histogram", "affine", "nearest"})
     add(shown.row(0, WarpGroup::kMethod, name), &rows);
   for (const char* name : {"1", "2"}) add(shown.row(0, WarpGroup::kDimensions, name), &rows);
-  return {"warp_methods_" + studied.name,
-          "source, template, truth, both with strokes; registration, paper, histogram, affine, nearest "
-          "without warp, one "
-          "dimension, two; their distance to the truth, white is 100 %",
-          sheet_of(rows)};
+  return {
+      "warp_methods_" + studied.name,
+      "source, template, truth, source and template with strokes; registration, paper, histogram, affine, "
+      "nearest texel without a warp, one dimension, two dimensions; distances to the truth (white: 100 %)",
+      sheet_of(rows)};
 }
 
 WarpSheet sampling_sheet(const Shown& shown) {
-  // The middle of the map, magnified.
+  // Magnifies the center of the map.
   Shown part = shown;
   const WarpCase& studied = shown.studied;
   const std::size_t width = std::max<std::size_t>(studied.width / kZoom, 1),
@@ -100,8 +100,8 @@ WarpSheet sampling_sheet(const Shown& shown) {
   rows[0].push_back(part.lit(studied.truth));
   rows[1].push_back(part.lit(part.texels_of(part.row(0, WarpGroup::kMethod, "registration").copy)));
   return {"warp_sampling_" + studied.name,
-          "the middle, magnified: " + points + " points, truth; the converter with " + nodes +
-              " of the nodes, the exact copy",
+          "center, magnified: " + points + " points, truth; the converter with " + nodes +
+              " times the default nodes, the exact copy",
           sheet_of(rows)};
 }
 
@@ -118,7 +118,8 @@ WarpSheet strokes_sheet(const Shown& shown) {
       rows[r++].push_back(shown.lit(shown.texels_of(shown.row(s, WarpGroup::kMethod, name).copy)));
   }
   return {"warp_strokes_" + studied.name,
-          "a column a set of strokes: on the source, on the template; registration, paper, affine",
+          "one column per set of strokes: source with strokes, template with strokes, registration, paper, "
+          "affine",
           sheet_of(rows)};
 }
 

@@ -1,4 +1,4 @@
-// Results of warps side by side, for eyes (An et al. 2011, figures 2, 3 and 7).
+// Contact sheets of the warps study (An et al. 2011, figures 2, 3 and 7).
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 namespace remapc {
 
 struct WarpSheet {
-  std::string name;    // of the file, without extension
-  std::string legend;  // what its rows and columns are
+  std::string name;    // file name without extension
+  std::string legend;  // describes the rows and columns
   Image picture;
 };
 
-// Three sheets a set, of a study with pictures: methods and dimensions (figure 2), each also as its distance
-// to the truth; points and nodes, magnified (figure 3); sets of strokes (figure 7). Pictures are 256 pixels
-// wide, as shaded_map() lights them.
+// Draws three sheets for each set of a study with pictures: methods and dimensions with their distances to
+// the truth (figure 2); points and nodes, magnified (figure 3); sets of strokes (figure 7). shaded_map()
+// shades the pictures, which are 256 pixels wide.
 std::vector<WarpSheet> warp_sheets(const WarpsOptions& options, const WarpsResult& result);
 
 }  // namespace remapc

@@ -29,7 +29,7 @@ struct TimedFit {
   double seconds = 0.0;
 };
 
-// All variants of one case with one set of strokes.
+// Computes all variants of one case with one set of strokes.
 class Run {
  public:
   Run(const WarpCase& studied, const WarpMeasures& measures, std::size_t stroke_set, bool keeps_converted)
@@ -55,7 +55,7 @@ class Run {
       row.copy = copy_exactly(made.fit, case_.source, case_.target);
       row.figures = measures_.of_copy(row.copy, strokes_);
     }
-    if (!plain_) {  // the registration comes first
+    if (!plain_) {  // the first variant is the registration
       plain_ = made;
       plain_copy_ = row.copy;
       plain_figures_ = row.figures;
@@ -93,10 +93,10 @@ class Run {
 bool has_changes(const WarpVariant& variant) { return variant.method && variant.group != WarpGroup::kNodes; }
 
 void require_options(const WarpsOptions& options) {
-  if (options.cases.empty()) throw Error(ErrorKind::kUsage, "study warp: no set; expected at least one");
+  if (options.cases.empty()) throw Error(ErrorKind::kUsage, "at least one set is required");
 }
 
-// Distances between the results of `rows`, which are all those of one set, ordered as WarpsResult has them.
+// Distances between the results of `rows`: all rows of one set, ordered as in WarpsResult.
 std::vector<StrokeChange> changes_of(const WarpMeasures& measures, const WarpsResult& result,
                                      const WarpRow* rows, std::size_t stroke_sets) {
   std::vector<StrokeChange> changes;

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "remap/version.hpp"
+#include "report/gnuplot.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -68,13 +69,13 @@ std::string cost_cells(const std::optional<WarpCost>& cost) {
 }
 
 std::string comments_of(const WarpsOptions& options) {
-  return comment_lines({{"tool", std::string("remapc ") + remap::kVersion},
+  return comment_lines({{"tool", std::string("remap-study ") + remap::kVersion},
                         {"size", size_text(options)},
                         {"sets", set_names(options)},
-                        {"unit", "percent of the template's spread unless said otherwise"}});
+                        {"unit", "percent of the template's spread unless stated otherwise"}});
 }
 
-// Mean errors of all sets, a line a variant of the groups.
+// Writes the mean error of each set, one line for each variant.
 void write_bars(const WarpsOptions& options, const WarpsResult& result, std::ostringstream& out) {
   out << "$bars << EOD\n";
   for (std::size_t v = 0; v < result.variants.size(); ++v) {
@@ -88,7 +89,7 @@ void write_bars(const WarpsOptions& options, const WarpsResult& result, std::ost
   out << "EOD\n";
 }
 
-// `x` of each variant of the group against a value for each set.
+// Writes `x` and one value for each set, one line for each variant of the group.
 template <typename Abscissa, typename Value>
 void write_curves(const WarpsOptions& options, const WarpsResult& result, WarpGroup group, const char* name,
                   const Abscissa& x, const Value& value, std::ostringstream& out) {
@@ -104,14 +105,11 @@ void write_curves(const WarpsOptions& options, const WarpsResult& result, WarpGr
 }
 
 std::string plots_of(const WarpsOptions& options, const char* data, const char* first, const char* style) {
-  // Colors that differ for color-blind eyes too (Okabe and Ito 2008), again from the first.
-  static constexpr std::array<const char*, 6> kColors = {"#009E73", "#E69F00", "#0072B2",
-                                                         "#D55E00", "#CC79A7", "#56B4E9"};
   std::string text = "plot ";
   for (std::size_t set = 0; set < options.cases.size(); ++set)
     text += (set == 0 ? "" : ", ") + std::string("$") + data + " using " + first + std::to_string(2 + set) +
             (std::string(first).empty() ? ":xtic(1) " : " ") + style + " linecolor rgb '" +
-            kColors[set % kColors.size()] + "' title \"" + options.cases[set].name + "\"";
+            kPlotColors[set % kPlotColors.size()] + "' title \"" + options.cases[set].name + "\"";
   return text + "\n";
 }
 
@@ -122,16 +120,15 @@ std::string warps_text(const WarpsOptions& options, const WarpsResult& result) {
   std::string text =
       "Sets " + set_names(options) + ", " + size_text(options) + " texels, " + std::to_string(stroke_sets) +
       (stroke_sets == 1 ? " set" : " sets") +
-      " of strokes each. Distances of appearance in % of the template's spread;\n"
-      "two unrelated texels are 141 apart (rms).\n"
-      "  error, rms, median, p95  to the right answer; `truth` is the template's texel nearest to that\n"
-      "  strokes                  of results on source strokes to the template's stroke\n"
-      "  used, tears, folds       %: of the template's bins; of neighbours that land 25 apart; of texels "
-      "turned "
-      "inside out\n"
-      "  variation                between texels side by side, over the truth's\n"
-      "  change                   between results of two sets of strokes\n"
-      "  compiled, table, kB, ms  error of the converter; the converter to the exact copy; its size; "
+      " of strokes each. Appearance distances are in % of the template's spread;\n"
+      "two unrelated texels are 141 % apart (rms).\n"
+      "  error, rms, median, p95  distance to the correct result; `truth` copies the nearest texel to it\n"
+      "  strokes                  distance of results on source strokes to the template's stroke\n"
+      "  used, tears, folds       %: of the template's bins; of neighbors whose results are 25 apart; of "
+      "texels where the warp folds\n"
+      "  variation                between adjacent texels, relative to the truth\n"
+      "  change                   distance between the results of two sets of strokes\n"
+      "  compiled, table, kB, ms  error of the converter; its distance to the exact copy; its size; "
       "processor time of the fit\n"
       "  last columns             error of each set\n\n";
   const std::string head =
@@ -148,9 +145,9 @@ std::string warps_text(const WarpsOptions& options, const WarpsResult& result) {
   const auto error = [&](const char* name) {
     return fixed(summary_of(result, variant_named(result, WarpGroup::kMethod, name)).figures.mean, 1);
   };
-  return text + "\nThe registration is " + error("registration") + " % off, the paper's way " +
-         error("paper") + ", histogram matching " + error("histogram") + ", a copy without a warp " +
-         error("nearest") + ".\n";
+  return text + "\nMean error: registration " + error("registration") + " %, paper " + error("paper") +
+         " %, histogram " + error("histogram") + " %, nearest texel without a warp " + error("nearest") +
+         " %.\n";
 }
 
 std::string warps_csv(const WarpsOptions& options, const WarpsResult& result) {
@@ -191,11 +188,9 @@ std::string warps_plot_script(const WarpsOptions& options, const WarpsResult& re
   write_curves(
       options, result, WarpGroup::kNodes, "nodes", [](const WarpVariant& variant) { return variant.nodes; },
       [](const WarpSummary& summary) { return summary.cost->compiled.difference; }, out);
-  out << "set terminal svg size 1500,520 enhanced font 'Helvetica,13' background rgb 'white'\n"
-      << "set multiplot title 'Appearance warps against a known answer, " << size_text(options)
-      << " texels' font ',16'\n"
-      << "set grid ytics linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
-      << "set tics textcolor rgb 'black'\nset yrange [0:*]\n"
+  out << plot_style(1500, 520) << "set grid noxtics\nset multiplot title 'Error of appearance warps, "
+      << size_text(options) << " texels' font ',16'\n"
+      << "set yrange [0:*]\n"
       << "set origin 0,0\nset size 0.5,0.94\nset style data histograms\nset style histogram clustered gap 1\n"
       << "set style fill solid border -1\nset xtics rotate by -30 scale 0\nset key top left noenhanced\n"
       << "set title 'Error, % of the template''s spread'\n"

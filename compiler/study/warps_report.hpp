@@ -1,4 +1,4 @@
-// What the study of warps found, as a table in words, CSV, a plot and pictures.
+// The results of the warps study as text, CSV and a plot.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace remapc {
 
-// Means over sets and strokes, a line a variant.
+// Means over sets and strokes, one line for each variant, and an explanation of the columns.
 std::string warps_text(const WarpsOptions& options, const WarpsResult& result);
 
-// CSV: a row for each set, set of strokes and variant. Figures of warps are empty where there is none.
+// CSV: one row for each set, set of strokes and variant. Variants without a warp have empty cells.
 std::string warps_csv(const WarpsOptions& options, const WarpsResult& result);
 
-// CSV: how far the results of two sets of strokes are apart, a row for each set, variant and pair.
+// CSV: the distance between the results of two sets of strokes, one row for each set, variant and pair.
 std::string warp_sensitivity_csv(const WarpsOptions& options, const WarpsResult& result);
 
-// A script for gnuplot: error of methods and dimensions for each set, and over points and nodes, as SVG.
+// A gnuplot script that draws the error of methods and dimensions, and over points and nodes, as SVG.
 std::string warps_plot_script(const WarpsOptions& options, const WarpsResult& result);
 
 }  // namespace remapc

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/image_similarity.hpp"
+#include "study/golden_section.hpp"
 
 namespace remapc {
 namespace {
@@ -13,8 +14,8 @@ constexpr std::size_t kPixelStep = 4;
 constexpr std::size_t kGrid = 33;
 constexpr int kSections = 14, kNewtonSteps = 4;
 
-// The transfer function of the display with its slope, from a table: straight lines between 2^16 values,
-// nowhere further off than 1e-7.
+// The display transfer function and its slope, by linear interpolation in a table of 2^16 values. The error
+// is below 1e-7.
 class DisplayCurve {
  public:
   DisplayCurve() {
@@ -45,15 +46,15 @@ const DisplayCurve& display_curve() {
   return curve;
 }
 
-// Pictures of one channel under one light, at the pixels that are compared.
+// Pictures of one channel under one light, at the compared pixels.
 struct Strip {
   std::vector<float> diffuse, dark, slope, source;
 };
 
-class Search {
+class MetallicSearch {
  public:
-  Search(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
-         const MetallicReflection& reflection)
+  MetallicSearch(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
+                 const MetallicReflection& reflection)
       : reflection_(reflection), guess_(source.diffuse) {
     for (std::size_t c = 0; c < 3; ++c) guess_[c] = std::clamp(source.diffuse[c] + source.f0[c], 0.0, 1.0);
     for (std::size_t light = 0; light < lit.environment_count(); ++light) {
@@ -79,24 +80,15 @@ class Search {
     double least = error_at(0.0, guess_, &best);
     for (std::size_t i = 1; i < kGrid; ++i)
       least = std::min(least, error_at(static_cast<double>(i) / (kGrid - 1), guess_, &best));
-    constexpr double kGolden = 0.6180339887498949, kCell = 1.0 / (kGrid - 1);
-    double low = std::max(0.0, best.metallic - kCell), high = std::min(1.0, best.metallic + kCell);
+    constexpr double kCell = 1.0 / (kGrid - 1);
     const Rgb start = best.base_color;
-    double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-    double at_a = error_at(a, start, &best), at_b = error_at(b, start, &best);
-    for (int i = 0; i < kSections; ++i)
-      if (at_a < at_b) {
-        high = b, b = a, at_b = at_a;
-        a = high - kGolden * (high - low), at_a = error_at(a, start, &best);
-      } else {
-        low = a, a = b, at_a = at_b;
-        b = low + kGolden * (high - low), at_b = error_at(b, start, &best);
-      }
+    golden_section(std::max(0.0, best.metallic - kCell), std::min(1.0, best.metallic + kCell), kSections,
+                   [&](double metallic) { return error_at(metallic, start, &best); });
     return best;
   }
 
  private:
-  // Sums over the pixels of a strip of the squared error, and of what Newton's method takes of it.
+  // Sums over the pixels of a strip: the squared error and its derivatives for Newton's method.
   struct Sums {
     double square = 0.0, slope = 0.0, bend = 0.0;
   };
@@ -119,8 +111,8 @@ class Search {
     return sums;
   }
 
-  // The least mean RMSE at one metallic, and its surface in `best` where that is the least so far. Each step
-  // of Newton's method weighs a light by the inverse of its RMSE, since the mean of roots is what counts.
+  // Returns the least mean RMSE at one metallic, and sets `best` if it is the least so far. Each step of
+  // Newton's method weights a light by the inverse of its RMSE, because the objective is a mean of roots.
   double error_at(double metallic, const Rgb& start, MetallicSurface* best) {
     Rgb albedo = start;
     double least = 1e300;
@@ -156,7 +148,7 @@ class Search {
 
   MetallicReflection reflection_;
   Rgb guess_;
-  std::vector<Strip> strips_;  // three channels a light
+  std::vector<Strip> strips_;  // three channels for each light
   double least_ = 1e300;
 };
 
@@ -174,7 +166,7 @@ Reflectances reflectances_of(const MetallicSurface& surface, const MetallicRefle
 
 MetallicSurface best_metallic(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
                               const MetallicReflection& reflection) {
-  return Search(lit, alpha, source, reflection).best();
+  return MetallicSearch(lit, alpha, source, reflection).best();
 }
 
 }  // namespace remapc

@@ -18,7 +18,7 @@ using remap::Error;
 using remap::ErrorKind;
 using remap::Field;
 
-// std::uniform_real_distribution and std::shuffle are not the same in every standard library.
+// std::uniform_real_distribution and std::shuffle differ between standard libraries, so they are not used.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : generator_(seed) {}
@@ -29,7 +29,7 @@ class Draw {
     for (double& value : rgb) value = between(low, high);
     return rgb;
   }
-  // Linear; display values between these, each channel by itself.
+  // A linear color whose display values are uniform in this range, independently for each channel.
   Rgb display_color(double low, double high) {
     Rgb rgb{};
     for (double& value : rgb) value = linear_of_display(between(low, high));
@@ -54,12 +54,12 @@ Rgb scaled(Rgb rgb, double factor) {
   return rgb;
 }
 
-// No more diffuse than the specular lobe leaves.
+// Scales diffuse to the energy that the specular lobe leaves.
 Reflectances reflecting(const Rgb& diffuse, const Rgb& f0) {
   return {scaled(diffuse, 1.0 - largest(f0)), f0};
 }
 
-// Colors are uniform in display values, as people pick them.
+// Colors are uniform in display values, like colors from a color picker.
 Reflectances random_surface(Draw& draw) {
   const Rgb diffuse = draw.display_color(0.0, 0.9);
   return {diffuse, draw.display_color(0.0, 0.9)};
@@ -81,7 +81,7 @@ struct NamedSurface {
   bool is_metal = false;
 };
 
-// The numbers of the next `albedo = [R, G, B]` of a line from `from`, which moves behind them.
+// Reads the next `albedo = [R, G, B]` of a line from `from`, and moves `from` behind it.
 Rgb next_albedo(const std::string& line, const std::string& place, std::size_t* from) {
   constexpr std::string_view kOpening = "albedo = [";
   const std::size_t open = line.find(kOpening, *from), close = line.find(']', *from);
@@ -99,8 +99,8 @@ Rgb next_albedo(const std::string& line, const std::string& place, std::size_t* 
   if (values.size() != 3)
     throw Error(ErrorKind::kInput,
                 place +
-                    ": has no two albedos of three numbers; expected NAME = Aggregate(Lambertian(albedo = "
-                    "[R, G, B]), NganWard(albedo = [R, G, B], ...))");
+                    ": cannot find two albedos of three numbers (the format is NAME = Aggregate(Lambertian("
+                    "albedo = [R, G, B]), NganWard(albedo = [R, G, B], ...)))");
   *from = close + 1;
   return {values[0], values[1], values[2]};
 }
@@ -130,7 +130,7 @@ Rgb linear_color(const Field& item) {
       for (std::size_t c = 0; c < 3; ++c) rgb[c] = std::clamp(entry["color"].at(c, 3).number(), 0.0, 1.0);
       return rgb;
     }
-  item["color"].fail("has no entry of the color space srgb-linear; expected one");
+  item["color"].fail("has no entry with color space srgb-linear");
 }
 
 std::vector<NamedSurface> database_surfaces(const fs::path& path) {
@@ -144,7 +144,7 @@ std::vector<NamedSurface> database_surfaces(const fs::path& path) {
   });
 }
 
-// A surface of which a part is metal: dust on it, wear, flakes in paint.
+// A surface that is partly metal, for example dusty or worn metal, or paint with metal flakes.
 NamedSurface mixture(const NamedSurface& dielectric, const NamedSurface& metal, double share) {
   NamedSurface mixed{dielectric.name + " on " + metal.name, {}};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -202,12 +202,12 @@ class SetBuilder {
   void add_file(MaterialGroup group, const char* name, const Read& read) {
     const fs::path path = options_.folder / name;
     if (options_.folder.empty() || !fs::is_regular_file(path)) {
-      set_.remarks.push_back(std::string("no materials of the group ") + group_name(group) + ": " + name +
-                             " is not there (--materials FOLDER)");
+      set_.remarks.push_back("the group " + group_name(group) + " has no materials, because " + name +
+                             " was not found (--materials FOLDER)");
       return;
     }
     const std::vector<NamedSurface> all = read(path);
-    if (all.empty()) throw Error(ErrorKind::kInput, path.string() + ": has no material; expected some");
+    if (all.empty()) throw Error(ErrorKind::kInput, path.string() + ": contains no material");
     for (std::size_t i = 0; i < options_.group_count; ++i)
       add(group, all[i % all.size()].name, all[i % all.size()].surface, i + i / all.size());
   }
@@ -237,7 +237,7 @@ std::string group_name(MaterialGroup group) {
 
 MaterialSet study_materials(const MaterialSetOptions& options) {
   if (options.group_count == 0 || options.alpha_count == 0)
-    throw Error(ErrorKind::kUsage, "materials: none of a group, or no width; expected at least one");
+    throw Error(ErrorKind::kUsage, "materials: at least one material per group and one alpha are required");
   return SetBuilder(options).build();
 }
 

@@ -38,7 +38,7 @@ WorkflowMethod method_of(const std::string& name, const WorkflowConversion& conv
   return {name, conversion, reflection_of(conversion.metallic)};
 }
 
-// A material as the parameters of a conversion.
+// Converts reflectances to the parameters of a conversion.
 remap::SpecularMaterial parameters_of(const Reflectances& surface, double alpha) {
   remap::SpecularMaterial material;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -56,22 +56,23 @@ MetallicSurface converted(const WorkflowMethod& method, const Reflectances& surf
   return metallic;
 }
 
-// The maps of a material hold the same numbers in both conventions; where diffuse is scaled they mean less.
+// The maps have the same values in both conventions. In the glTF convention, diffuse is scaled by
+// 1 - max(specular).
 Reflectances scaled_surface(Reflectances surface) {
   const double left = 1.0 - std::max({surface.f0[0], surface.f0[1], surface.f0[2]});
   for (double& diffuse : surface.diffuse) diffuse *= left;
   return surface;
 }
 
-// One convention: which materials are rendered, and what is held against them.
-struct Run {
+// One convention and its methods.
+struct WorkflowRun {
   std::string convention;
   bool scaled = false;
   std::vector<WorkflowMethod> methods;
   MetallicReflection least_error;
 };
 
-// What all materials of a run share.
+// The rendering that all materials of a run share.
 struct Studio {
   const WorkflowsOptions& options;
   const LitReflectances& lit;
@@ -89,8 +90,9 @@ double mean_rmse(const WorkflowPictures& pictures, std::size_t environment_count
   return sum / static_cast<double>(environment_count);
 }
 
-// The pictures of one material by every method, and by the least error.
-std::vector<WorkflowPictures> compared(const Studio& studio, const Run& run, const StudyMaterial& material) {
+// Compares one material with the results of every method and with the least-error surface.
+std::vector<WorkflowPictures> compared(const Studio& studio, const WorkflowRun& run,
+                                       const StudyMaterial& material) {
   const Reflectances& maps = material.surface;
   const Reflectances shown = run.scaled ? scaled_surface(maps) : maps;
   const double alpha = studio.options.alphas[material.alpha];
@@ -118,7 +120,7 @@ std::vector<WorkflowPictures> compared(const Studio& studio, const Run& run, con
   return all;
 }
 
-WorkflowComparison comparison_of(const Studio& studio, const Run& run) {
+WorkflowComparison comparison_of(const Studio& studio, const WorkflowRun& run) {
   WorkflowComparison comparison{run.convention, {}, {}};
   for (const WorkflowMethod& method : run.methods) comparison.methods.push_back(method.name);
   comparison.methods.push_back(kLeastErrorMethod);
@@ -134,7 +136,7 @@ WorkflowComparison comparison_of(const Studio& studio, const Run& run) {
   return comparison;
 }
 
-// The first materials of each group, by their places.
+// Indices of the first materials of each group.
 std::vector<std::size_t> sheet_rows(const std::vector<StudyMaterial>& materials) {
   std::vector<std::size_t> rows, counts(kMaterialGroups);
   for (std::size_t i = 0; i < materials.size(); ++i)
@@ -142,7 +144,7 @@ std::vector<std::size_t> sheet_rows(const std::vector<StudyMaterial>& materials)
   return rows;
 }
 
-void add_sheets(const Studio& studio, const Run& run, const WorkflowComparison& comparison,
+void add_sheets(const Studio& studio, const WorkflowRun& run, const WorkflowComparison& comparison,
                 WorkflowsResult* result) {
   const std::vector<StudyMaterial>& materials = studio.options.materials;
   const std::vector<std::size_t> rows = sheet_rows(materials);
@@ -167,15 +169,16 @@ void add_sheets(const Studio& studio, const Run& run, const WorkflowComparison& 
 void require_options(const WorkflowsOptions& options) {
   if (options.materials.empty() || options.alphas.empty() || options.environments.empty())
     throw Error(ErrorKind::kUsage,
-                "workflows: no material, alpha or environment; expected one at least of each");
+                "workflows: at least one material, one alpha and one environment are required");
   require_names_differ(options.environments);
   for (const double alpha : options.alphas)
     if (!(alpha >= 0.01 && alpha <= 1.0))
-      throw Error(ErrorKind::kUsage, "alpha: " + remap::number_text(alpha) + "; expected 0.01 to 1");
+      throw Error(ErrorKind::kUsage, "alpha: " + remap::number_text(alpha) + " is out of range (0.01 to 1)");
   for (const StudyMaterial& material : options.materials)
     if (material.alpha >= options.alphas.size())
-      throw Error(ErrorKind::kUsage, material.name + ": width " + std::to_string(material.alpha) + " of " +
-                                         std::to_string(options.alphas.size()) + "; expected one of these");
+      throw Error(ErrorKind::kUsage, material.name + ": alpha index " + std::to_string(material.alpha) +
+                                         " is out of range (" + std::to_string(options.alphas.size()) +
+                                         " alphas)");
 }
 
 }  // namespace
@@ -228,8 +231,8 @@ WorkflowsResult study_workflows(const WorkflowsOptions& options) {
   const LitReflectances lit(options.environments, options.alphas, sampling);
   const Studio studio{options, lit};
   WorkflowsResult result;
-  const Run plain{"plain", false, plain_methods(options.learned), {remap::kCommonDielectricF0, 1.0}};
-  const Run gltf{
+  const WorkflowRun plain{"plain", false, plain_methods(options.learned), {remap::kCommonDielectricF0, 1.0}};
+  const WorkflowRun gltf{
       "gltf", true, gltf_methods(), {remap::kCommonDielectricF0, 1.0 - remap::kCommonDielectricF0}};
   result.comparisons.push_back(comparison_of(studio, plain));
   result.comparisons.push_back(comparison_of(studio, gltf));

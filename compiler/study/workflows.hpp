@@ -1,5 +1,5 @@
-// How well materials of the specular workflow are said in the metallic one: several conversions of the same
-// materials, rendered under environments (Sztrajman et al. 2019, section 8, figures 21 and 22).
+// The workflows study: compares several conversions from the specular to the metallic workflow by pictures
+// under environment maps (Sztrajman et al. 2019, section 8, figures 21 and 22).
 #pragma once
 
 #include <atomic>
@@ -15,53 +15,54 @@
 
 namespace remapc {
 
-// A conversion, and how its result is rendered.
+// A conversion and the reflectances of its result.
 struct WorkflowMethod {
   std::string name;
-  remap::WorkflowConversion conversion;  // to metallic; width of both ends alpha
+  remap::WorkflowConversion conversion;  // to metallic; both ends hold alpha
   MetallicReflection reflection;         // of the metallic material
 };
 
-// Equation (3) by both means with F0 0.03 and 0.04, Khronos' solver, networks, the projection; in this order.
-// Diffuse is plain: Khronos' solver gets maps that its convention does not fit, as importers do it.
-// `learned`: conversions by networks, named after them; those of other conventions are left out.
+// Returns equation (3) by both means with F0 0.03 and 0.04, Khronos' solver, the networks of `learned` and
+// the projection, in this order. Diffuse is plain; Khronos' solver is applied to such maps although its
+// convention differs, because importers do so. Networks of other conventions are skipped.
 struct NamedConversion {
   std::string name;
   remap::WorkflowConversion conversion;
 };
 std::vector<WorkflowMethod> plain_methods(const std::vector<NamedConversion>& learned);
-// The same in the convention of glTF: diffuse counts 1 - max(specular). Khronos' solver is at home here.
+// The methods for the glTF convention, in which diffuse is scaled by 1 - max(specular). Khronos' solver is
+// made for this convention.
 std::vector<WorkflowMethod> gltf_methods();
 
 struct WorkflowsOptions {
   std::vector<StudyMaterial> materials;
   std::vector<double> alphas;
-  std::vector<Environment> environments;  // names differ; of one mean luminance
+  std::vector<Environment> environments;  // of different names and equal mean luminance
   std::vector<NamedConversion> learned;
   int resolution = 128;
-  int samples = 1024;                            // directions a pixel
-  unsigned jobs = 0;                             // threads; 0: one a core. The figures do not depend on it
-  bool sheets = false;                           // keep contact sheets
-  std::function<void()> progress;                // one of progress_steps() is done; from any thread
-  const std::atomic<bool>* cancelled = nullptr;  // stops soon; throws kInterrupted
+  int samples = 1024;                            // light directions per pixel
+  unsigned jobs = 0;                             // threads; 0: one per core. Results do not depend on it
+  bool sheets = false;                           // draw contact sheets
+  std::function<void()> progress;                // called progress_steps() times, from any thread
+  const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
 };
 std::size_t progress_steps(const WorkflowsOptions& options);
 
-// One material by one method.
+// One material converted by one method.
 struct WorkflowPictures {
   MetallicSurface surface;
-  std::vector<double> rmse;  // a light: of display values, percent of the display's range
-  std::vector<double> ssim;  // a light: structural similarity of luma
+  std::vector<double> rmse;  // for each light: of display values, percent of the display range
+  std::vector<double> ssim;  // for each light: of luma
 };
 
-// Of a method over the materials of one group or all.
+// Figures of one method over the materials of one group or all groups.
 struct WorkflowFigures {
   double rmse = 0.0, ssim = 0.0;                      // means over materials and environments
-  double worst_ssim = 0.0;                            // mean of the 5 % worst pictures
-  double headlight_rmse = 0.0, headlight_ssim = 0.0;  // means under the light at the camera
+  double worst_ssim = 0.0;                            // mean over the worst 5 % of the pictures
+  double headlight_rmse = 0.0, headlight_ssim = 0.0;  // means under the headlight
 };
 
-// All methods in one convention; the last is the least error, `best`.
+// All methods in one convention. The last is kLeastErrorMethod.
 struct WorkflowComparison {
   std::string convention;  // `plain`, `gltf`
   std::vector<std::string> methods;
@@ -72,18 +73,18 @@ inline constexpr const char* kLeastErrorMethod = "best (albedo, metallic)";
 
 struct WorkflowsResult {
   std::vector<WorkflowComparison> comparisons;  // plain, then glTF
-  // One for each environment, in display values: a row a material, two of each group; the source, then the
-  // plain methods.
+  // One sheet for each environment, in display values: one row for each of two materials per group; the
+  // source, then the plain methods.
   std::vector<Image> sheets;
   std::vector<std::string> sheet_materials;  // names of the rows
 };
 
-// Renders every material and what each method makes of it. The least error is the best of a search under
-// these environments and of all methods of its F0, so that none of them is below it. Throws kUsage for empty
-// lists and numbers out of range, kInterrupted.
+// Renders every material and the result of each method. The least error is the best of a search under these
+// environments and of all methods with its F0, so that none of them has a smaller error. Throws kUsage for
+// empty lists and numbers out of range, and kInterrupted.
 WorkflowsResult study_workflows(const WorkflowsOptions& options);
 
-// Of one method of a comparison, over the group or, without one, all materials.
+// Figures of one method of a comparison over `group`, or over all materials without a group.
 WorkflowFigures figures_of(const WorkflowsOptions& options, const WorkflowComparison& comparison,
                            std::size_t method, std::optional<MaterialGroup> group = {});
 

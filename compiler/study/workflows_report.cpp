@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "remap/version.hpp"
+#include "report/gnuplot.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -22,7 +23,7 @@ std::size_t name_width(const WorkflowsResult& result) {
 
 std::string comparison_text(const WorkflowsOptions& options, const WorkflowComparison& comparison,
                             std::size_t width) {
-  std::string text = padded(comparison.convention == "gltf" ? "diffuse as in glTF" : "diffuse plain", width) +
+  std::string text = padded(comparison.convention == "gltf" ? "glTF diffuse" : "plain diffuse", width) +
                      "   RMSE    SSIM   worst   headlight        RMSE of";
   for (const MaterialGroup group : groups_of(options)) text += padded_left(group_name(group), 9);
   text += "\n";
@@ -38,18 +39,18 @@ std::string comparison_text(const WorkflowsOptions& options, const WorkflowCompa
   return text;
 }
 
-// How far above the least error the projection is, in words.
+// States how far the error of the projection is above the least error.
 std::string verdict(const WorkflowsOptions& options, const WorkflowComparison& comparison) {
   const auto found = std::find(comparison.methods.begin(), comparison.methods.end(), "projection");
   const auto place = static_cast<std::size_t>(found - comparison.methods.begin());
   const double own = figures_of(options, comparison, place).rmse;
   const double least = figures_of(options, comparison, comparison.methods.size() - 1).rmse;
-  return "The projection is" + fixed(100.0 * (own / least - 1.0), 1, 4) +
-         " % above what any base color and metallic can do under these lights.\n";
+  return "The RMSE of the projection is" + fixed(100.0 * (own / least - 1.0), 1, 4) +
+         " % above the least that any base color and metallic reach under these environments.\n";
 }
 
 std::string family_text(const std::vector<FamilyLine>& family, std::size_t width) {
-  std::string text = padded("there and back, rms", width);
+  std::string text = padded("round trip, rms", width);
   for (std::size_t kind = 0; kind < kFamilyKinds; ++kind)
     text += padded_left(family_name(static_cast<FamilyKind>(kind)), 20);
   text += "\n" + padded("", width);
@@ -65,14 +66,14 @@ std::string family_text(const std::vector<FamilyLine>& family, std::size_t width
 }
 
 std::string comments_of(const WorkflowsOptions& options) {
-  return comment_lines({{"tool", std::string("remapc ") + remap::kVersion},
+  return comment_lines({{"tool", std::string("remap-study ") + remap::kVersion},
                         {"resolution", std::to_string(options.resolution)},
                         {"samples", std::to_string(options.samples)},
                         {"environments", environment_names(options.environments)},
                         {"alphas", listed(options.alphas)}});
 }
 
-// A name that has commas, as CSV quotes it.
+// Quotes a name that contains commas.
 std::string cell(const std::string& text) {
   return text.find(',') == std::string::npos ? text : "\"" + text + "\"";
 }
@@ -103,11 +104,11 @@ std::string workflows_text(const WorkflowsOptions& options, const WorkflowsResul
                            const std::vector<FamilyLine>& family) {
   std::size_t width = name_width(result);
   for (const FamilyLine& line : family) width = std::max(width, line.method.size() + 2);
-  std::string text = std::to_string(options.materials.size()) + " materials at alpha " +
-                     listed(options.alphas) + " under " + std::to_string(options.environments.size()) +
-                     " environments, " + std::to_string(options.resolution) + " x " +
-                     std::to_string(options.resolution) +
-                     " pixels\nRMSE in % of the display's range, SSIM of luma; worst: the 5 % least alike\n";
+  std::string text =
+      std::to_string(options.materials.size()) + " materials at alpha " + listed(options.alphas) + " under " +
+      std::to_string(options.environments.size()) + " environments, " + std::to_string(options.resolution) +
+      " x " + std::to_string(options.resolution) +
+      " pixels\nRMSE: % of the display range; SSIM: of luma; worst: mean SSIM of the worst 5 %\n";
   for (const WorkflowComparison& comparison : result.comparisons)
     text += "\n" + comparison_text(options, comparison, width) + verdict(options, comparison);
   return text + "\n" + family_text(family, width);
@@ -155,9 +156,9 @@ std::string workflow_summary_csv(const WorkflowsOptions& options, const Workflow
 }
 
 std::string workflows_plot_script(const WorkflowsOptions& options, const WorkflowsResult& result) {
-  // Colors that differ for color-blind eyes too (Okabe and Ito 2008), again from the first.
-  static constexpr std::array<const char*, 8> kColors = {"#000000", "#999999", "#CC79A7", "#E69F00",
-                                                         "#D55E00", "#56B4E9", "#0072B2", "#009E73"};
+  static constexpr std::array<const char*, 8> kColors = {"black",        "#999999",      kPlotColors[3],
+                                                         kPlotColors[4], kPlotColors[1], kPlotColors[5],
+                                                         kPlotColors[0], kPlotColors[2]};
   const WorkflowComparison& comparison = result.comparisons.front();
   std::ostringstream out;
   std::array<std::string, 2> bars;
@@ -178,15 +179,15 @@ std::string workflows_plot_script(const WorkflowsOptions& options, const Workflo
       bars[panel] += (bars[panel].empty() ? "plot " : ", ") + std::string("$figures using ") +
                      std::to_string(2 + 2 * m + panel) + ":xtic(1) linecolor rgb '" +
                      kColors[m % kColors.size()] + "' title \"" + comparison.methods[m] + "\"";
-  out << "set terminal svg size 1400,520 enhanced font 'Helvetica,13' background rgb 'white'\n"
-      << "set multiplot layout 1,2 margins 0.05,0.99,0.09,0.84 spacing 0.07,0.1 title 'Specular to metallic, "
+  out << plot_style(1400, 520)
+      << "set grid noxtics\nset multiplot layout 1,2 margins 0.05,0.99,0.09,0.84 spacing 0.07,0.1 title "
+         "'Specular to metallic, "
       << options.materials.size() << " materials under " << options.environments.size()
       << " environments' font ',16'\n"
       << "set style data histograms\nset style histogram clustered gap 1\nset style fill solid border -1\n"
-      << "set grid ytics linecolor rgb '#dddddd' linetype 1\nset border linecolor rgb '#888888'\n"
-      << "set tics textcolor rgb 'black'\nset yrange [0:*]\n"
-      << "set title 'RMSE, % of the display''s range (less is more alike)'\nset key off\n"
-      << bars[0] << "\nset title '1 - SSIM of luma (0 is equal)'\nset key top left reverse Left noenhanced\n"
+      << "set yrange [0:*]\n"
+      << "set title 'RMSE, % of the display range (lower is better)'\nset key off\n"
+      << bars[0] << "\nset title '1 - SSIM of luma (0: equal)'\nset key top left reverse Left noenhanced\n"
       << bars[1] << "\nunset multiplot\n";
   return out.str();
 }

@@ -20,8 +20,8 @@ TableRow matched_row(const SamplePoint& sample, const Match& match) {
   return {sample.alpha, sample.specular, match.alpha, match.specular, match.error, match.status, 0};
 }
 
-// A target whose pictures are no combinations of a few: specular and alpha by non-linear least squares, from
-// the best of a grid of pictures.
+// Matches one sample to a target without a family: specular and alpha by non-linear least squares, from the
+// best points of a grid of pictures.
 TableRow searched_row(const SweepSetup& setup, const SamplePoint& sample, std::vector<float> picture,
                       std::vector<float> weights) {
   const std::vector<RoleValues> starts = setup.grid->minima(picture, weights);
@@ -36,7 +36,7 @@ TableRow searched_row(const SweepSetup& setup, const SamplePoint& sample, std::v
           0};
 }
 
-// Pictures of the source at one width: rendered, or interpolated where that is as good and takes fewer
+// Pictures of the source at one width: rendered, or interpolated if that is as accurate and needs fewer
 // renders.
 class SourcePictures {
  public:
@@ -49,10 +49,10 @@ class SourcePictures {
 
   std::vector<float> at(double specular) const {
     if (!family_) return setup_.picture_taker.take(setup_.source, {alpha_, specular, 0.0});
-    // Combinations of pictures leave rounding where there is none.
+    // The exact picture is black; the combination would leave rounding errors.
     if (specular <= family_->range.min && setup_.source.response.black_base)
       return std::vector<float>(pictures_.front().size());
-    // Constant beyond a knee.
+    // The picture is constant beyond a knee.
     return combined(pictures_, family_->weights_at(std::min(specular, family_->range.max)));
   }
 
@@ -63,7 +63,7 @@ class SourcePictures {
   std::vector<std::vector<float>> pictures_;
 };
 
-// Every sample by a picture of its own, since the weights or the law of the source differ from one to the
+// Matches each sample by its own picture, for sources whose weights or law differ from one sample to the
 // next.
 std::vector<TableRow> match_each(const SweepSetup& setup, const SampleBlock& block) {
   const SourcePictures pictures(setup, block);
@@ -87,8 +87,9 @@ std::vector<TableRow> match_each(const SweepSetup& setup, const SampleBlock& blo
   return rows;
 }
 
-// Pictures of an affine source are combinations of two. Where the weights do not depend on specular either
-// (uniform, or relative to a picture that only scales), one set of inner products serves the whole block.
+// Matches all samples at once. Pictures of an affine source are combinations of two. If the weights do not
+// depend on specular either (uniform, or relative to a picture that only scales), one set of inner products
+// serves all.
 std::vector<TableRow> match_together(const SweepSetup& setup, const SampleBlock& block) {
   AffinePictures pictures = take_affine(setup.picture_taker, setup.source, block.alpha);
   auto weights = setup.picture_taker.weights(pictures.full);
@@ -103,7 +104,7 @@ std::vector<TableRow> match_together(const SweepSetup& setup, const SampleBlock&
   std::vector<TableRow> rows;
   for (const std::size_t index : block.samples) {
     const SamplePoint& sample = setup.options.samples[index];
-    std::vector<std::size_t> minima;  // products are shared, so every material can search the whole bank
+    std::vector<std::size_t> minima;  // products are shared, so each material can search the whole bank
     std::vector<double> coefficients = {std::min(sample.specular, most)};
     if (!proportional) coefficients.push_back(1.0);
     rows.push_back(is_dark || sample.specular == 0.0
@@ -113,7 +114,7 @@ std::vector<TableRow> match_together(const SweepSetup& setup, const SampleBlock&
   return rows;
 }
 
-// Specular and width from pictures without diffuse.
+// Matches specular and width, from pictures without diffuse.
 std::vector<TableRow> match_specular(const SweepSetup& setup, const SampleBlock& block) {
   const bool uniform = setup.options.objective.weighting == Weighting::kUniform;
   const SpecularResponse& source = setup.source.response;
@@ -121,7 +122,7 @@ std::vector<TableRow> match_specular(const SweepSetup& setup, const SampleBlock&
   return shared ? match_together(setup, block) : match_each(setup, block);
 }
 
-// Diffuse apart from the rest: in proportion.
+// Matches diffuse by itself, in proportion.
 void match_diffuse_apart(const SweepSetup& setup, TableRow* row) {
   const Range range = setup.target.diffuse_range();
   const double wanted = setup.options.diffuse * setup.diffuse.scale;
@@ -130,8 +131,8 @@ void match_diffuse_apart(const SweepSetup& setup, TableRow* row) {
   if (row->diffuse2 != wanted && row->status == RowStatus::kOk) row->status = RowStatus::kClamped;
 }
 
-// The whole picture, diffuse and specular: its error where the stages were apart, the joint match where they
-// are not.
+// Compares the whole picture, diffuse and specular: its error after two stages, the joint match after one or
+// three.
 void match_whole(const SweepSetup& setup, TableRow* row) {
   const RoleValues whole{row->alpha1, row->specular1, row->diffuse1};
   if (row->status == RowStatus::kFlat) return;
@@ -157,7 +158,7 @@ void match_whole(const SweepSetup& setup, TableRow* row) {
   row->status = match.status;
 }
 
-// Rows of a one-stage match before it: no target yet.
+// Rows before a one-stage match, without target values.
 std::vector<TableRow> unmatched_rows(const SweepSetup& setup, const SampleBlock& block) {
   std::vector<TableRow> rows;
   for (const std::size_t index : block.samples) {

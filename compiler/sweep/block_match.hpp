@@ -1,4 +1,4 @@
-// The samples of one source width, matched: the unit of work of a sweep.
+// Matches the samples of one source width: the unit of work of a sweep.
 #pragma once
 
 #include <memory>
@@ -12,30 +12,30 @@
 
 namespace remapc {
 
-// Samples of one source width, as indices into SweepOptions::samples: the unit of work.
+// Samples of one source width, as indices into SweepOptions::samples.
 struct SampleBlock {
   double alpha;
   std::vector<std::size_t> samples;
 };
 
-// Everything that the blocks of one sweep share.
+// What the blocks of one sweep share.
 struct SweepSetup {
   const SweepOptions& options;
   const PictureTaker& picture_taker;
   ProbedModel source;
   ProbedModel target;
-  double irradiance_scale = 1.0;             // what the source's pictures are multiplied by
-  DiffuseMatch diffuse;                      // of the source's pictures, so multiplied
-  std::unique_ptr<TargetBank> bank;          // of a target that has a family (ProbedModel::family)
+  double irradiance_scale = 1.0;             // multiplies the source's pictures
+  DiffuseMatch diffuse;                      // after that multiplication
+  std::unique_ptr<TargetBank> bank;          // of a target with a family (ProbedModel::family)
   std::unique_ptr<TargetPictures> pictures;  // for non-linear matches
-  std::unique_ptr<TargetGrid> grid;          // of a target that has none
+  std::unique_ptr<TargetGrid> grid;          // of a target without a family
   EffectiveWidths source_widths, target_widths;
 };
 
-// Whether rows carry diffuse: where the source has some, or the target's is matched with the rest.
+// Whether rows carry diffuse: if the source has some, or if the target's is matched together with the rest.
 bool has_diffuse(const SweepOptions& options);
 
-// The rows of a block, in its order.
+// Returns the rows of a block in its order.
 std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& block);
 
 }  // namespace remapc

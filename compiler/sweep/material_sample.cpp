@@ -25,10 +25,10 @@ using remap::ErrorKind;
 using remap::number_text;
 using remap::Range;
 
-constexpr int kSampleDigits = 9, kMatchDigits = 9, kErrorDigits = 6;
+constexpr int kRandomDigits = 9, kMatchDigits = 9, kMatchErrorDigits = 6;
 constexpr std::array kChannelSuffixes = {"_r", "_g", "_b"};
 
-// A parameter of the source that varies.
+// A source parameter that varies.
 struct Varied {
   ParameterDescription parameter;
   Range range;
@@ -42,14 +42,14 @@ std::vector<std::string> columns_of(const std::string& name, bool color, char si
   return columns;
 }
 
-// The whole range of a parameter, or the part of it that the options ask for.
+// Returns the whole range of a parameter, or the part of it that the options name.
 Range range_of(const MaterialSampleOptions& options, const ModelDescription& model,
                const ParameterDescription& parameter) {
   const Range whole = parameter.range;
   if (const auto given = options.ranges.find(parameter.name); given != options.ranges.end()) {
     if (whole.contains(given->second.min) && whole.contains(given->second.max)) return given->second;
-    throw Error(ErrorKind::kUsage, model.name + ": " + parameter.name + " " + range_text(given->second) +
-                                       "; expected a range within " + range_text(whole));
+    throw Error(ErrorKind::kUsage, model.name + ": " + parameter.name + ": the range " +
+                                       range_text(given->second) + " is not within " + range_text(whole));
   }
   if (parameter.role != ParameterRole::kRoughness) return whole;
   const double narrow =
@@ -58,12 +58,12 @@ Range range_of(const MaterialSampleOptions& options, const ModelDescription& mod
   return {std::max(whole.min, std::min(narrow, wide)), std::min(whole.max, std::max(narrow, wide))};
 }
 
-// Throws for a name that the model has not, or whose parameter has a role already.
+// Throws for an unknown name, and for a parameter that has a role.
 void require_roleless(const ModelDescription& model, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (const ParameterRole role = model.parameter(name).role; role != ParameterRole::kOther)
       throw Error(ErrorKind::kUsage, model.name + ": " + name + " is the " + std::string(role_word(role)) +
-                                         ", which varies anyway; expected a parameter of no role");
+                                         " and varies anyway (name a parameter without a role)");
 }
 
 std::vector<Varied> varied_of(const MaterialSampleOptions& options, const ModelDescription& source) {
@@ -80,12 +80,12 @@ std::vector<Varied> varied_of(const MaterialSampleOptions& options, const ModelD
     if (std::none_of(all.begin(), all.end(),
                      [&](const Varied& varied) { return varied.parameter.name == given.first; }))
       throw Error(ErrorKind::kUsage, source.name + ": " + given.first +
-                                         " has a range but does not vary; expected one that does");
+                                         " has a range but does not vary (add it to the varied parameters)");
   return all;
 }
 
-// Columns of the source for every sample. std::uniform_real_distribution is not the same in every standard
-// library.
+// Draws the source columns of all samples. std::uniform_real_distribution differs between standard libraries
+// and is not used.
 std::vector<std::vector<double>> draw(const MaterialSampleOptions& options,
                                       const std::vector<Varied>& varied) {
   std::mt19937_64 generator(options.seed);
@@ -95,12 +95,12 @@ std::vector<std::vector<double>> draw(const MaterialSampleOptions& options,
       for (int c = 0; c < (parameter.color ? 3 : 1); ++c) {
         const double share = static_cast<double>(generator() >> 11) * 0x1p-53;
         const Range& range = parameter.range;
-        sample.push_back(remap::rounded(range.min + share * (range.max - range.min), kSampleDigits));
+        sample.push_back(remap::rounded(range.min + share * (range.max - range.min), kRandomDigits));
       }
   return samples;
 }
 
-// What all samples share.
+// What the samples share.
 struct Matching {
   const MaterialSampleOptions& options;
   const PictureTaker& picture_taker;
@@ -108,7 +108,7 @@ struct Matching {
   std::vector<Varied> varied;
   ProbedModel target;
   double irradiance_scale = 1.0;
-  std::unique_ptr<TargetBank> bank;  // of a target that has a family, and to which diffuse adds
+  std::unique_ptr<TargetBank> bank;  // of a target with a family whose diffuse adds
   std::unique_ptr<TargetPictures> pictures;
 
   bool color(const Coordinate& coordinate) const { return !options.grey && !coordinate.shared; }
@@ -132,7 +132,7 @@ double source_alpha(const Matching& matching, const Material& material) {
   return remap::to_alpha(matching.source.roughness, material.parameters.at(name).front());
 }
 
-// The name of a coordinate in the target's words, and a canonical value in its unit.
+// The target's own name for a coordinate, and a canonical value in the target's unit.
 std::string target_name(const Matching& matching, std::size_t coordinate) {
   const ModelDescription& model = matching.target.model;
   if (coordinate == kAlphaCoordinate) return model.parameter(ParameterRole::kRoughness).name;
@@ -182,13 +182,14 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
   guesses.front().alpha = source_alpha(matching, material);
   for (const RoleValues& shares : JointMatcher::other_guesses()) guesses.push_back(matcher.point_of(shares));
   const JointMatch match = matcher.best_match(guesses);
-  return {sample, target_values(matching, match.points), remap::rounded(match.error, kErrorDigits),
+  return {sample, target_values(matching, match.points), remap::rounded(match.error, kMatchErrorDigits),
           match.status, 0};
 }
 
 Matching make_matching(const MaterialSampleOptions& options, const PictureTaker& picture_taker,
                        const ModelDescription& source, const ModelDescription& target) {
-  std::vector<Varied> varied = varied_of(options, source);  // throws: not within the aggregate (make_setup)
+  std::vector<Varied> varied =
+      varied_of(options, source);  // may throw: not within the aggregate (make_setup)
   Matching matching{options, picture_taker, source, std::move(varied), {}, 1.0, nullptr, nullptr};
   require_roleless(target, options.searched);
   const Range own = range_of(options, source, source.parameter(ParameterRole::kRoughness));
@@ -225,7 +226,7 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   comments = {{"tool", std::string("remapc ") + remap::kVersion},
               {"source", matching.source.name},
               {"source_roughness", std::string(remap::convention_name(matching.source.roughness))}};
-  ProbedModel target = matching.target;  // without what is matched: the rest is fixed
+  ProbedModel target = matching.target;  // without the matched parameters: the rest is fixed
   std::erase_if(target.model.parameters, [&](const ParameterDescription& parameter) {
     return std::find(options.searched.begin(), options.searched.end(), parameter.name) !=
            options.searched.end();
@@ -239,7 +240,7 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   comments.emplace_back(
       "samples", std::to_string(options.count) + " random, uniform in " + ranges_text(matching.varied));
   comments.emplace_back("seed", std::to_string(options.seed));
-  ModelDescription source = matching.source;  // without what varies
+  ModelDescription source = matching.source;  // without the varying parameters
   std::erase_if(source.parameters, [&](const ParameterDescription& parameter) {
     return std::any_of(matching.varied.begin(), matching.varied.end(),
                        [&](const Varied& v) { return v.parameter.name == parameter.name; });
@@ -266,7 +267,7 @@ MaterialTable run_material_sample(const Renderer& any_renderer, const MaterialSa
                                 options.objective.lights.front());
   const ModelDescription source = recast(find_model(renderer, options.source), options.source_roles);
   const ModelDescription target = recast(find_model(renderer, options.target), options.target_roles);
-  if (options.count == 0) throw Error(ErrorKind::kUsage, "samples: 0; expected at least 1");
+  if (options.count == 0) throw Error(ErrorKind::kUsage, "samples: must be at least 1");
   const PictureTaker picture_taker(renderer, options.objective, options.resolution, options.samples_per_axis);
   const Matching matching = make_matching(options, picture_taker, source, target);
   const std::vector<std::vector<double>> samples = draw(options, matching.varied);

@@ -85,7 +85,7 @@ void add_resolution(const PairOptions& options, Comments* comments) {
 }
 
 double subpixel_alpha(int resolution, int samples_per_axis) {
-  // The sphere's radius is resolution / 2 pixels; at a camera distance of 3 the half vector turns by 1.5
+  // The sphere's radius is resolution / 2 pixels. At a camera distance of 3, the half vector turns by 1.5
   // times the angle of the normal near the middle of the picture.
   return 1.5 / (0.5 * resolution * samples_per_axis);
 }

@@ -1,4 +1,4 @@
-// What the comments of a table say of how it was made, so that the command can be repeated from them.
+// Writes the comments of a table that record how it was made, so that the command can be repeated from them.
 #pragma once
 
 #include <string>
@@ -13,23 +13,23 @@ namespace remapc {
 
 using Comments = std::vector<std::pair<std::string, std::string>>;
 
-// One side: the model, its parameters, the law that its specular follows.
+// Adds one side: the model, its parameters and the law of its specular.
 void add_side(const std::string& role, const ProbedModel& probed_model, Comments* comments);
 
-// Widths of one side that change its pictures, where not all do.
+// Adds the widths of one side that change its pictures, if some do not.
 void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments);
 
-// What another seed does to the pictures of one side, and how many are averaged; where that was measured.
+// Adds the noise of one side and how many pictures are averaged, if the noise was measured.
 void add_noise(const std::string& role, const SteadyRenderer& renderer, const std::string& model,
                Comments* comments);
 
-// Who made the pictures, and how they were compared.
+// Adds the renderer's version and how pictures were compared.
 void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments);
 
 void add_resolution(const PairOptions& options, Comments* comments);
 
-// Width below which a highlight under the headlight has a radius of less than one pixel sample, so that a
-// picture no longer resolves it.
+// Returns the alpha below which the highlight of a headlight has a radius of less than one pixel sample, so
+// that the picture no longer resolves it.
 double subpixel_alpha(int resolution, int samples_per_axis);
 
 }  // namespace remapc

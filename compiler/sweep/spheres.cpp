@@ -11,7 +11,7 @@
 namespace remapc {
 namespace {
 
-// The usable row of each width whose specular is nearest `specular`.
+// Returns, for each width, the usable row whose specular is nearest `specular`.
 std::map<double, const TableRow*> middle_rows(const std::vector<TableRow>& rows, double specular) {
   std::map<double, const TableRow*> middle;
   for (const TableRow& row : rows) {
@@ -33,8 +33,8 @@ std::vector<const TableRow*> compared_rows(const SweepSetup& setup, const std::v
   return spread;
 }
 
-// The factor that makes the brightest point of a white diffuse sphere 1. Without diffuse: that of an albedo
-// of 1 hit at right angles from the distance of the light.
+// Returns the exposure at which the brightest point of a white diffuse sphere is 1. Without diffuse it is
+// computed for an albedo of 1, lit at right angles from the distance of the light.
 double white_exposure(const SweepSetup& setup) {
   if (!setup.target.model.has(ParameterRole::kDiffuse)) {
     const double distance = setup.options.objective.lights.front().distance - 1.0;

@@ -26,9 +26,9 @@ using remap::ErrorKind;
 using remap::number_text;
 using remap::Range;
 
-// Samples are numbers that a person can type.
+// Samples are rounded to numbers that a user can type.
 constexpr int kSampleDigits = 9;
-// Laws show in any picture that resolves the highlight.
+// The law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
 
 std::vector<SampleBlock> blocks_of(const std::vector<SamplePoint>& samples) {
@@ -48,25 +48,25 @@ Range sampled_alphas(const std::vector<SamplePoint>& samples) {
 
 void require_options(const SweepOptions& options, const ModelDescription& source,
                      const ModelDescription& target) {
-  if (options.samples.empty())
-    throw Error(ErrorKind::kUsage, "samples: there are none; expected at least one");
+  if (options.samples.empty()) throw Error(ErrorKind::kUsage, "samples: at least one is needed");
   if (options.stages < 1 || options.stages > 3)
-    throw Error(ErrorKind::kUsage, "stages: " + std::to_string(options.stages) + "; expected 1, 2 or 3");
+    throw Error(ErrorKind::kUsage,
+                "stages: " + std::to_string(options.stages) + " is out of range (choose 1, 2 or 3)");
   if (!has_diffuse(options)) return;
-  target.parameter(ParameterRole::kDiffuse);  // throws where there is none to match
-  // The diffuse light of a source may have no parameter of its own: one base color for all.
+  target.parameter(ParameterRole::kDiffuse);  // throws if the target has none to match
+  // A source may have diffuse light without a parameter for it: one base color for both.
   if (options.stages == 1 && options.diffuse == 0.0 && !source.has(ParameterRole::kDiffuse)) return;
   const Range diffuses = source.parameter(ParameterRole::kDiffuse).range;
   if (!diffuses.contains(options.diffuse))
-    throw Error(ErrorKind::kUsage, source.name + ": diffuse " + number_text(options.diffuse) + "; expected " +
-                                       range_text(diffuses));
+    throw Error(ErrorKind::kUsage, source.name + ": diffuse " + number_text(options.diffuse) +
+                                       " is out of range (" + range_text(diffuses) + ")");
 }
 
 void require_alphas(const SweepOptions& options, const ModelDescription& source) {
   for (const SamplePoint& sample : options.samples)
     if (!source.alpha.contains(sample.alpha))
       throw Error(ErrorKind::kUsage, source.name + ": sample alpha " + number_text(sample.alpha) +
-                                         " is out of range; expected alpha " + range_text(source.alpha));
+                                         " is out of range (" + range_text(source.alpha) + ")");
 }
 
 void require_speculars(const SweepOptions& options, const ProbedModel& source) {
@@ -74,13 +74,13 @@ void require_speculars(const SweepOptions& options, const ProbedModel& source) {
   for (const SamplePoint& sample : options.samples)
     if (!speculars.contains(sample.specular))
       throw Error(ErrorKind::kUsage, source.model.name + ": sample specular " + number_text(sample.specular) +
-                                         " is out of range; expected specular " + range_text(speculars));
+                                         " is out of range (" + range_text(speculars) + ")");
 }
 
-// Pictures are floats: digits beyond the ninth are noise.
+// Pictures are floats: digits beyond the ninth carry no information.
 double rounded_ratio(double ratio) { return ratio >= 1e-3 ? std::round(ratio * 1e9) / 1e9 : ratio; }
 
-// Matching is good to some 1e-7: more digits would only make tables larger.
+// Matching is accurate to about 1e-7; more digits would only enlarge the table.
 std::vector<TableRow> rounded(std::vector<TableRow> rows) {
   constexpr int kDigits = 10, kErrorDigits = 6;
   for (TableRow& row : rows) {
@@ -91,7 +91,7 @@ std::vector<TableRow> rounded(std::vector<TableRow> rows) {
   return rows;
 }
 
-// What the columns of a side hold.
+// Describes what the columns of a side hold.
 remap::ModelSide column_side(const ProbedModel& probed_model) {
   remap::ModelSide side = model_side(probed_model.model);
   if (probed_model.response.law == SpecularLaw::kIor) side.specular = "f0";
@@ -136,7 +136,7 @@ Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
   return table;
 }
 
-// Probes both models, matches their light, and makes what the blocks need.
+// Probes both models, matches their light, and makes what the blocks share.
 SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_taker,
                       const ModelDescription& source, const ModelDescription& target) {
   const EffectiveWidths source_widths = probe_widths(picture_taker, source, sampled_alphas(options.samples));
@@ -144,11 +144,11 @@ SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_t
   const Range wanted = searched_widths(target, alphas.min);
   const EffectiveWidths target_widths = probe_widths(picture_taker, target, wanted);
   const Range searched = target_widths.effective;
-  ModelDescription responsive = target;  // without widths that do nothing
+  ModelDescription responsive = target;  // restricted to the widths that change its pictures
   if (searched.min > wanted.min) responsive.alpha.min = searched.min;
   if (searched.max < wanted.max) responsive.alpha.max = searched.max;
   const Range probed{std::max(searched.min, alphas.min), searched.max};
-  // Apart from the aggregate: gcc 12 destroys members twice where a later one throws.
+  // These are not computed inside the aggregate: gcc 12 destroys members twice if a later one throws.
   const SpecularResponse source_law = probe_specular(picture_taker, source, alphas);
   const SpecularResponse target_law = probe_specular(picture_taker, target, probed);
   const DiffuseMatch diffuse =

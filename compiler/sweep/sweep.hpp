@@ -1,4 +1,4 @@
-// The sweep: every sample of the source's parameters matched, into a table.
+// The sweep matches every sample of the source's parameters and returns the table.
 #pragma once
 
 #include <atomic>
@@ -13,27 +13,27 @@
 
 namespace remapc {
 
-// Uniform samples: `alpha_count` widths over `alphas`, both ends included, and `specular_count` values over
-// `speculars`, the lower end excluded where it is 0 (nothing to match there), rounded to nine digits.
-// Section 5.2 takes 30 x 30.
+// Returns uniform samples, rounded to nine digits: `alpha_count` widths over `alphas`, both ends included,
+// times `specular_count` values over `speculars`, without a lower end of 0, where nothing can be matched. The
+// paper uses 30 x 30 (section 5.2).
 std::vector<SamplePoint> grid_samples(const remap::Range& alphas, std::size_t alpha_count,
                                       const remap::Range& speculars, std::size_t specular_count);
 
-// The same in words, for SweepOptions::sampling.
+// Describes the same grid in words, for SweepOptions::sampling.
 std::string grid_text(const remap::Range& alphas, std::size_t alpha_count, const remap::Range& speculars,
                       std::size_t specular_count);
 
-// The law of the specular of `model` (probe_specular), from small pictures of widths from 0.1.
+// Returns the law of the specular of `model` (probe_specular), from small pictures with alpha from 0.1.
 SpecularResponse specular_response(const Renderer& renderer, const ModelDescription& model);
 
-// Canonical speculars that `model` takes, by the law that a few small pictures show (probe_specular).
+// Returns the canonical speculars that `model` accepts, by the same law.
 remap::Range canonical_speculars(const Renderer& renderer, const ModelDescription& model);
 
-// Matches every sample. Stages 2: width and specular from pictures without diffuse, diffuse apart from them.
-// Stages 1: width, specular and diffuse at once from kFixedGuess (joint_match.hpp); 3: the same from the
-// result of 2. Where the two models' light differs by a factor, the source's pictures are multiplied by it
-// first (section 4). The same table for any number of jobs. Throws kUsage for unknown models and samples out
-// of range, kNumeric where a search breaks, and what the renderer throws.
+// Matches every sample. With two stages, width and specular come from pictures without diffuse, then diffuse
+// by itself. With one stage, all three come at once from kFixedGuess (joint_match.hpp); with three, at once
+// from the result of two stages. If the two models' light differs by a factor, the source's pictures are
+// multiplied by it first (section 4). The table does not depend on the number of jobs. Throws kUsage for
+// unknown models and samples out of range, kNumeric if a search fails, and what the renderer throws.
 Table run_sweep(const Renderer& renderer, const SweepOptions& options, const SweepExecution& execution);
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// What a sweep computes, and how it is carried out.
+// The options of a sweep: what it computes, and how it runs.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ struct PairOptions {
   std::string target;
   ParameterRoles source_roles, target_roles;
   Objective objective;
-  std::string objective_name;  // preset, or `custom` where parts of it were changed
+  std::string objective_name;  // the preset, or `custom` if parts of it were changed
   int resolution = 512;
   int samples_per_axis = 1;
   bool match_irradiance = true;
@@ -35,14 +35,14 @@ struct SweepOptions : PairOptions {
   std::string sampling;              // how the samples were chosen, in words
   std::vector<SamplePoint> samples;  // in the order of the table; specular canonical
   int stages = 2;                    // 1, 2 or 3 (section 3.1)
-  double diffuse = 0.0;              // of the source, for every sample
+  double diffuse = 0.0;              // of the source, in every sample
 };
 
-// How a sweep is carried out. Nothing of it changes the table.
+// How a sweep runs. None of this changes the table.
 struct SweepExecution {
-  unsigned jobs = 0;                                                // 0: one a core
+  unsigned jobs = 0;                                                // 0: one for each core
   std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
-  const std::atomic<bool>* cancelled = nullptr;                     // stops between rows; throws kInterrupted
+  const std::atomic<bool>* cancelled = nullptr;  // checked between rows; throws kInterrupted
 };
 
 }  // namespace remapc

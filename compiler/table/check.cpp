@@ -12,15 +12,15 @@ namespace {
 
 using remap::number_text;
 
-// Section 7 fits a quartic and five coefficients of k to one value for each width.
+// Section 7 fits a quartic, and five coefficients of k, to one value for each width.
 constexpr std::size_t kFewestAlphas = 6;
 constexpr std::size_t kFewestRows = 12;
-// Two rows of the same sample contradict each other beyond this, in alpha or relative in specular.
+// Rows of the same sample contradict each other if they differ by more, in alpha or relative in specular.
 constexpr double kSameValue = 1e-6;
-// A step of the grid this many times the median step is a gap.
+// A step of the grid is a gap if it is this many times the median step.
 constexpr double kGapFactor = 3.0;
-// A value this far from the line through its neighbours is a jump (figures 6, 8 and 10 of the paper show
-// jumps of 10 % and more; smooth sweeps stay below 1 %).
+// A value is a jump if it is this far from the line through its neighbours (figures 6, 8 and 10 of the paper
+// show jumps of 10 % and more; smooth sweeps stay below 1 %).
 constexpr double kJumpAlpha = 0.02;
 constexpr double kJumpSlope = 0.05;
 
@@ -70,7 +70,7 @@ class Linter {
       const struct {
         const char* name;
         double value;
-        bool open;  // 0 itself is not allowed
+        bool open;  // 0 itself is invalid
       } cells[] = {{"alpha1", row.alpha1, true},      {"specular1", row.specular1, false},
                    {"alpha2", row.alpha2, true},      {"specular2", row.specular2, false},
                    {"diffuse1", row.diffuse1, false}, {"diffuse2", row.diffuse2, false}};
@@ -91,7 +91,7 @@ class Linter {
     for (const auto& [alpha, group] : by_alpha_) rows += group.size();
     if (by_alpha_.size() < kFewestAlphas || rows < kFewestRows)
       add(Severity::kError, "rows", 0,
-          "has " + std::to_string(rows) + " usable rows with " + std::to_string(by_alpha_.size()) +
+          std::to_string(rows) + " usable rows with " + std::to_string(by_alpha_.size()) +
               " different alpha1; expected at least " + std::to_string(kFewestRows) + " and " +
               std::to_string(kFewestAlphas));
   }
@@ -104,12 +104,11 @@ class Linter {
         const bool same =
             std::fabs(first.alpha2 - second.alpha2) <= kSameValue &&
             std::fabs(first.specular2 - second.specular2) <= kSameValue * std::fabs(first.specular2);
-        const std::string place =
-            sample_text(second) + " stands in line " + std::to_string(first.line) + " too";
+        const std::string place = sample_text(second) + " also appears in line " + std::to_string(first.line);
         if (same)
           add(Severity::kWarning, "duplicate", second.line, place + "; it counts twice in a fit");
         else
-          add(Severity::kError, "contradiction", second.line, place + ", with other target values");
+          add(Severity::kError, "contradiction", second.line, place + " with other target values");
       }
     }
   }
@@ -129,7 +128,7 @@ class Linter {
     }
   }
 
-  // alpha2 of each width, the mean over specular, must rise with alpha1.
+  // alpha2 of each width, averaged over specular, must rise with alpha1.
   void check_monotone() {
     double previous = 0.0;
     double previous_alpha = 0.0;
@@ -148,7 +147,7 @@ class Linter {
     }
   }
 
-  // Along specular at one width: the inner of three values against the line through the outer two.
+  // Along specular at one width, compares the middle of three values with the line through the outer two.
   void check_jumps() {
     for (const auto& [alpha, rows] : by_alpha_) {
       for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
@@ -162,7 +161,7 @@ class Linter {
                           std::fabs(specular_step) > kJumpSlope * std::max(std::fabs(expected), 0.01);
         if (jump)
           add(Severity::kWarning, "jump", b.line,
-              sample_text(b) + ": alpha2 is off its neighbours by " +
+              sample_text(b) + ": alpha2 differs from its neighbours by " +
                   number_text(std::round(alpha_step * 1e5) / 1e5) + ", specular2 by " +
                   number_text(std::round(specular_step * 1e5) / 1e5));
       }
@@ -176,7 +175,7 @@ class Linter {
     for (const auto& [status, where] : lines) {
       const std::string message = std::to_string(where.size()) + " of " + std::to_string(table_.rows.size()) +
                                   " rows are " + std::string(status_name(status)) +
-                                  " and take no part in a fit; the first is this";
+                                  " and are not fitted; this is the first";
       add(Severity::kNote, "saturation", where.front(), message);
     }
     for (const auto& [alpha, rows] : by_alpha_) {
@@ -233,7 +232,7 @@ void require_fittable(const Table& table) {
   const Finding& first = findings.front();
   const std::string place = first.line == 0 ? table.name : table.name + ":" + std::to_string(first.line);
   const std::string more =
-      errors == 1 ? "" : " (and " + std::to_string(errors - 1) + " more errors: see remapc check)";
+      errors == 1 ? "" : " (" + std::to_string(errors - 1) + " more errors: run remapc check)";
   throw remap::Error(remap::ErrorKind::kInput, place + ": " + first.kind + ": " + first.message + more);
 }
 

@@ -1,4 +1,4 @@
-// Lints a table before it is fitted: a regression hides what is wrong with its data.
+// Checks a table before it is fitted, since a regression hides faults in its data.
 #pragma once
 
 #include <string>
@@ -10,27 +10,27 @@ namespace remapc {
 
 enum class Severity {
   kNote,     // worth knowing
-  kWarning,  // the fit will be worse for it
+  kWarning,  // the fit will be less accurate
   kError,    // cannot be fitted
 };
 
 struct Finding {
   Severity severity = Severity::kNote;
   std::string kind;      // duplicate, contradiction, gap, non-monotone, jump, saturation, range, rows
-  std::size_t line = 0;  // of the file, 0 where it concerns the whole table
+  std::size_t line = 0;  // of the file; 0 if it concerns the whole table
   std::string message;
 };
 
-// Everything found, in the order of severity, then line. Only rows of status ok are judged, but for
-// saturation and range. The thresholds stand beside each check in check.cpp.
+// Returns all findings by severity, then by line. Only rows of status ok are checked, except for saturation
+// and range. check.cpp defines the threshold of each check.
 std::vector<Finding> check_table(const Table& table);
 
 std::string_view severity_name(Severity severity);
 
-// `name:line: kind: message`, or without line; `name` is the table's.
+// Formats `name:line: severity: kind: message`, without the line if it is 0; `name` is the table's.
 std::string finding_text(const std::string& name, const Finding& finding);
 
-// Throws kInput with the first error, and how many more there are, where the table cannot be fitted.
+// Throws kInput with the first error, and the number of further ones, if the table cannot be fitted.
 void require_fittable(const Table& table);
 
 }  // namespace remapc

@@ -18,7 +18,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// The delimiter that splits the header row into most cells; comma where there is none.
+// Returns the delimiter that splits the header row into the most cells; a comma if none does.
 char detect_delimiter(std::string_view header) {
   char best = ',';
   std::ptrdiff_t most = 0;
@@ -48,8 +48,8 @@ void read_line(std::string_view line, std::size_t number, char* delimiter, Csv* 
   std::vector<CsvCell> cells = split_csv_line(line, *delimiter);
   if (cells.size() != csv->header.cells.size())
     csv->fail(number, 1,
-              "the row has " + std::to_string(cells.size()) + " columns; expected " +
-                  std::to_string(csv->header.cells.size()) + " as in the header");
+              "the row has " + std::to_string(cells.size()) + " columns, the header " +
+                  std::to_string(csv->header.cells.size()));
   csv->lines.push_back({number, std::move(cells)});
 }
 
@@ -98,7 +98,7 @@ Csv parse_csv(std::string_view text, const std::string& name) {
     if (!trimmed(line).empty()) read_line(line, number, &delimiter, &csv);
   }
   if (csv.header.cells.empty())
-    throw Error(ErrorKind::kInput, name + ": has no header row; expected a CSV table");
+    throw Error(ErrorKind::kInput, name + ": no header row found (a CSV table is needed)");
   if (csv.lines.empty()) csv.fail(number, 1, "the table has no rows");
   return csv;
 }

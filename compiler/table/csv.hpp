@@ -1,4 +1,4 @@
-// CSV as tables of this project are written: comments, a header row, rows of as many cells, each with its
+// Reads the CSV tables of this project: comments, a header row and rows of as many cells. Each cell knows its
 // place.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace remapc {
 
-// A field of a line with its place, 1-based, for messages.
+// One cell of a line with its place, for messages.
 struct CsvCell {
   std::string_view text;
   std::size_t column = 1;
@@ -26,21 +26,22 @@ struct Csv {
   CsvLine header;
   std::vector<CsvLine> lines;
 
-  // The value of a comment, empty where there is none.
+  // Returns the value of a comment; empty if there is no such comment.
   std::string comment(const std::string& key) const;
 
   // Throws kInput: `name:line:column: what`.
   [[noreturn]] void fail(std::size_t line, std::size_t column, const std::string& what) const;
 
-  // The number in a cell of `line`, which is called `column_name` in the complaint where it is none.
+  // Returns the number in a cell of `line`. The error message calls the cell `column_name`.
   double number(const CsvLine& line, const CsvCell& cell, const std::string& column_name) const;
 };
 
-// Fields of one line.
+// Splits one line into its cells.
 std::vector<CsvCell> split_csv_line(std::string_view line, char delimiter);
 
-// Reads UTF-8 text, with comma, tab or semicolon (whichever the header row has most). Cells point into
-// `text`. Throws kInput for text without a header row or rows, and for a row of another length.
+// Parses UTF-8 text delimited by comma, tab or semicolon, whichever occurs most in the header row. Cells
+// point into `text`. Throws kInput for text without a header row or without rows, and for a row of another
+// length.
 Csv parse_csv(std::string_view text, const std::string& name);
 
 }  // namespace remapc

@@ -11,12 +11,12 @@
 namespace remapc {
 namespace {
 
-// Up to so many different alpha1 each is a column of its own; more are put together by their order.
+// Up to this many different alpha1, each is a column; more are grouped into as many columns by their order.
 constexpr std::size_t kMostColumns = 128;
 constexpr std::size_t kRowsAColumn = 64;
-// A column of scattered rows that ends within this share of the highest specular1 reaches as far.
+// Scattered rows: a column that ends within this share of the highest specular1 counts as reaching it.
 constexpr double kSameReach = 0.9;
-// The column of every alpha1.
+// Maps each alpha1 to its column.
 std::map<double, std::size_t> column_of_alpha(const Table& table) {
   std::map<double, std::size_t> rows_of_alpha;
   for (const TableRow& row : table.rows) ++rows_of_alpha[row.alpha1];
@@ -33,7 +33,7 @@ std::map<double, std::size_t> column_of_alpha(const Table& table) {
   return column_of;
 }
 
-// Rows of much the same width.
+// Rows of similar width.
 struct Column {
   double first = INFINITY, last = -INFINITY;  // alpha1 of its usable rows
   double cut = INFINITY;                      // lowest clamped specular1
@@ -72,7 +72,7 @@ remap::Domain table_domain(const Table& table) {
   const auto domain = remap::covered_box(covered);
   if (!domain)
     throw remap::Error(remap::ErrorKind::kInput,
-                       table.name + ": no width has usable rows; expected some of status ok");
+                       table.name + ": no width has usable rows (rows of status ok are needed)");
   return *domain;
 }
 

@@ -1,21 +1,21 @@
-// Which box of source parameters a table covers: the domain of the fits to it.
+// Finds the box of source parameters that a table covers: the domain of its fits.
 #pragma once
 
 #include "table/table.hpp"
 
 namespace remapc {
 
-// The box with alpha1 in a range and specular1 from 0 to a bound, in which every width has usable rows up to
-// the bound and no row is clamped (covered_box.hpp chooses among those that there are). Rows of other
-// statuses are gaps and bound nothing. Throws kInput for a table without such a box.
+// Returns the box with alpha1 in a range and specular1 from 0 to a bound in which every width has usable rows
+// up to the bound and no row is clamped (covered_box.hpp chooses among such boxes). Rows of other statuses
+// are gaps and do not limit it. Throws kInput if the table has no such box.
 remap::Domain table_domain(const Table& table);
 
-// `0.01 to 1`.
+// Formats a range as `0.01 to 1`.
 std::string range_text(const remap::Range& range);
 
-// The table with the roles of source and target reversed: its usable rows with parameters exchanged
-// (Sztrajman et al. 2019, section 5). Comments stay as they are, since they say how the table was made, with
-// `roles: swapped` after them and without the spheres, whose widths are those of the other side.
+// Exchanges source and target of the table's usable rows (Sztrajman et al. 2019, section 5). Comments are
+// kept, since they record how the table was made; `roles: swapped` is added, and the comparison of spheres,
+// whose widths are the source's, is removed.
 Table swapped(const Table& table);
 
 }  // namespace remapc

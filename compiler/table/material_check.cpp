@@ -11,12 +11,12 @@ namespace {
 
 using remap::number_text;
 
-// Random samples have to be some in each direction before anything can be learned from them.
+// The fewest random samples for each source column from which something can be learned.
 constexpr std::size_t kFewestRowsAColumn = 10;
 
-class Linter {
+class MaterialLinter {
  public:
-  explicit Linter(const MaterialTable& table) : table_(table) {}
+  explicit MaterialLinter(const MaterialTable& table) : table_(table) {}
 
   std::vector<Finding> run() {
     check_values();
@@ -51,13 +51,13 @@ class Linter {
     const std::size_t fewest = kFewestRowsAColumn * table_.source_columns.size();
     if (usable < fewest)
       findings_.push_back({Severity::kError, "rows", 0,
-                           "has " + std::to_string(usable) + " usable rows for " +
+                           std::to_string(usable) + " usable rows for " +
                                std::to_string(table_.source_columns.size()) +
                                " source columns; expected at least " + std::to_string(fewest)});
     if (usable != table_.rows.size())
       findings_.push_back({Severity::kNote, "saturation", 0,
                            std::to_string(table_.rows.size() - usable) + " of " +
-                               std::to_string(table_.rows.size()) + " rows are not ok"});
+                               std::to_string(table_.rows.size()) + " rows are not ok and are not fitted"});
   }
 
   void check_columns() {
@@ -67,7 +67,7 @@ class Linter {
                       [&](const NamedRow& row) { return row.source[i] == first; }))
         findings_.push_back({Severity::kWarning, "gap", 0,
                              table_.source_columns[i] + " is " + number_text(first) +
-                                 " in every row; nothing is said of other values"});
+                                 " in every row; a fit cannot learn its influence"});
     }
   }
 
@@ -79,8 +79,8 @@ class Linter {
       const bool same = found->second->target == row.target;
       findings_.push_back({same ? Severity::kWarning : Severity::kError, same ? "duplicate" : "contradiction",
                            row.line,
-                           "the sample stands in line " + std::to_string(found->second->line) + " too" +
-                               (same ? "; it counts twice in a fit" : ", with other target values")});
+                           "the sample also appears in line " + std::to_string(found->second->line) +
+                               (same ? "; it counts twice in a fit" : " with other target values")});
     }
   }
 
@@ -90,6 +90,6 @@ class Linter {
 
 }  // namespace
 
-std::vector<Finding> check_material_table(const MaterialTable& table) { return Linter(table).run(); }
+std::vector<Finding> check_material_table(const MaterialTable& table) { return MaterialLinter(table).run(); }
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// Checks a table of many named parameters before it is fitted.
+// Checks a table of named parameters before it is fitted.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,8 @@
 
 namespace remapc {
 
-// What is wrong with a table before it is fitted, as check_table: values that are not finite, too few usable
-// rows for its columns, source columns that never change, samples that stand twice, many rows of one target
-// value.
+// Returns findings like check_table: values that are not finite, too few usable rows for the number of
+// columns, source columns with a single value, repeated samples, and many rows with the same target value.
 std::vector<Finding> check_material_table(const MaterialTable& table);
 
 }  // namespace remapc

@@ -39,21 +39,20 @@ std::vector<std::size_t> places_of(const Csv& csv, const std::vector<std::string
 
 }  // namespace
 
-bool is_material_table(std::string_view text, const std::string& name) {
-  return !parse_csv(text, name).comment(kSourceColumnsComment).empty();
+MaterialTable parse_material_table(std::string_view text, const std::string& name) {
+  return material_table_from_csv(parse_csv(text, name));
 }
 
-MaterialTable parse_material_table(std::string_view text, const std::string& name) {
-  const Csv csv = parse_csv(text, name);
+MaterialTable material_table_from_csv(const Csv& csv) {
   MaterialTable table;
-  table.name = name;
+  table.name = csv.name;
   for (const auto& comment : csv.comments)
     if (comment.first != kSourceColumnsComment && comment.first != kTargetColumnsComment)
       table.comments.push_back(comment);
   for (const char* key : {kSourceColumnsComment, kTargetColumnsComment})
     if (csv.comment(key).empty())
       csv.fail(csv.header.number, 1,
-               std::string("has no comment ") + key + "; expected the names of columns");
+               std::string("has no comment ") + key + " (it must list the names of columns)");
   table.source_columns = split_names(csv.comment(kSourceColumnsComment));
   table.target_columns = split_names(csv.comment(kTargetColumnsComment));
   const auto sources = places_of(csv, table.source_columns), targets = places_of(csv, table.target_columns);

@@ -1,5 +1,5 @@
-// The table of a sweep over more parameters than width and specular: a column for each parameter and channel,
-// named by the models' own words (Sztrajman et al. 2019, section 5.2: random samples; section 8).
+// The table of a sweep over more parameters than width and specular. It has a column for each parameter and
+// channel, named as the models name them (Sztrajman et al. 2019, section 5.2: random samples; section 8).
 #pragma once
 
 #include <filesystem>
@@ -13,24 +13,24 @@
 namespace remapc {
 
 struct NamedRow {
-  std::vector<double> source, target;  // one value a column, in the parameters' own units
-  double error = 0.0;                  // image error of the match, all channels, relative RMS
+  std::vector<double> source, target;  // one value for each column, in the parameters' own units
+  double error = 0.0;                  // image error of the match over all channels, relative RMS
   RowStatus status = RowStatus::kOk;
   std::size_t line = 0;  // in the file it was read from, 1-based; 0 for a new row
 };
 
 struct MaterialTable {
   std::string name;                                           // file name, for messages
-  std::vector<std::pair<std::string, std::string>> comments;  // without those of the columns
+  std::vector<std::pair<std::string, std::string>> comments;  // without the two that list columns
   std::vector<std::string> source_columns, target_columns;    // base_color_r1, ..., roughness2
   std::vector<NamedRow> rows;
 };
 
-// Whether CSV text is a table of named parameters rather than one of remapc sweep.
-bool is_material_table(std::string_view text, const std::string& name);
-
-// Reads what material_table_text writes; other columns are ignored. Throws kInput with `name:line:column:`.
+// Parses what material_table_text writes and ignores other columns. Throws kInput with `name:line:column:`.
 MaterialTable parse_material_table(std::string_view text, const std::string& name);
+
+// The same from CSV text that parse_csv has split.
+MaterialTable material_table_from_csv(const Csv& csv);
 
 std::string material_table_text(const MaterialTable& table);
 

@@ -23,11 +23,10 @@ const std::array<std::string, 8> kColumns = {"alpha1",   "specular1", "alpha2", 
 constexpr std::size_t kRequiredColumns = 4;
 constexpr std::size_t kDiffuse1 = 4, kDiffuse2 = 5, kError = 6, kStatus = 7;
 
-// Reads one table; a class so that every complaint can name the place.
+// Parses one table.
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& name, const ColumnMap& map)
-      : csv_(parse_csv(text, name)), map_(map) {}
+  Reader(const Csv& csv, const ColumnMap& map) : csv_(csv), map_(map) {}
 
   Table read() {
     table_.name = csv_.name;
@@ -54,21 +53,21 @@ class Reader {
     const bool source = places_[kDiffuse1] != kMissing, target = places_[kDiffuse2] != kMissing;
     if (source != target)
       csv_.fail(csv_.header.number, 1,
-                "has a column " + kColumns[source ? kDiffuse1 : kDiffuse2] + " but no " +
-                    kColumns[source ? kDiffuse2 : kDiffuse1] + "; expected both or neither");
+                "has a column " + kColumns[source ? kDiffuse1 : kDiffuse2] + " but no column " +
+                    kColumns[source ? kDiffuse2 : kDiffuse1] + " (both or neither are needed)");
     table_.has_diffuse = source;
   }
 
   [[noreturn]] void fail_without(const std::string& wanted, const std::vector<std::string>& found) const {
     if (const std::string columns = csv_.comment(kSourceColumnsComment); !columns.empty())
       csv_.fail(csv_.header.number, 1,
-                "is a table of named parameters (" + columns +
-                    "), which this command cannot use; expected the columns alpha1, specular1, alpha2, "
-                    "specular2 of remapc sweep");
+                "this command needs the columns alpha1, specular1, alpha2, specular2 of remapc sweep; the "
+                "table has named parameters (" +
+                    columns + ")");
     if (found.size() == 1)
       csv_.fail(csv_.header.number, 1,
-                "the header row is one column, \"" + found[0] +
-                    "\"; expected columns parted by comma, tab or semicolon");
+                "the header row has one column, \"" + found[0] +
+                    "\" (separate columns by comma, tab or semicolon)");
     csv_.fail(csv_.header.number, 1, "has no column " + wanted + remap::suggestion(wanted, found));
   }
 
@@ -98,8 +97,8 @@ class Reader {
     if (const std::string text = csv_.comment(role + "_roughness"); !text.empty()) {
       const auto convention = remap::convention_from_name(text);
       if (!convention)
-        throw Error(ErrorKind::kInput, table_.name + ": " + role + "_roughness is \"" + text + "\"" +
-                                           remap::suggestion(text, remap::convention_names()));
+        throw Error(ErrorKind::kInput, table_.name + ": " + role + "_roughness: unknown convention \"" +
+                                           text + "\"" + remap::suggestion(text, remap::convention_names()));
       side.roughness = *convention;
     }
     for (const char* suffix : {"_specular", "_specular_column"})
@@ -109,11 +108,20 @@ class Reader {
 
   static constexpr std::size_t kMissing = std::numeric_limits<std::size_t>::max();
 
-  const Csv csv_;
+  const Csv& csv_;
   const ColumnMap& map_;
   Table table_;
   std::vector<std::size_t> places_ = std::vector<std::size_t>(kColumns.size(), kMissing);
 };
+
+// One row without its line break; diffuse only if the table has it.
+std::string row_text(const TableRow& row, bool has_diffuse) {
+  std::string text;
+  for (const double value : {row.alpha1, row.specular1, row.alpha2, row.specular2})
+    text += remap::number_text(value) + ",";
+  if (has_diffuse) text += remap::number_text(row.diffuse1) + "," + remap::number_text(row.diffuse2) + ",";
+  return text + remap::number_text(row.error) + "," + std::string(status_name(row.status));
+}
 
 }  // namespace
 
@@ -148,7 +156,7 @@ ColumnMap column_map(const std::string& text) {
   }
   if (text.find('=') == std::string::npos) {
     const std::vector<std::string> presets = {"sztrajman-2019"};
-    throw Error(ErrorKind::kUsage, "columns: " + text + " is neither a preset nor own=file pairs" +
+    throw Error(ErrorKind::kUsage, "columns: unknown preset " + text + " (or use OWN=FILE pairs)" +
                                        remap::suggestion(text, presets));
   }
   for (const CsvCell& cell : split_csv_line(text, ',')) {
@@ -156,7 +164,7 @@ ColumnMap column_map(const std::string& text) {
     const std::string own(cell.text.substr(0, equals));
     if (equals == std::string_view::npos ||
         std::find(kColumns.begin(), kColumns.end(), own) == kColumns.end())
-      throw Error(ErrorKind::kUsage, "columns: \"" + std::string(cell.text) + "\"; expected own=file" +
+      throw Error(ErrorKind::kUsage, "columns: cannot read \"" + std::string(cell.text) + "\" as OWN=FILE" +
                                          remap::suggestion(own, kColumns));
     map.columns[own] = std::string(cell.text.substr(equals + 1));
   }
@@ -164,19 +172,13 @@ ColumnMap column_map(const std::string& text) {
 }
 
 Table parse_table(std::string_view text, const std::string& name, const ColumnMap& map) {
-  return Reader(text, name, map).read();
+  return table_from_csv(parse_csv(text, name), map);
 }
+
+Table table_from_csv(const Csv& csv, const ColumnMap& map) { return Reader(csv, map).read(); }
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map) {
   return parse_table(remap::read_file(path), path.string(), map);
-}
-
-std::string row_text(const TableRow& row, bool has_diffuse) {
-  std::string text;
-  for (const double value : {row.alpha1, row.specular1, row.alpha2, row.specular2})
-    text += remap::number_text(value) + ",";
-  if (has_diffuse) text += remap::number_text(row.diffuse1) + "," + remap::number_text(row.diffuse2) + ",";
-  return text + remap::number_text(row.error) + "," + std::string(status_name(row.status));
 }
 
 std::vector<TableRow> usable_rows(const Table& table) {

@@ -1,5 +1,5 @@
-// The table of a sweep: what the target's parameters must be for each sample of the source's. The contract
-// between sweep and fit; a CSV file that a person can read and that says how it was made.
+// The table of a sweep: the target's parameters for each sample of the source's. Sweeps write it and fits
+// read it, as a CSV file that records how it was made.
 #pragma once
 
 #include <array>
@@ -18,17 +18,17 @@ struct Csv;
 struct CsvLine;
 struct CsvCell;
 
-// How far a row can be trusted. Fits use kOk rows only.
+// How far a row can be trusted. Fits use only kOk rows.
 enum class RowStatus {
   kOk,
-  kClamped,   // a target parameter lies at its bound, or the source's renderer holds its width at one
+  kClamped,   // a target parameter is at its bound, or the source's renderer clamps its width
   kFlat,      // no highlight to match
   kUnstable,  // searches from different starts disagree
 };
 
 std::string_view status_name(RowStatus status);
 
-// The status in a cell of `line`. Throws kInput with its place for another word.
+// Parses the status in a cell of `line`. Throws kInput with its place for an unknown word.
 RowStatus read_status(const Csv& csv, const CsvLine& line, const CsvCell& cell);
 
 struct TableRow {
@@ -36,11 +36,11 @@ struct TableRow {
   double specular1 = 0.0;  // source specular, linear
   double alpha2 = 0.0;     // target width, canonical
   double specular2 = 0.0;  // target specular, linear
-  double error = 0.0;      // image error of the match, relative RMS; NaN where the file has none
+  double error = 0.0;      // image error of the match, relative RMS; NaN if the file has none
   RowStatus status = RowStatus::kOk;
   std::size_t line = 0;   // in the file it was read from, 1-based; 0 for a new row
-  double diffuse1 = 0.0;  // source diffuse, linear; of tables that have it
-  double diffuse2 = 0.0;  // target diffuse, linear
+  double diffuse1 = 0.0;  // source diffuse, linear; if has_diffuse
+  double diffuse2 = 0.0;  // target diffuse, linear; if has_diffuse
 };
 
 struct Table {
@@ -52,50 +52,50 @@ struct Table {
   std::vector<TableRow> rows;
 };
 
-// The comments by which a table of named parameters (material_table.hpp) is known: the columns of each side,
-// parted by commas.
+// The comments that identify a table of named parameters (material_table.hpp): the columns of each side,
+// separated by commas.
 inline constexpr const char* kSourceColumnsComment = "source_columns";
 inline constexpr const char* kTargetColumnsComment = "target_columns";
 
-// The comment that holds similarities of spheres: `alpha1 ssim, alpha1 ssim, ...`.
+// The comment that holds the similarity of spheres: `alpha1 ssim, alpha1 ssim, ...`.
 inline constexpr const char* kSpheresComment = "sphere_ssim";
 
-// Which column of a foreign table holds what, and what its models are.
+// The columns and models of a foreign table.
 struct ColumnMap {
-  std::map<std::string, std::string> columns;  // own name -> name in the file; missing: the same
-  remap::ModelSide source;                     // model empty: taken from the comments
+  std::map<std::string, std::string> columns;  // own name -> name in the file; missing: the same name
+  remap::ModelSide source;                     // empty model: taken from the comments
   remap::ModelSide target;
 };
 
-// The column map of a named preset, or of `own=file,own=file,...`.
-// Preset `sztrajman-2019`: the table that the authors of the paper published, Mitsuba Ward to
-// Ashikhmin-Shirley; `eta2` holds F0, `k2` is a sentinel. Throws kUsage for an unknown preset or own column.
+// Returns the column map of a preset, or of `own=file,own=file,...`. The preset `sztrajman-2019` is for the
+// table published with the paper, Mitsuba Ward to Ashikhmin-Shirley; its `eta2` holds F0, its `k2` is a
+// sentinel. Throws kUsage for an unknown preset or own column.
 ColumnMap column_map(const std::string& text);
 
-// Reads CSV text: UTF-8, comma, tab or semicolon (whichever the header row has), `#` comments before it.
-// Columns alpha1, specular1, alpha2, specular2 are needed; error, status, and diffuse1 with diffuse2 may be
-// missing; others are ignored. The specular of a side is named by `<side>_specular_column` where the columns
-// hold another coordinate than the model's own parameter (F0 for an index), else by `<side>_specular`. Throws
-// kInput with `name:line:column:` for a missing column, a bad number or status, a row of another length, text
+// Parses CSV text: UTF-8, `#` comments, then a header row delimited by comma, tab or semicolon. The columns
+// alpha1, specular1, alpha2, specular2 are required; error, status, and diffuse1 with diffuse2 are optional;
+// others are ignored. `<side>_specular_column` names the specular of a side if its columns hold another
+// coordinate than the model's own parameter (F0 for an index), else `<side>_specular` does. Throws kInput
+// with `name:line:column:` for a missing column, a bad number or status, a row of another length, and text
 // without rows.
 Table parse_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
+// The same from CSV text that parse_csv has split.
+Table table_from_csv(const Csv& csv, const ColumnMap& map);
+
 Table read_table(const std::filesystem::path& path, const ColumnMap& map = {});
 
-// The rows of status ok.
+// Returns the rows of status ok.
 std::vector<TableRow> usable_rows(const Table& table);
 
 // Whether the source parameters of a row lie in `domain`.
 bool is_inside(const TableRow& row, const remap::Domain& domain);
 
-// Those of `rows` whose source parameters lie in `domain`.
+// Returns the `rows` whose source parameters lie in `domain`.
 std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap::Domain& domain);
 
-// The CSV text of a table: comments, header row, rows; diffuse columns only where it has them. Reading it
-// gives the same table back, number for number.
+// Formats a table as CSV: comments, header row, rows; the diffuse columns only if has_diffuse. Parsing the
+// text gives the same numbers.
 std::string table_text(const Table& table);
-
-// One line without its end, as table_text writes it. A sweep that is under way keeps finished rows like that.
-std::string row_text(const TableRow& row, bool has_diffuse);
 
 }  // namespace remapc

@@ -15,7 +15,7 @@ std::string sha256(std::string_view bytes) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned length = 0;
   if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-    throw Error(ErrorKind::kNumeric, "sha256: the digest could not be computed");
+    throw Error(ErrorKind::kNumeric, "sha256: cannot compute the digest");
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text;
   for (unsigned i = 0; i < length; ++i) {

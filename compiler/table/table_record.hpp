@@ -1,4 +1,4 @@
-// What a fit records of its table, and the hash that identifies a file.
+// The record of a table in its fit, and the hash that identifies a file.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,11 @@
 
 namespace remapc {
 
-// What a fit says of the table that it was made from, whose file is `bytes`.
+// Returns what a fit records of its table, whose file is `bytes`.
 remap::TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
                                 const std::vector<std::pair<std::string, std::string>>& comments);
 
-// SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
+// Returns the SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
 }  // namespace remapc

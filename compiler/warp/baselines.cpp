@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kRotations = 20;
 
-// Evenly spread rotations: the additive recurrence of the plastic numbers in place of random numbers, and the
-// uniform map to quaternions of Shoemake 1992.
+// Evenly spread rotations: the additive recurrence of the plastic numbers, mapped uniformly to quaternions
+// (Shoemake 1992).
 Eigen::MatrixXd rotation(Eigen::Index dimension, int index) {
   const auto part = [&](double step) { return std::fmod(0.5 + static_cast<double>(index) * step, 1.0); };
   if (dimension == 1) return Eigen::MatrixXd::Identity(1, 1);
@@ -28,7 +28,7 @@ Eigen::MatrixXd rotation(Eigen::Index dimension, int index) {
   return quaternion.toRotationMatrix();
 }
 
-// Replaces each value by that of `goal` at the same share of ranks.
+// Replaces each value by the value of `goal` with the same relative rank.
 void match_ranks(Eigen::Ref<Eigen::VectorXd> values, const Eigen::VectorXd& goal) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});

@@ -1,16 +1,15 @@
-// What the registration is compared with: histogram matching.
+// Histogram matching, a baseline for the registration.
 #pragma once
 
 #include "warp/registration.hpp"
 
 namespace remapc {
 
-// Histogram matching in several dimensions (Pitie et al. 2007) on occupied points, each of weight one: 20
-// rotations, in each of which ranks along every axis are matched. Returns where `from` is moved to.
-// Deterministic.
+// Histogram matching in several dimensions (Pitie et al. 2007) of occupied points with equal weights: matches
+// ranks along every axis in 20 rotations. Returns the new positions of `from`. Deterministic.
 Points match_histograms(const Points& from, const Points& to);
 
-// The images of all points by affine_from_strokes(), moved on by match_histograms().
+// Applies affine_from_strokes() to all points, then match_histograms().
 ShiftedPoints warp_by_histograms(const PointSets& sets);
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// The nearest texel of the template to a position: results are reflectances that the template has (An et al.
+// Finds the template texel nearest to a position. All results are reflectances of the template (An et al.
 // 2011, principle 5).
 #pragma once
 
@@ -12,13 +12,13 @@ namespace remapc {
 
 class NearestTexel {
  public:
-  // Rows that are NaN are no texels; at least one must not be.
+  // Rows with NaN are ignored; at least one row must be finite.
   explicit NearestTexel(const Points& positions);
   ~NearestTexel();
   NearestTexel(NearestTexel&&) noexcept;
   NearestTexel& operator=(NearestTexel&&) noexcept;
 
-  // The row of `positions` that is nearest to each point.
+  // Returns the index of the nearest row of `positions` for each point.
   std::vector<std::uint32_t> find(const Points& points) const;
 
  private:

@@ -12,18 +12,18 @@
 namespace remapc {
 namespace {
 
-constexpr double kSigma = 0.2;  // of the diagonal of the template's box
+constexpr double kSigma = 0.2;  // relative to the diagonal of the template's box
 constexpr std::size_t kNeighbours = 10;
-constexpr std::size_t kParameters = 10;  // of one simplex search
-constexpr double kBeside = 1.0 / 3.0;    // of a bin
-constexpr double kMargin = 0.5;          // of the template's box, on each side
+constexpr std::size_t kParameters = 10;  // varied in one simplex search
+constexpr double kBeside = 1.0 / 3.0;    // offset of the points around a centroid, in bins
+constexpr double kMargin = 0.5;          // relative to the template's box, on each side
 
 double diagonal(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
-// How often images fall into each bin of the template's grid, and how many bins differ in occupancy from the
-// template's own points.
+// Counts the images in each bin of the template's grid, and the bins whose occupancy differs from that of the
+// template's points.
 class Overlap {
  public:
   Overlap(std::size_t bins, const std::vector<long>& goal) : counts_(bins, 0), is_goal_(bins, 0) {
@@ -49,7 +49,7 @@ class Overlap {
   int mismatches_ = 0;
 };
 
-// The template's grid with a margin, to whose rim whatever lies beyond is held.
+// The template's grid with a margin. Positions beyond the margin are clamped to its edge.
 class HeldGrid {
  public:
   HeldGrid(const Points& points, double spacing)
@@ -73,7 +73,7 @@ class HeldGrid {
   BinGrid grid_;
 };
 
-// The printed energy, kept up to date while maps of single bins change.
+// The published energy, updated incrementally when the map of a bin changes.
 class PaperEnergy {
  public:
   PaperEnergy(const PointSets& sets, const MovingAffine& start)
@@ -109,7 +109,7 @@ class PaperEnergy {
   std::size_t bin_count() const { return maps_.size(); }
   const std::vector<AffineMap>& maps() const { return maps_; }
 
-  // Whether an image of the bin, or its neighbours' in the source, falls where occupancy differs.
+  // Whether an image of the bin or of its neighbors in the source falls into a bin whose occupancy differs.
   bool is_beside_mismatch(std::size_t bin) const {
     const auto has_mismatch = [&](std::size_t b) {
       return std::any_of(images_of_bin_[b].begin(), images_of_bin_[b].end(),
@@ -120,7 +120,7 @@ class PaperEnergy {
                        [&](const Neighbour& other) { return has_mismatch(other.bin); });
   }
 
-  // Entry `entry` of the map of a bin: the linear part column by column, then the offset.
+  // Entry `entry` of the map of a bin: the linear part by columns, then the offset.
   double entry(std::size_t bin, std::size_t entry) const {
     const AffineMap& map = maps_[bin];
     const auto linear = static_cast<std::size_t>(map.linear.size());
@@ -188,7 +188,7 @@ class PaperEnergy {
     for (const Neighbour& other : neighbours_[bin]) sum += term(bin, other);
     return sum;
   }
-  // All terms that the map of a bin is part of.
+  // The sum of all terms that depend on the map of a bin.
   double roughness_around(std::size_t bin) const {
     double sum = roughness_at(bin);
     for (const std::size_t from : is_neighbour_of_[bin])
@@ -202,7 +202,7 @@ class PaperEnergy {
     for (const std::size_t k : strokes_of_[bin]) (strokes_[k].*change)(image);
   }
 
-  // Where the map of a bin takes its points.
+  // Computes the images of the points of a bin.
   void place(std::size_t bin) {
     std::vector<long>& images = images_of_bin_[bin];
     images.clear();
@@ -232,7 +232,7 @@ class PaperEnergy {
   double stroke_weight_ = 0.0, roughness_ = 0.0;
 };
 
-// One entry of the map of each of a few bins.
+// One entry of the maps of some bins.
 struct Chosen {
   std::size_t bin = 0, entry = 0;
 };

@@ -9,7 +9,7 @@ namespace remapc {
 namespace {
 
 constexpr Eigen::Index kCentres = 80;
-constexpr double kWidth = 1.2;  // RMS radii
+constexpr double kWidth = 1.2;  // in RMS radii
 constexpr int kSteps = 25;
 constexpr double kFirstSigma = 0.4, kLastSigma = 0.05;
 constexpr int kScalingRounds = 8;
@@ -17,8 +17,8 @@ constexpr double kScalingExponent = 0.8;
 constexpr double kStrokeWeight = 1.5;
 constexpr double kBending = 10.0;
 
-// Spread over the set: the first is the one farthest from the mean, each further one the farthest from all
-// before.
+// Farthest point sampling: the first point is the farthest from the mean, each further point the farthest
+// from all previous ones.
 Points farthest_points(const Points& points, Eigen::Index wanted) {
   const Eigen::Index count = std::min(wanted, points.rows());
   Points chosen(count, points.cols());
@@ -35,14 +35,40 @@ Points farthest_points(const Points& points, Eigen::Index wanted) {
 
 Points rows_of(const Points& points, const std::vector<int>& rows) { return points(rows, Eigen::all); }
 
-// What points are drawn to: the sum of weights and of weighted targets of each.
+// Soft matches between two sets of points by unbalanced Sinkhorn scaling (Chizat et al. 2018). `mass`: the
+// degree to which each moved point is matched (about 1 / count); `target`: the matched position.
+struct SoftMatch {
+  Eigen::VectorXd mass;
+  Points target;
+};
+SoftMatch match_softly(const Points& moved, const Points& goal, double sigma) {
+  const Eigen::MatrixXd kernel = gaussians(moved, goal, sigma);
+  const double row_mass = 1.0 / static_cast<double>(moved.rows());
+  const double column_mass = 1.0 / static_cast<double>(goal.rows());
+  const auto scaling = [](double mass, const Eigen::VectorXd& sums) -> Eigen::VectorXd {
+    return (mass / sums.array().max(1e-300)).pow(kScalingExponent);
+  };
+  Eigen::VectorXd rows = Eigen::VectorXd::Ones(moved.rows()), columns = Eigen::VectorXd::Ones(goal.rows());
+  for (int round = 0; round < kScalingRounds; ++round) {
+    rows = scaling(row_mass, kernel * columns);
+    columns = scaling(column_mass, kernel.transpose() * rows);
+  }
+  SoftMatch match;
+  const Eigen::VectorXd sums = kernel * columns;
+  match.mass = rows.cwiseProduct(sums);
+  match.target = kernel * (columns.asDiagonal() * goal);
+  match.target.array().colwise() /= sums.array().max(1e-300);
+  return match;
+}
+
+// The attraction of each point: the sums of weights and of weighted targets.
 struct Pull {
   Eigen::VectorXd weight;
   Points weighted;
 };
 
-// Every point of a stroke weighs the same, whichever stroke it is of. Masses are taken as they are: strokes
-// far from their partners, and points without any, pull less.
+// All points of strokes have the same weight. The masses are not normalised, so that strokes far from their
+// partners and points without a match have less effect.
 Pull pull_of(const PointSets& sets, const Points& moved, double sigma) {
   const SoftMatch all = match_softly(moved, sets.target.points, sigma);
   Pull pull{all.mass, all.mass.asDiagonal() * all.target};
@@ -87,26 +113,6 @@ AffineMap affine_from_strokes(const PointSets& sets, double prior) {
   const Eigen::MatrixXd left = from.transpose() * from + prior * Eigen::MatrixXd::Identity(n, n);
   const Eigen::MatrixXd linear = left.ldlt().solve(from.transpose() * to + prior * sets.common_axes);
   return {linear, to_mean - from_mean * linear};
-}
-
-SoftMatch match_softly(const Points& moved, const Points& goal, double sigma) {
-  const Eigen::MatrixXd kernel = gaussians(moved, goal, sigma);
-  const double row_mass = 1.0 / static_cast<double>(moved.rows());
-  const double column_mass = 1.0 / static_cast<double>(goal.rows());
-  const auto scaling = [](double mass, const Eigen::VectorXd& sums) -> Eigen::VectorXd {
-    return (mass / sums.array().max(1e-300)).pow(kScalingExponent);
-  };
-  Eigen::VectorXd rows = Eigen::VectorXd::Ones(moved.rows()), columns = Eigen::VectorXd::Ones(goal.rows());
-  for (int round = 0; round < kScalingRounds; ++round) {
-    rows = scaling(row_mass, kernel * columns);
-    columns = scaling(column_mass, kernel.transpose() * rows);
-  }
-  SoftMatch match;
-  const Eigen::VectorXd sums = kernel * columns;
-  match.mass = rows.cwiseProduct(sums);
-  match.target = kernel * (columns.asDiagonal() * goal);
-  match.target.array().colwise() /= sums.array().max(1e-300);
-  return match;
 }
 
 SmoothWarp register_points(const PointSets& sets, const AffineMap& start) {

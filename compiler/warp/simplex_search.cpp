@@ -14,7 +14,7 @@ struct Vertex {
   double value = 0.0;
 };
 
-// a + share (b - a).
+// Returns a + share * (b - a).
 Point between(const Point& a, const Point& b, double share) {
   Point point(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) point[i] = a[i] + share * (b[i] - a[i]);
@@ -26,7 +26,7 @@ class Simplex {
   Simplex(const std::function<double(const Point&)>& energy, int evaluations)
       : energy_(energy), left_(evaluations) {}
 
-  // Points beyond the count are worse than any.
+  // Points above the limit of evaluations are worse than all others.
   Vertex at(Point point) {
     if (left_ <= 0) return {std::move(point), std::numeric_limits<double>::infinity()};
     --left_;
@@ -61,7 +61,7 @@ class Simplex {
     return sum;
   }
 
-  // Reflect, expand or contract the worst; else shrink towards the best.
+  // Reflects, expands or contracts the worst point, or shrinks all points towards the best.
   void step() {
     const Point middle = centroid();
     Vertex& worst = vertices_.back();

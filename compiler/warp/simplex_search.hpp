@@ -6,7 +6,8 @@
 
 namespace remapc {
 
-// The best of at most `evaluations` points: starts at `start` and one `step` along each axis.
+// Returns the best of at most `evaluations` points. The initial simplex is `start` and one of `steps` along
+// each axis.
 std::vector<double> simplex_search(const std::vector<double>& start, const std::vector<double>& steps,
                                    int evaluations,
                                    const std::function<double(const std::vector<double>&)>& energy);

@@ -23,12 +23,12 @@ constexpr remap::NamedValues<WarpMethod, 4> kMethods = {{{WarpMethod::kRegistrat
                                                          {WarpMethod::kHistogram, "histogram"},
                                                          {WarpMethod::kPaper, "paper"}}};
 
-// Of the source only points are made; results are texels of the template.
+// The source is only used for points; results are texels of the template, so more of them are kept.
 constexpr std::size_t kMostSources = std::size_t{1} << 16, kMostTargets = std::size_t{1} << 18;
 
 using StrokeTexels = std::vector<std::vector<std::uint32_t>>;
 
-// The texels that the match is made from, and strokes as indices into them.
+// The texels that are used for the match, and strokes as indices into them.
 struct Selection {
   std::vector<std::uint32_t> texels;
   StrokeTexels strokes;
@@ -41,7 +41,7 @@ Selection selection_of(const MaterialRef& material, const std::vector<StrokePair
   std::vector<char> wanted(count, 0);
   const std::size_t step = (count + limit - 1) / limit;
   for (std::size_t i = 0, block = 0; i < count; i += step, ++block)
-    wanted[std::min(i + block * 61 % step, count - 1)] = 1;  // scattered, so that samples stand in no columns
+    wanted[std::min(i + block * 61 % step, count - 1)] = 1;  // scattered, so that samples do not form columns
   for (const StrokePair& stroke : strokes)
     for (const std::uint32_t texel : stroke.*side) wanted[texel] = 1;
 
@@ -76,7 +76,7 @@ AppearanceWarp warp_by(WarpMethod method, const PointSets& sets) {
   return register_points(sets, affine_from_strokes(sets));
 }
 
-// Directions along which the centres of the strokes differ by more than a tenth of the radius.
+// The number of directions along which the centres of the strokes differ by more than a tenth of the radius.
 int fixed_directions(const Points& centres) {
   const Points centred = centres.rowwise() - centres.colwise().mean();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred);
@@ -92,7 +92,7 @@ double rms_distance(const Points& a, const Points& b, std::size_t* worst = nullp
   return std::sqrt(squares.mean());
 }
 
-// Over the points of the source: the share of template points that one of them reaches, each as far as a bin.
+// The share of template points that have the image of a source point within one bin.
 double coverage_of(const AppearanceWarp& warp, const PointSets& sets) {
   const Points images = images_of(warp, sets.source.points);
   const Points& goal = sets.target.points;
@@ -120,19 +120,20 @@ WarpDiagnostics::SharedStroke most_shared(const MaterialRef& source, const Mater
 void require_options(const WarpOptions& options) {
   if (options.dimensions < 0 || options.dimensions > static_cast<int>(remap::kLargestWarpDimension))
     throw Error(ErrorKind::kUsage, "dimensions: " + std::to_string(options.dimensions) +
-                                       "; expected 1 to 3, or 0 for those that are needed");
+                                       " is out of range (1 to 3, or 0 for as many as needed)");
   if (options.nodes == 1 || options.nodes > 1024)
-    throw Error(ErrorKind::kUsage, "nodes: " + std::to_string(options.nodes) + "; expected 2 to 1024");
+    throw Error(ErrorKind::kUsage,
+                "nodes: " + std::to_string(options.nodes) + " is out of range (2 to 1024)");
 }
 
-// A match with what it was made from.
+// A match and the data that it was computed from.
 struct Matched {
   Selection source, target;
   Points source_positions, target_positions;
   AppearanceMatch match;
 };
 
-// Everything that the diagnostics say of the points and the warp between them.
+// Fills the diagnostics of the points and the warp.
 void diagnose(const PointSets& sets, AppearanceMatch& match) {
   WarpDiagnostics& found = match.diagnostics;
   found.fixed_directions = fixed_directions(sets.source_centres);
@@ -235,38 +236,39 @@ std::vector<std::string> warnings_of(const WarpDiagnostics& found) {
   if (found.source_left_out > 0 || found.target_left_out > 0)
     warnings.push_back(std::to_string(found.source_left_out) + " texels of the source and " +
                        std::to_string(found.target_left_out) +
-                       " of the template are not finite and take no part");
+                       " of the template are not finite and were skipped");
   if (found.coordinates_error > 0.03)
-    warnings.push_back("places in appearance space are " + percent(found.coordinates_error) +
-                       " of the spread off: formulas do not follow this distance well on these materials; "
-                       "--distance relative is exact");
+    warnings.push_back("positions in appearance space have an error of " + percent(found.coordinates_error) +
+                       " of the spread: this distance is approximated poorly for these materials (--distance "
+                       "relative is exact)");
   if (found.shared.overlap.share > 0.5)
     warnings.push_back(found.strokes[found.shared.overlap.other] + " covers " +
                        percent(found.shared.overlap.share) + " of " + found.strokes[found.shared.stroke] +
                        " in the " + (found.shared.in_template ? "template" : "source") +
-                       ": the two mean one region there; erase one of them");
+                       ": both mark the same region there (erase one of them)");
   if (found.source_dimensions < found.target_dimensions)
-    warnings.push_back(
-        "the source varies in " + std::to_string(found.source_dimensions) +
-        (found.source_dimensions == 1 ? " way" : " ways") + " and the template in " +
-        std::to_string(found.target_dimensions) +
-        ": what the source does not tell apart is lost; a source with more variation keeps it");
+    warnings.push_back("the source varies in " + std::to_string(found.source_dimensions) +
+                       (found.source_dimensions == 1 ? " dimension" : " dimensions") +
+                       " and the template in " + std::to_string(found.target_dimensions) +
+                       ": part of the template's variation is lost (use a source with more variation)");
   for (int k = found.fixed_directions; k < found.dimensions; ++k)
     warnings.push_back(
-        "strokes do not fix direction " + std::to_string(k + 1) + " of " + std::to_string(found.dimensions) +
-        ": the result brightens there as the source does; a stroke pair that differs from the others "
-        "in another way fixes it");
+        "strokes do not determine direction " + std::to_string(k + 1) + " of " +
+        std::to_string(found.dimensions) +
+        ": the result varies there like the source (add a stroke pair that differs from the others in "
+        "another way)");
   if (found.fold_share > 0.005)
-    warnings.push_back(percent(found.fold_share) +
-                       " of the source is turned inside out: neighbouring strokes may be exchanged");
+    warnings.push_back(
+        percent(found.fold_share) +
+        " of the source is folded by the warp (check whether neighboring strokes are swapped)");
   if (found.stroke_distance > 0.5)
-    warnings.push_back("strokes contradict each other: images of source strokes are " +
-                       percent(found.stroke_distance) + " of the template's spread from their partners, " +
-                       found.strokes[found.worst_stroke] +
-                       " the most; look whether it marks the same region twice");
+    warnings.push_back(
+        "strokes contradict each other: images of source strokes are " + percent(found.stroke_distance) +
+        " of the template's spread away from their partners, most of all " +
+        found.strokes[found.worst_stroke] + " (check whether it marks the same region in both)");
   if (found.coverage < 0.5)
     warnings.push_back("only " + percent(found.coverage) +
-                       " of the template's appearances are used; strokes on its other regions bring them in");
+                       " of the template's appearances are used (add strokes on its other regions)");
   return warnings;
 }
 

@@ -11,7 +11,7 @@ namespace remapc {
 namespace {
 
 constexpr double kTowardsGlobal = 1e-6;
-constexpr double kDifferenceStep = 0.01;  // of the RMS radius
+constexpr double kDifferenceStep = 0.01;  // in RMS radii
 
 Points moved(const AffineMap& map, const Points& points) {
   return (points * map.linear).rowwise() + map.offset;
@@ -35,7 +35,7 @@ Points moved(const ShiftedPoints& warp, const Points& points) {
 
 AffineMap affine_at(const MovingAffine& warp, const Eigen::RowVectorXd& point) {
   const Eigen::ArrayXd distances = (warp.from.rowwise() - point).rowwise().squaredNorm();
-  // Less the nearest one: far from all strokes weights would be zero.
+  // The least distance is subtracted, because the weights would be 0 far from all strokes.
   const Eigen::ArrayXd exponents = (distances.minCoeff() - distances) / (2.0 * warp.width * warp.width);
   const Eigen::VectorXd weights = exponents.exp() / exponents.exp().sum();
   const Eigen::RowVectorXd centre = weights.transpose() * warp.from, image = weights.transpose() * warp.to;
@@ -84,7 +84,7 @@ Points images_of(const AppearanceWarp& warp, const Points& points) {
 
 double fold_share(const AppearanceWarp& warp, const Points& points, const Eigen::VectorXd& weights) {
   const Eigen::Index n = points.cols();
-  std::vector<Points> columns;  // of the Jacobians, at all points
+  std::vector<Points> columns;  // columns of the Jacobians, at all points
   for (Eigen::Index k = 0; k < n; ++k) {
     Points ahead = points, behind = points;
     ahead.col(k).array() += kDifferenceStep;

@@ -1,4 +1,4 @@
-// Maps from the source's appearance space into the template's: what each method ends in.
+// Maps from the source's appearance space to the template's: the results of the methods.
 #pragma once
 
 #include <variant>
@@ -10,7 +10,7 @@
 
 namespace remapc {
 
-// Rows are points: F(x) = x linear + offset.
+// F(x) = x linear + offset, where rows are points.
 struct AffineMap {
   Eigen::MatrixXd linear;     // dimension x dimension
   Eigen::RowVectorXd offset;  // dimension
@@ -30,35 +30,35 @@ struct ShiftedPoints {
   Points shifts;
 };
 
-// An affine map a point by moving least squares (Schaefer et al. 2006): least squares over `from` -> `to`
-// with weights exp(-(|x - from|^2 - least) / (2 width^2)), drawn to `global` by a thousandth of a thousandth.
+// An affine map for each point by moving least squares (Schaefer et al. 2006): least squares over `from` ->
+// `to` with weights exp(-(|x - from|^2 - least) / (2 width^2)), regularized towards `global` with weight
+// 1e-6.
 struct MovingAffine {
   Points from, to;
   double width = 1.0;
   AffineMap global;
 };
 
-// F(x) = start(x) + the correction of the nearest bin at x: affine maps that were moved on from those of
-// `start`.
+// F(x) = start(x) + the affine correction of the bin nearest to x.
 struct BinnedAffine {
   MovingAffine start;
   Points bins;
-  std::vector<AffineMap> corrections;  // one each
+  std::vector<AffineMap> corrections;  // one per bin
 };
 
-// The map of a point by moving least squares.
+// The moving least squares map of a point.
 AffineMap affine_at(const MovingAffine& warp, const Eigen::RowVectorXd& point);
 
 using AppearanceWarp = std::variant<AffineMap, SmoothWarp, ShiftedPoints, MovingAffine, BinnedAffine>;
 
-// The images of points, a row each. A point that is NaN gives NaN.
+// The images of points, one row per point. NaN gives NaN.
 Points images_of(const AppearanceWarp& warp, const Points& points);
 
-// The exp(...) of a SmoothWarp: points x centres.
+// The factors exp(...) of a SmoothWarp: points x centres.
 Eigen::MatrixXd gaussians(const Points& points, const Points& centres, double width);
 
-// The share of `weights` at points where the orientation of the warp (the sign of its Jacobian's determinant,
-// by central differences) is not that of the majority: there the source is turned inside out.
+// The share of `weights` at points where the warp folds: where its orientation (the sign of the determinant
+// of its Jacobian, by central differences) differs from that of the majority.
 double fold_share(const AppearanceWarp& warp, const Points& points, const Eigen::VectorXd& weights);
 
 }  // namespace remapc

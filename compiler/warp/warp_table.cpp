@@ -20,7 +20,7 @@ Box box_of(const Points& positions) {
   Box box;
   for (Eigen::Index k = 0; k < positions.cols(); ++k) {
     const auto [low, high] = extent_of(positions, k);
-    // A material without width along an axis has a table all the same.
+    // The box has a margin along axes without extent.
     const double margin = std::max(1e-3 - 0.5 * (high - low), 0.0);
     box.low.push_back(static_cast<float>(low - margin));
     box.high.push_back(static_cast<float>(high + margin));
@@ -28,7 +28,7 @@ Box box_of(const Points& positions) {
   return box;
 }
 
-// Positions of the nodes along one axis.
+// The positions of the nodes along one axis.
 Eigen::VectorXd axis_nodes(const Box& box, std::size_t axis, std::size_t nodes) {
   return Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(nodes), static_cast<double>(box.low[axis]),
                                     static_cast<double>(box.high[axis]));
@@ -53,8 +53,8 @@ Points images_of_nodes(const AppearanceWarp& warp, const Box& box, std::size_t n
   return images_of(warp, node_positions(box, nodes));
 }
 
-// A Gaussian on a grid is a product of one factor an axis: this is where most of the time of a table would
-// go.
+// The Gaussians take most of the time of a table. On a grid, they are products of one factor per axis, which
+// is faster.
 Points images_of_nodes(const SmoothWarp& warp, const Box& box, std::size_t nodes) {
   const std::size_t dimension = box.low.size();
   Points images = images_of(AppearanceWarp(warp.affine), node_positions(box, nodes));
@@ -95,7 +95,7 @@ remap::BlendedNodes blended_nodes(const std::vector<std::uint32_t>& texels, cons
   return entries;
 }
 
-// Equal texels stand in the palette once.
+// Builds the palette, without duplicate texels.
 remap::CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const WarpMaterial& target) {
   remap::CopiedNodes entries;
   entries.indices.reserve(texels.size());
@@ -107,16 +107,16 @@ remap::CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const 
   }
   if (known.size() > remap::kLargestPalette)
     throw remap::Error(remap::ErrorKind::kUsage,
-                       "nodes: need " + std::to_string(known.size()) + " texels of " + target.name +
-                           " in an exact table; expected at most " + std::to_string(remap::kLargestPalette) +
-                           ", of fewer nodes");
+                       "nodes: the exact table needs " + std::to_string(known.size()) + " texels of " +
+                           target.name + ", more than " + std::to_string(remap::kLargestPalette) +
+                           " (use fewer nodes)");
   return entries;
 }
 
 constexpr std::uint32_t kUnknown = ~std::uint32_t{0};
 
-// The nodes around every position, and those beside them: what texels of the source, or of a map that was
-// thinned, look up. In growing order.
+// The nodes around every position and their neighbors, in increasing order: the nodes that source texels look
+// up, also if `positions` are a sample of them.
 std::vector<std::uint32_t> nodes_around(const Points& positions, const Box& box, std::size_t nodes) {
   const auto dimension = static_cast<std::size_t>(positions.cols());
   std::size_t count = 1;
@@ -128,13 +128,13 @@ std::vector<std::uint32_t> nodes_around(const Points& positions, const Box& box,
     for (std::size_t k = 0; k < dimension; ++k) {
       const double low = static_cast<double>(box.low[k]), high = static_cast<double>(box.high[k]);
       const double place = (positions(i, static_cast<Eigen::Index>(k)) - low) / (high - low) * last;
-      first[k] = static_cast<std::size_t>(std::clamp(place, 0.0, last - 1.0));  // the place is no NaN
+      first[k] = static_cast<std::size_t>(std::clamp(place, 0.0, last - 1.0));  // the place is not NaN
     }
     std::size_t run = 1, cell = 0;
     for (std::size_t k = 0; k < dimension; ++k, run *= nodes) cell += first[k] * run;
     is_near[cell] = 1;
   }
-  // A cell is marked at its first node: its corners and what lies beside are one step down and two up.
+  // A cell is marked at its first node. Its corners and their neighbors are one step down to two steps up.
   std::size_t run = 1;
   for (std::size_t k = 0; k < dimension; ++k, run *= nodes) {
     const std::vector<char> before = is_near;
@@ -151,7 +151,7 @@ std::vector<std::uint32_t> nodes_around(const Points& positions, const Box& box,
   return found;
 }
 
-// Gives every node that is unknown the texel of the known one that is the fewest steps away.
+// Assigns to every unknown node the texel of the known node that is the fewest steps away.
 void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front, std::size_t nodes) {
   while (!front.empty()) {
     std::vector<std::uint32_t> next;
@@ -170,8 +170,8 @@ void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front
   }
 }
 
-// The nearest texel to the image of every node that texels of the source look up. Of what none of them does,
-// often most of the box, that of the nearest such node: a warp means nothing far from what it was made from.
+// Finds the nearest texel to the image of every node that source texels look up. The other nodes, often most
+// of the box, copy the nearest such node, because the warp is undefined far from the source.
 std::vector<std::uint32_t> node_texels(const Points& positions, const Box& box, std::size_t nodes,
                                        const Points& images, const NearestTexel& nearest) {
   const std::vector<std::uint32_t> near = nodes_around(positions, box, nodes);

@@ -1,4 +1,4 @@
-// The warp compiled: a table of template parameters over the box of the source's coordinates.
+// Compiles a warp to a table of template parameters over the box of the source's coordinates.
 #pragma once
 
 #include "warp/nearest_texel.hpp"
@@ -7,14 +7,14 @@
 
 namespace remapc {
 
-// Nodes along each dimension by default. Blended: as many as 250 KB hold; differences from the exact copy are
-// those between neighbouring texels of the template, 1.5 to 2 % of its spread. Copied (`exact`): more, since
-// the nearest node errs by more than a blend of those around.
+// The default number of nodes along each dimension. Blended tables use up to 250 KB; they differ from the
+// exact copy by about the distance of neighboring template texels, 1.5 to 2 % of the template's spread. Exact
+// tables have more nodes, because the nearest node has a larger error than a blend.
 std::size_t default_nodes(int dimension, bool exact) noexcept;
 
-// `positions` of the source's texels give the box; `nearest` finds texels of `target`. A node holds the
-// parameters of the texel nearest to its image: as they are (CopiedNodes) where `exact`, else to a byte each
-// and blended with those of other nodes. Throws kUsage where an exact table needs more than 65536 texels.
+// `positions`: of the source texels, which determine the box. `nearest`: finds texels of `target`. A node has
+// the parameters of the texel nearest to its image: unchanged (CopiedNodes) if `exact`, otherwise rounded to
+// a byte and blended with those of other nodes. Throws kUsage if an exact table needs more than 65536 texels.
 remap::ParameterTable compile_table(const AppearanceWarp& warp, const Points& positions,
                                     const NearestTexel& nearest, const WarpMaterial& target,
                                     std::size_t nodes, bool exact = false);

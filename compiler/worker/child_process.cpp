@@ -1,5 +1,5 @@
-// One thread a child: it forks, reads what the child says, and reaps it. The kernel's signal at the death of
-// a parent is one at the death of the thread that forked, so that thread must live as long as the child.
+// Each child has a thread that forks it, reads its output and reaps it. The kernel signals the death of a
+// parent when the thread that forked dies, so that thread must live as long as the child.
 #include "worker/child_process.hpp"
 
 #include <array>
@@ -22,16 +22,16 @@ using remap::Error;
 using remap::ErrorKind;
 
 constexpr std::size_t kMostLog = 8192;          // bytes of standard error that are kept
-constexpr std::size_t kShownLogLines = 4;       // of those, in a message
-constexpr std::size_t kLongestLine = 16 << 20;  // an answer is a few kilobytes
-constexpr int kWatchMilliseconds = 20;          // how late the end of a process may be noticed
+constexpr std::size_t kShownLogLines = 4;       // lines of the log in a message
+constexpr std::size_t kLongestLine = 16 << 20;  // far above an answer of a few kilobytes
+constexpr int kWatchMilliseconds = 20;          // delay at most until the end of a process is noticed
 
 struct Pipe {
   int read = -1, write = -1;
   Pipe() {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-      throw Error(ErrorKind::kInput, std::string("pipe: cannot be made: ") + std::strerror(errno));
+      throw Error(ErrorKind::kInput, std::string("pipe: cannot be created: ") + std::strerror(errno));
     read = ends[0], write = ends[1];
   }
 };
@@ -41,11 +41,11 @@ void close_end(int* end) {
   *end = -1;
 }
 
-// Between fork and exec: only calls that are safe there.
+// Runs between fork and exec, so it makes async-signal-safe calls only.
 [[noreturn]] void become(pid_t parent, char* const* arguments, int input, int output, int errors) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(127);  // it died before it could be watched
+  if (::getppid() != parent) ::_exit(127);  // the parent died before the signal was set up
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -56,7 +56,8 @@ void close_end(int* end) {
   ::_exit(127);
 }
 
-// A write to a process that is gone raises SIGPIPE, which would end this program: it is taken back.
+// Writing to a process that has ended raises SIGPIPE, which would end this program. The signal is blocked and
+// consumed.
 class PipeSignalBlocked {
  public:
   PipeSignalBlocked() {
@@ -117,7 +118,7 @@ void ChildProcess::start_and_watch(const std::string& script) {
     id_ = ::fork();
     if (id_ == 0) become(parent, arguments.data(), input.read, output.write, errors.write);
     failure = id_ < 0 ? errno : 0;
-    if (id_ > 0) ::setpgid(id_, id_);  // whoever is first
+    if (id_ > 0) ::setpgid(id_, id_);  // both processes set it; the first one wins
     for (int end : {input.read, output.write, errors.write}) ::close(end);
     pipes_ = {input.write, output.read, errors.read};
   } catch (const Error&) {
@@ -132,7 +133,7 @@ void ChildProcess::start_and_watch(const std::string& script) {
   if (failure == 0) watch();
 }
 
-// Reads both streams until the process has ended, or has to.
+// Reads both streams until the process has ended or must be ended.
 void ChildProcess::watch() {
   std::array<pollfd, 2> streams = {pollfd{pipes_.output, POLLIN, 0}, pollfd{pipes_.errors, POLLIN, 0}};
   std::vector<char> buffer(1 << 16);
@@ -148,15 +149,15 @@ void ChildProcess::watch() {
         stream.fd == pipes_.output ? take_output(bytes) : take_log(bytes);
         read_something = true;
       } else if (count == 0) {
-        stream.fd = -1;  // poll leaves it out
+        stream.fd = -1;  // poll ignores negative descriptors
       }
     }
-    if (gone && !read_something) break;  // what it said before it ended has been read
+    if (gone && !read_something) break;  // all output before its end has been read
     siginfo_t info{};
     gone = ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
            info.si_pid == id_;
     const std::lock_guard lock(mutex_);
-    // Its own children go with it, before it is reaped: until then the group's number is surely its own.
+    // Its children are killed before it is reaped: until then no other group can have its number.
     if (gone || (leaving_ && Clock::now() >= leave_by_)) ::kill(-id_, SIGKILL);
   }
   reap();

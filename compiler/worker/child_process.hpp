@@ -1,4 +1,5 @@
-// A program that runs beside this one: lines in, lines out, the end of its log kept, and never left behind.
+// Runs a program next to this one: exchanges lines with it, keeps the end of its log, and never leaves it
+// running.
 #pragma once
 
 #include <chrono>
@@ -17,47 +18,44 @@ class ChildProcess {
   using Clock = std::chrono::steady_clock;
 
   enum class Reading {
-    kLine,   // one was read
-    kEnded,  // the process is gone, and so is all that it said
-    kLate,   // nothing came in time
+    kLine,   // a line was read
+    kEnded,  // the process has ended and all its output was read
+    kLate,   // nothing arrived in time
   };
 
-  // Starts `script` by /bin/sh, in a process group of its own, which a Ctrl-C at the terminal does not reach.
-  // The kernel kills the process when this program dies, however it dies. Throws kInput where nothing can be
-  // started.
+  // Starts `script` by /bin/sh, in its own process group, so that a Ctrl-C at the terminal does not reach it.
+  // The kernel kills the process when this program ends in any way. Throws kInput if it cannot be started.
   explicit ChildProcess(std::string script);
 
-  // Closes its input, gives it `kGrace` to end, and kills its whole group.
+  // Closes its input, waits `kGrace` for it to end, then kills its group.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // False where the process does not read any more.
+  // Returns false if the process no longer reads.
   bool write_line(const std::string& line);
 
-  // The next line of its standard output, without the line break.
+  // Reads the next line of its standard output, without the line break.
   Reading read_line(Clock::time_point deadline, std::string* line);
 
-  // A line of output that is none of the conversation: becomes part of the log.
+  // Adds a line of output that is not an answer to the log.
   void note(const std::string& line);
 
-  // How it ended: `died with signal 9`, `ended with exit code 3`; `closed its output` where that is not
-  // known.
+  // Describes how it ended: `died with signal 9`, `ended with exit code 3`; `closed its input` if it still
+  // runs.
   std::string ending();
 
-  // The last lines of its standard error, `A | B | C`; empty where it said nothing.
+  // Returns the last lines of its standard error, `A | B | C`; empty if there are none.
   std::string log_end();
 
-  // Kills the group at once.
+  // Kills the group immediately.
   void kill();
-
-  pid_t id() const { return id_; }
 
   static constexpr std::chrono::milliseconds kGrace{2000};
 
  private:
   struct Pipes {
-    int input = -1, output = -1, errors = -1;  // this side's ends
+    int input = -1, output = -1, errors = -1;  // this program's ends of the pipes
   };
 
   void start_and_watch(const std::string& script);

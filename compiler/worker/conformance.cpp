@@ -19,22 +19,22 @@ using Verdict = WorkerFinding::Verdict;
 
 constexpr Light kHeadlight{}, kAside{60.0, 3.0}, kFar{0.0, 6.0};
 
-// A half float is good to 5e-4; what differs by more is another picture.
+// Pictures that differ by more are different; half floats are exact to 5e-4.
 constexpr double kSamePicture = 2e-3;
-// Of the light: a renderer that is off by this much differs in a constant, not in its arithmetic.
+// A larger difference in the light's strength is a wrong constant, not rounding.
 constexpr double kSameLight = 2e-3;
-// Left over by Lambert's law from which on the diffuse lobe is another.
+// A diffuse lobe that differs by more from Lambert's law is another lobe.
 constexpr double kLambertian = 0.02;
 
 std::string percent(double share) { return number_text(remap::rounded_up(100.0 * share, 2)) + " %"; }
 
-// Constants that renderers put between their unit of light and radiant intensity.
+// Names the constants that renderers put between their unit of light and radiant intensity.
 std::string known_factor(double found) {
   const double pi = std::numbers::pi;
   for (const auto& [value, name] :
        {std::pair{pi, "pi"}, std::pair{1.0 / pi, "1 / pi"}, std::pair{4.0 * pi, "4 pi"},
         std::pair{0.25 / pi, "1 / (4 pi)"}, std::pair{4.0, "4"}, std::pair{0.25, "1 / 4"}})
-    if (std::fabs(found / value - 1.0) < 0.01) return std::string(", which is ") + name;
+    if (std::fabs(found / value - 1.0) < 0.01) return std::string(" (") + name + ")";
   return "";
 }
 
@@ -68,12 +68,12 @@ class ModelCheck {
   double most(ParameterRole role) const { return model_.parameter(role).range.max; }
   bool has_diffuse() const { return model_.has(ParameterRole::kDiffuse); }
 
-  // A highlight at full specular of the given width, no diffuse.
+  // A highlight of the given width at full specular, without diffuse.
   Material highlight(double alpha) const {
     return grey_material(model_, std::clamp(alpha, model_.alpha.min, model_.alpha.max),
                          most(ParameterRole::kSpecular), 0.0);
   }
-  // The same width with no highlight, if specular goes to 0, and diffuse.
+  // The same width with diffuse, and with the smallest specular.
   Material paint(double diffuse) const {
     return grey_material(model_, wide_, model_.parameter(ParameterRole::kSpecular).range.min, diffuse);
   }
@@ -82,7 +82,7 @@ class ModelCheck {
     return worker_.render(picture_request(material, Scene{enlarged * resolution_, samples, light, seed}));
   }
 
-  // What diffuse adds.
+  // The light that diffuse adds.
   Image diffuse_picture(double diffuse, const Light& light) {
     Image lit = take(paint(diffuse), light);
     const Image dark = take(paint(0.0), light);
@@ -94,12 +94,12 @@ class ModelCheck {
     Material outside = highlight(wide_);
     const ParameterDescription& specular = model_.parameter(ParameterRole::kSpecular);
     outside.parameters[specular.name] = {specular.range.max + 1.0};
-    refuses(
-        "range", outside,
-        specular.name + " = " + number_text(specular.range.max + 1.0) + " was rendered; expected an error");
+    refuses("range", outside,
+            specular.name + " = " + number_text(specular.range.max + 1.0) +
+                " was rendered, but is out of range (answer with an error)");
     Material unknown = highlight(wide_);
     unknown.model += "-which-is-none";
-    refuses("unknown model", unknown, unknown.model + " was rendered; expected an error");
+    refuses("unknown model", unknown, unknown.model + " was rendered, but is unknown (answer with an error)");
   }
 
   void refuses(const std::string& check, const Material& material, const std::string& otherwise) {
@@ -113,7 +113,7 @@ class ModelCheck {
     add(check, Verdict::kWrong, otherwise);
   }
 
-  // Where the light falls: background, symmetry, left and right.
+  // Checks where the light is: background, symmetry, left and right.
   void check_geometry() {
     const Image front = take(highlight(wide_), kHeadlight);
     const double top = brightest(front);
@@ -121,11 +121,11 @@ class ModelCheck {
       add("highlight", Verdict::kWrong, "the picture at full specular is black under a headlight");
       return;
     }
-    const double beside = brightest(front, true);
-    add("background", beside > 1e-6 * top ? Verdict::kWrong : Verdict::kGood,
-        beside > 1e-6 * top ? "pixels beside the sphere are up to " + number_text(beside) +
-                                  "; expected 0: another field of view, or an environment"
-                            : "black");
+    const double outside = brightest(front, true);
+    add("background", outside > 1e-6 * top ? Verdict::kWrong : Verdict::kGood,
+        outside > 1e-6 * top ? "pixels outside the sphere are up to " + number_text(outside) +
+                                   ", not 0: wrong field of view, or an environment"
+                             : "black");
     const double rows = difference(front, flipped(front, true)),
                  columns = difference(front, flipped(front, false));
     const double uneven = model_.noise ? 0.0 : std::max(rows, columns);
@@ -133,8 +133,7 @@ class ModelCheck {
         uneven > kSamePicture
             ? "under a headlight the " + std::string(rows >= columns ? "upper and lower" : "left and right") +
                   " halves differ by " + percent(uneven) +
-                  "; expected mirror images: the picture is shifted, often by one pixel, or the sphere is a "
-                  "mesh"
+                  ": the picture is shifted, often by one pixel, or the sphere is a mesh"
             : "to " + percent(uneven));
     const Centroid place = centroid(take(highlight(wide_), kAside));
     if (place.x > 0.1 && std::fabs(place.y) < 0.05) {
@@ -145,17 +144,17 @@ class ModelCheck {
     words += std::fabs(place.y) > std::fabs(place.x) ? (place.y > 0.0 ? "the top" : "the bottom")
              : place.x < -0.1                        ? "the left"
                                                      : "the middle";
-    words += " of the picture; expected the right: ";
+    words += " of the picture, not the right: ";
     words += std::fabs(place.y) > std::fabs(place.x) ? "rows and columns are exchanged"
              : place.x < -0.1 ? "columns run from +x to -x, or the light turns the other way"
                               : "the light does not move";
     add("orientation", Verdict::kWrong, words);
   }
 
-  // Against Lambert's law: intensity, inverse square, linearity.
+  // Compares diffuse light with Lambert's law: intensity, inverse square, linearity.
   void check_light() {
     if (!has_diffuse()) {
-      add("light scale", Verdict::kRemark, "cannot be known: the model has no diffuse parameter");
+      add("light scale", Verdict::kRemark, "unknown: the model has no diffuse parameter");
       return;
     }
     const double full = most(ParameterRole::kDiffuse);
@@ -171,11 +170,11 @@ class ModelCheck {
     const double left = difference(near, scaled);
     if (left > kLambertian)
       add("light scale", Verdict::kRemark,
-          "diffuse is no Lambertian lobe (" + percent(left) + " left); as one it is " +
-              number_text(remap::rounded(scale, 4)) + " times as bright as expected");
+          "the diffuse lobe is not Lambertian (" + percent(left) + " left); the best Lambertian lobe is " +
+              number_text(remap::rounded(scale, 4)) + " times as bright as it should be");
     else if (std::fabs(scale - 1.0) > kSameLight)
       add("light scale", Verdict::kWrong,
-          "diffuse light is " + number_text(remap::rounded(scale, 4)) + " times as strong as expected" +
+          "diffuse light is " + number_text(remap::rounded(scale, 4)) + " times as strong as it should be" +
               known_factor(scale) + "; the light must have a radiant intensity of 1");
     else
       add("light scale", Verdict::kGood, "within " + percent(std::fabs(scale - 1.0)));
@@ -190,7 +189,7 @@ class ModelCheck {
     add("inverse square", right ? Verdict::kGood : Verdict::kWrong,
         right ? "holds"
               : "a light twice as far is " + number_text(remap::rounded(found, 3)) +
-                    " times as bright; expected " + number_text(remap::rounded(expected, 3)));
+                    " times as bright, not " + number_text(remap::rounded(expected, 3)));
   }
 
   void check_linearity(const Image& whole, double full) {
@@ -202,55 +201,53 @@ class ModelCheck {
     const double exponent = std::log(half) / std::log(0.5);
     add("linearity", Verdict::kWrong,
         "half the diffuse gives " + number_text(remap::rounded(half, 3)) +
-            " of the light; expected 0.5: a tone curve or display gamma of about " +
+            " of the light, not 0.5: a tone curve or display gamma of about " +
             number_text(remap::rounded(exponent > 1.0 ? exponent : 1.0 / exponent, 2)));
   }
 
-  // What storage or tone mapping did to them.
+  // Checks what storage or tone mapping did to the values.
   void check_values() {
     const Image sharp = take(highlight(0.1), kHeadlight);
     const std::size_t flat = count_of_brightest(sharp);
     const bool round = brightest(sharp) == 1.0;
     if (round && flat > 4)
       add("clamping", Verdict::kWrong,
-          std::to_string(flat) + " pixels of a highlight are exactly 1: clamped");
+          std::to_string(flat) + " pixels of a highlight are exactly 1: values are clamped");
     else
       add("clamping", Verdict::kGood, "none seen up to " + number_text(remap::rounded(brightest(sharp), 3)));
     const std::string coarse = coarse_values(sharp);
     if (coarse == "8 bits")
-      add("precision", Verdict::kWrong, "values are of 8 bits; expected floats");
+      add("precision", Verdict::kWrong, "values have 8 bits (write floats)");
     else if (!coarse.empty())
       add("precision", Verdict::kRemark, "values are " + coarse + ": steps of 0.05 %");
     else
       add("precision", Verdict::kGood, "floats");
   }
 
-  // The same picture, with another between; and with another seed.
+  // Renders the same picture with another between, and the same with another seed.
   void check_repeats() {
     const Image first = take(highlight(0.3), kAside);
     take(highlight(wide_), kHeadlight);
     const double again = difference(first, take(highlight(0.3), kAside));
     add("repeatability", again > 0.0 ? Verdict::kWrong : Verdict::kGood,
-        again > 0.0
-            ? "the same request gives pictures that differ by " + percent(again) +
-                  "; expected the same bytes: noise must follow the seed, and nothing may stay of requests "
-                  "between"
-            : "bit for bit");
+        again > 0.0 ? "the same request gives pictures that differ by " + percent(again) +
+                          ": noise must depend on the seed only, and requests must not affect later ones"
+                    : "bit for bit");
     const double noise = difference(first, take(highlight(0.3), kAside, 1));
     if (noise > 0.0 && !model_.noise)
       add("noise", Verdict::kWrong,
           "another seed gives a picture that differs by " + percent(noise) +
-              "; expected \"noise\": true, or none");
+              " (describe the model with \"noise\": true, or remove the noise)");
     else if (noise > 0.0)
       add("noise", Verdict::kRemark, percent(noise) + " between two seeds");
     else
       add("noise", Verdict::kGood, "none");
   }
 
-  // The rays of a picture through its pixel centres are among those of one three times as large.
+  // The pixel centres of a picture are among those of a picture three times as large.
   void check_samples() {
     if (model_.noise) {
-      add("pixel centres", Verdict::kRemark, "not looked at: the model has noise");
+      add("pixel centres", Verdict::kRemark, "not checked: the model has noise");
       return;
     }
     const Material material = highlight(0.2);
@@ -260,16 +257,16 @@ class ModelCheck {
         jitter > kSamePicture
             ? "pixels differ by " + percent(jitter) +
                   " from those of a larger picture with the same centres: jitter in the pixel, a "
-                  "filter, or a picture that is shifted"
+                  "filter, or a shifted picture"
             : "to " + percent(jitter));
     const double grid = difference(take(material, kAside, 0, 1, 3), mean_of_nine(large));
     add("pixel grid", grid > kSamePicture ? Verdict::kWrong : Verdict::kGood,
-        grid > kSamePicture ? "3 x 3 samples a pixel differ by " + percent(grid) +
-                                  " from the mean of nine pixels; expected an even grid"
+        grid > kSamePicture ? "3 x 3 samples in a pixel differ by " + percent(grid) +
+                                  " from the mean of nine pixels (sample an even grid)"
                             : "to " + percent(grid));
   }
 
-  // Channels by themselves, in order.
+  // Checks that channels are independent and in order.
   void check_color() {
     Material colored = highlight(wide_);
     const ParameterDescription& specular = model_.parameter(ParameterRole::kSpecular);
@@ -293,13 +290,13 @@ class ModelCheck {
       const double off = difference(take(grey, kHeadlight), channel(picture, c));
       if (off > kSamePicture && wrong.empty())
         wrong = "channel " + std::to_string(c) + " differs by " + percent(off) +
-                " from a grey picture of its value; expected red, green, blue, each by itself";
+                " from a grey picture of its value; channels must be red, green, blue and independent";
     }
     add("color", wrong.empty() ? Verdict::kGood : Verdict::kWrong,
         wrong.empty() ? "red, green, blue" : wrong);
   }
 
-  // A wider highlight fills more of the sphere: light that falls where the peak is not.
+  // A wider highlight has more light relative to its peak.
   void check_width() {
     const auto spread = [&](double alpha) {
       const Image image = take(highlight(alpha), kHeadlight);
@@ -310,8 +307,7 @@ class ModelCheck {
     const bool rising = spread(0.15) < spread(0.3) && spread(0.3) < spread(0.6);
     add("width", rising ? Verdict::kGood : Verdict::kWrong,
         rising ? "a larger alpha is a wider highlight"
-               : "highlights do not widen from alpha 0.15 to 0.3 and 0.6; expected so: is the convention "
-                 "right?");
+               : "highlights do not widen from alpha 0.15 to 0.3 and 0.6 (check the convention)");
   }
 
   static constexpr double wide_ = 0.5;

@@ -1,5 +1,5 @@
-// Whether a worker does what the protocol asks (compiler/adapters/PROTOCOL.md), found from its pictures and
-// said in words.
+// Checks by its pictures whether a worker follows the protocol (compiler/adapters/PROTOCOL.md), and explains
+// what is wrong.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace remapc {
 
-// Not Finding, which is that of tables (table/check.hpp).
+// One result of the check. (Finding is that of tables, table/check.hpp.)
 struct WorkerFinding {
   enum class Verdict {
     kGood,
-    kRemark,  // within the protocol, worth knowing
+    kRemark,  // allowed by the protocol, but worth knowing
     kWrong,
   };
   std::string model;
   std::string check;  // `orientation`, `light scale`, ...
   Verdict verdict = Verdict::kGood;
-  std::string words;  // what was found; what is wrong with it
+  std::string words;  // what was found and what is wrong with it
 };
 
-// Asks `worker` for pictures of all its models, `resolution` pixels a side (and three times that). A picture
-// that cannot be had is a finding too, and ends the checks of that model.
+// Requests pictures of all models of `worker`, `resolution` pixels a side and three times that. A picture
+// that fails is a finding too; it ends the checks of its model.
 std::vector<WorkerFinding> check_worker(Worker& worker, int resolution);
 
 }  // namespace remapc

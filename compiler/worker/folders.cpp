@@ -27,7 +27,7 @@ std::string variable(const char* name) {
 
 // A folder of the XDG base directory specification.
 fs::path user_folder(const char* name, const char* below_home) {
-  // Paths that are not absolute are to be ignored, by the specification.
+  // The specification requires that relative paths are ignored.
   if (const fs::path folder = variable(name); folder.is_absolute()) return folder;
   return fs::path(variable("HOME")) / below_home;
 }
@@ -37,7 +37,7 @@ bool is_writable_folder(const fs::path& folder) {
   return fs::is_directory(folder, ignored) && ::access(folder.c_str(), W_OK) == 0;
 }
 
-// The process that a private folder is named after; 0 for another name.
+// Returns the process in the name of a private folder; 0 for another name.
 pid_t owner_of(const std::string& name) {
   pid_t owner = 0;
   if (!name.starts_with(kPrefix)) return 0;
@@ -45,7 +45,7 @@ pid_t owner_of(const std::string& name) {
   return owner;
 }
 
-// A process of another container that shares the file system cannot be seen, but its folder changes often.
+// A process in another container that shares the file system is invisible, but its folder changes often.
 constexpr std::chrono::hours kAbandonedAfter{1};
 
 void remove_abandoned(const fs::path& parent) {
@@ -86,7 +86,7 @@ PrivateFolder::PrivateFolder() {
   remove_abandoned(parent);
   std::string name = (parent / (kPrefix + std::to_string(::getpid()) + "-XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr)
-    throw Error(ErrorKind::kOutput, name + ": cannot be made: " + std::strerror(errno));
+    throw Error(ErrorKind::kOutput, name + ": cannot be created: " + std::strerror(errno));
   path_ = name;
 }
 

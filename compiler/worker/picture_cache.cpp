@@ -1,5 +1,5 @@
-// A file: the request that it answers and the renderer's version as a line of text, then the picture as raw
-// floats. The name is a hash of that line; since the line is compared, no two requests can be confused.
+// A file holds one line of text, the request and the renderer's version, then the picture as raw floats. Its
+// name is a hash of that line. Since the line is compared, requests of equal hash are not confused.
 #include "worker/picture_cache.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ std::string hexadecimal(std::uint64_t value) {
   return text;
 }
 
-// A file name that a person recognises the text by.
+// Makes a file name by which a person recognises the text.
 std::string folder_name(const std::string& text) {
   std::string name;
   for (const char c : text) {
@@ -40,7 +40,7 @@ std::string folder_name(const std::string& text) {
   return name.substr(0, 60);
 }
 
-// Bytes of a picture and those of its line.
+// The sizes of a picture and of its line in bytes.
 std::size_t picture_bytes(const PictureRequest& request) {
   const auto side = static_cast<std::size_t>(request.resolution);
   return side * side * static_cast<std::size_t>(request.channels) * sizeof(float);
@@ -81,7 +81,7 @@ void PictureCache::keep(const PictureRequest& request, const Image& image) const
   const std::size_t start = content.size();
   content.resize(start + picture_bytes(request));
   std::memcpy(content.data() + start, image.values.data(), picture_bytes(request));
-  // Two threads never keep one picture at a time (WorkerRenderer), so the unfinished name is this one's own.
+  // Two threads never keep the same picture at once (WorkerRenderer), so the temporary name is unique.
   remap::write_file(file_of(request), content);
 }
 

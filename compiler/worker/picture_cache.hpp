@@ -1,4 +1,4 @@
-// Pictures that were rendered before, on disk: a picture is never rendered twice.
+// Keeps rendered pictures on disk, so that none is rendered twice.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,20 @@
 
 namespace remapc {
 
-// The pictures of one renderer in one version: a folder below that of the cache, named after both. Safe from
-// many threads and processes; a picture appears whole or not at all.
+// The pictures of one version of one renderer, in a folder of the cache named after both. Safe for many
+// threads and processes; a picture appears complete or not at all.
 class PictureCache {
  public:
   // `renderer`: WorkerDescription::renderer.
   PictureCache(const std::filesystem::path& folder, const std::string& worker, const std::string& renderer);
 
-  // None where it was not kept, or where the file is damaged.
+  // Returns nothing if the picture is not in the cache or its file is damaged.
   std::optional<Image> find(const PictureRequest& request) const;
 
-  // Throws kOutput where it cannot be written.
+  // Throws kOutput if the picture cannot be written.
   void keep(const PictureRequest& request, const Image& image) const;
 
-  // What else the cache holds of this worker, from versions that are not asked any more: names of folders.
+  // Returns the names of the folders that hold pictures of other versions of this worker.
   std::vector<std::string> other_versions() const;
 
  private:

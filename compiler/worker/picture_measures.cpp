@@ -9,7 +9,8 @@
 namespace remapc {
 namespace {
 
-// Cosine to the view beyond which a pixel is too near the silhouette for its neighbours to be of the sphere.
+// Pixels with a smaller view cosine are too close to the silhouette: their neighbours may not show the
+// sphere.
 constexpr float kWellWithin = 0.2f;
 
 std::size_t index_of(const Image& image, int row, int column) {
@@ -22,7 +23,7 @@ double value(const Image& image, int row, int column) {
   return static_cast<double>(image.values[index_of(image, row, column)]);
 }
 
-// A grey picture of the same size, pixel by pixel.
+// Makes a grey picture of the same size, pixel by pixel.
 template <typename Pixel>
 Image made(int side, const Pixel& pixel) {
   Image image{side, side, 1, {}};
@@ -33,7 +34,7 @@ Image made(int side, const Pixel& pixel) {
   return image;
 }
 
-// Calls `use(value of a, value of b)` for pixels well within the sphere.
+// Calls `use(value of a, value of b)` for pixels whose neighbours show the sphere too.
 template <typename Use>
 void for_sphere(const Image& a, const Image& b, const Use& use) {
   const std::vector<float> cosines = view_cosines(a.width, 1);
@@ -45,12 +46,12 @@ void for_sphere(const Image& a, const Image& b, const Use& use) {
 
 }  // namespace
 
-double brightest(const Image& image, bool beside) {
+double brightest(const Image& image, bool outside) {
   const std::vector<float> cosines = view_cosines(image.width, 1);
   double most = 0.0;
   for (int row = 0; row < image.height; ++row)
     for (int column = 0; column < image.width; ++column)
-      if (!beside || cosines[static_cast<std::size_t>(row * image.width + column)] <= 0.0f)
+      if (!outside || cosines[static_cast<std::size_t>(row * image.width + column)] <= 0.0f)
         most = std::max(most, std::fabs(value(image, row, column)));
   return most;
 }
@@ -132,7 +133,7 @@ std::string coarse_values(const Image& image) {
     if (v == 0.0f || v == 1.0f) continue;
     const double steps = 255.0 * static_cast<double>(v);
     eight_bits = eight_bits && std::fabs(steps - std::round(steps)) < 1e-4;
-    halves = halves && (std::bit_cast<std::uint32_t>(v) & 0x1fffu) == 0;  // 10 bits of 23
+    halves = halves && (std::bit_cast<std::uint32_t>(v) & 0x1fffu) == 0;  // 10 of 23 mantissa bits
   }
   return eight_bits ? "8 bits" : halves ? "half floats" : "";
 }

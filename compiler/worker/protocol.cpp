@@ -56,8 +56,8 @@ std::string shown_request(const Material& material, const Scene& scene) {
 ParameterRole read_role(const Field& field) {
   for (const ParameterRole role : kParameterRoles)
     if (field.text() == role_word(role)) return role;
-  field.fail("is \"" + field.text() +
-             "\"; expected roughness, specular, diffuse, index, extinction or other");
+  field.fail("unknown role \"" + field.text() +
+             "\" (choose roughness, specular, diffuse, index, extinction or other)");
 }
 
 ParameterDescription read_parameter(const Field& field, RoughnessConvention* convention) {
@@ -84,7 +84,7 @@ void require_once(const ModelDescription& model, ParameterRole role, bool needed
       std::count_if(model.parameters.begin(), model.parameters.end(),
                     [&](const ParameterDescription& parameter) { return parameter.role == role; });
   if (count > 1 || (needed && count == 0))
-    throw Error(ErrorKind::kInput, place + ": has " + std::to_string(count) + " parameters of the role " +
+    throw Error(ErrorKind::kInput, place + ": " + std::to_string(count) + " parameters have the role " +
                                        std::string(role_word(role)) + "; expected " +
                                        (needed ? "one" : "at most one"));
 }
@@ -105,7 +105,7 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
   require_once(model, ParameterRole::kDiffuse, false, model.name);
   model.alpha = canonical_widths(model.roughness, model.parameter(ParameterRole::kRoughness).range);
   if (!(model.alpha.min >= 0.0) || !(model.alpha.max > 0.0) || !std::isfinite(model.alpha.max))
-    throw Error(ErrorKind::kInput, model.name + ": the range of its roughness is none of widths");
+    throw Error(ErrorKind::kInput, model.name + ": the range of its roughness does not fit its convention");
   if (field.json().contains("precision")) {
     model.precision = field["precision"].number();
     field["precision"].require(model.precision >= 0.0 && model.precision < 0.1, "a number from 0 to 0.1");
@@ -118,16 +118,16 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
   return model;
 }
 
-// The parsed answer, which must be the one to `id` and no complaint. nlohmann's own words for what is no JSON
-// quote the place in the text and no more; the line itself says more.
+// Parses an answer. It must have the id of the request and no error. nlohmann's message for invalid JSON
+// quotes only the place in the text; the message here quotes the line.
 ordered_json parse_answer(const std::string& line, std::int64_t id, const std::string& place) {
   const auto shown = [&] { return line.size() > 80 ? line.substr(0, 77) + "..." : line; };
   const ordered_json answer = ordered_json::parse(line, nullptr, false);
   if (!answer.is_object())
-    throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\"; expected a line of JSON");
+    throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\", which is not a line of JSON");
   const bool own = answer.contains("id") && answer["id"].is_number_integer() && answer["id"] == id;
   if (!own)
-    throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\"; expected the id " +
+    throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\" without the id " +
                                        std::to_string(id) + " of the request");
   if (answer.contains("error"))
     throw Error(ErrorKind::kInput, place + ": " + Field(answer, "answer")["error"].text());
@@ -185,7 +185,7 @@ WorkerDescription read_description(const std::string& line, std::int64_t id, con
   const ordered_json answer = parse_answer(line, id, place);
   const Field field(answer, place);
   if (field["protocol"].count() != kWorkerProtocol)
-    field["protocol"].fail("is " + field["protocol"].json().dump() + "; expected " +
+    field["protocol"].fail("is version " + field["protocol"].json().dump() + "; expected " +
                            std::to_string(kWorkerProtocol));
   WorkerDescription description;
   description.renderer = field["renderer"].text();

@@ -57,8 +57,8 @@ ModelDescription RendererSet::model(const std::string& name) const {
     names.push_back(model.name);
   }
   for (const WorkerEntry& worker : workers_) names.push_back(worker.name + "/...");
-  throw remap::Error(remap::ErrorKind::kUsage, name + ": is no model of " + builtin_->version() +
-                                                   ", nor of a worker" + remap::suggestion(name, names));
+  throw remap::Error(remap::ErrorKind::kUsage, name + ": unknown model of " + builtin_->version() +
+                                                   " and of the workers" + remap::suggestion(name, names));
 }
 
 Image RendererSet::render(const Material& material, const Scene& scene) const {

@@ -1,5 +1,5 @@
-// Every renderer there is as one: the built-in models, and those of workers, which are started when a model
-// with their prefix is first asked for.
+// Combines all renderers: the built-in one, and workers, which are started when a model with their prefix is
+// first requested.
 #pragma once
 
 #include <map>
@@ -18,22 +18,22 @@ class RendererSet final : public Renderer {
   RendererSet(std::vector<WorkerEntry> workers, WorkerSettings settings);
   ~RendererSet() override;
 
-  // That of the built-in renderer, and of workers that have been started.
+  // Names the built-in renderer and the workers that have been started.
   std::string version() const override;
   std::string version_of(const std::string& model) const override;
-  // Starts no worker: the built-in models, and those of workers that have been started.
+  // Returns the built-in models and those of workers that have been started; starts none.
   std::vector<ModelDescription> models() const override;
   ModelDescription model(const std::string& name) const override;
   Image render(const Material& material, const Scene& scene) const override;
 
-  // Of workers; the built-in renderer is not counted.
+  // Counts the pictures of workers only.
   PictureCount pictures() const;
-  // `watcher` hears of every picture of a worker, from any thread; none: nobody does.
+  // Sets a function that is called after every picture of a worker, from any thread; empty for none.
   void watch(std::function<void(const PictureCount&)> watcher);
   std::vector<std::string> remarks() const;
 
  private:
-  // The renderer of a model by its prefix; the built-in one where no worker has that prefix.
+  // Returns the renderer of a model by its prefix; the built-in one if no worker has that prefix.
   const Renderer& renderer_of(const std::string& model) const;
   std::vector<const WorkerRenderer*> started() const;
   void tell_watcher();

@@ -14,10 +14,10 @@
 namespace remapc {
 namespace {
 
-// The sagitta of a chord, r (1 - cos(pi / n)), is below 1e-4 for both circles.
+// With these counts, the sagitta r (1 - cos(pi / n)) of both circles is below 1e-4.
 constexpr std::uint32_t kRound = 384, kTube = 192;
 
-static_assert(std::endian::native == std::endian::little, "meshes are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "meshes are written in memory order");
 
 template <typename Value>
 void append(std::string* bytes, Value value) {
@@ -28,7 +28,7 @@ void append(std::string* bytes, Value value) {
 
 void append_vertex(std::string* bytes, double around, double tube) {
   const double tilt = kTorusTilt * std::numbers::pi / 180.0;
-  const auto world = [&](double a, double b, double height) {  // the axis is the third of these
+  const auto world = [&](double a, double b, double height) {  // `height` is along the axis
     for (const double value :
          {a, b * std::cos(tilt) + height * std::sin(tilt), height * std::cos(tilt) - b * std::sin(tilt)})
       append(bytes, static_cast<float>(value));
@@ -48,7 +48,7 @@ void append_triangle(std::string* bytes, std::uint32_t a, std::uint32_t b, std::
 
 void write_mesh(Shape shape, const std::filesystem::path& path) {
   if (shape == Shape::kSphere)
-    throw remap::Error(remap::ErrorKind::kUsage, "mesh: of a sphere; expected another shape");
+    throw remap::Error(remap::ErrorKind::kUsage, "mesh: the sphere has none (choose another shape)");
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(kRound * kTube);
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) bytes += std::string("\nproperty float ") + name;

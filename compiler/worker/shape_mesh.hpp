@@ -1,4 +1,4 @@
-// Shapes as mesh files, for renderers that know none but the sphere.
+// Writes shapes as mesh files, for renderers.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace remapc {
 
-// Writes the torus (shape.hpp) as a PLY file: binary, little endian, vertices with normals, triangles seen
-// from outside counter-clockwise, so fine that a facet is off by 1e-4 of the sphere's radius at most. Throws
-// kOutput, and kUsage for the sphere, which renderers have of their own.
+// Writes the torus (shape.hpp) as a PLY file: binary, little endian, vertices with normals, triangles
+// counter-clockwise from outside. Facets deviate by at most 1e-4 of the sphere's radius. Throws kOutput;
+// throws kUsage for the sphere, which renderers make themselves.
 void write_mesh(Shape shape, const std::filesystem::path& path);
 
 }  // namespace remapc

@@ -16,10 +16,10 @@ using remap::ErrorKind;
 using std::chrono::duration;
 using std::chrono::duration_cast;
 
-// How often a wait looks whether somebody asked the program to stop.
+// How often a wait checks for an interruption.
 constexpr std::chrono::milliseconds kGlance{100};
 
-// `text` as one word of the shell.
+// Quotes `text` as one word of the shell.
 std::string quoted(const std::string& text) {
   std::string word = "'";
   for (const char c : text) c == '\'' ? word += "'\\''" : word += c;
@@ -78,21 +78,20 @@ std::string Worker::next_answer(const std::string& shown) {
     if (reading == ChildProcess::Reading::kEnded) fail(shown, process_->ending());
     if (reading == ChildProcess::Reading::kLine) {
       if (is_answer(line) || has_answered_) return line;
-      process_->note(line);  // a banner
+      process_->note(line);  // it is a banner
     }
     if (limits_.cancelled != nullptr && *limits_.cancelled) {
       process_->kill();
       usable_ = false;
       throw Error(ErrorKind::kInterrupted, place(shown) + ": interrupted");
     }
-    if (now >= deadline)
-      fail(shown, "no answer after " + remap::number_text(limits_.seconds) + " s; expected one in time");
+    if (now >= deadline) fail(shown, "no answer within " + remap::number_text(limits_.seconds) + " s");
   }
 }
 
 std::string Worker::ask(const std::string& line, const std::string& shown) {
   usable_ = false;
-  process_->write_line(line);  // where nobody reads any more, the end of the process says why
+  process_->write_line(line);  // if it fails, the process has ended and read_line reports how
   std::string answer = next_answer(shown);
   has_answered_ = usable_ = true;
   return answer;
@@ -100,14 +99,15 @@ std::string Worker::ask(const std::string& line, const std::string& shown) {
 
 Image Worker::render(const PictureRequest& request) {
   std::error_code ignored;
-  std::filesystem::remove(picture_file_, ignored);  // what is there later is this picture
+  std::filesystem::remove(picture_file_, ignored);  // so that an old picture is not taken for the answer
   const std::filesystem::path mesh = std::filesystem::path(picture_file_).replace_extension(".ply");
   if (request.shape != Shape::kSphere && !std::filesystem::exists(mesh)) write_mesh(request.shape, mesh);
   const std::string answer = ask(render_line(++last_id_, request, picture_file_, mesh), request.shown);
   try {
     read_answer(answer, last_id_, place(request.shown));
   } catch (const Error& error) {
-    // An error in reply is a worker in good order; anything else leaves the conversation out of step.
+    // A worker that answers with an error is still usable; after other faults, answers no longer match
+    // requests.
     const bool in_order = is_complaint(answer, last_id_);
     if (in_order) throw;
     fail(request.shown, without(place(request.shown) + ": ", error.what()));
@@ -121,11 +121,11 @@ Image Worker::read_picture(const PictureRequest& request) {
   const std::size_t expected = side * side * channels * sizeof(float);
   std::error_code failure;
   const auto size = std::filesystem::file_size(picture_file_, failure);
-  if (failure) fail(request.shown, "wrote no picture: " + failure.message());
+  if (failure) fail(request.shown, "the picture was not written: " + failure.message());
   if (size != expected)
     fail(request.shown, "the picture has " + std::to_string(size) + " bytes; expected " +
-                            std::to_string(expected) + ", " + std::to_string(side) + " x " +
-                            std::to_string(side) + " pixels of " + std::to_string(channels) + " floats");
+                            std::to_string(expected) + " (" + std::to_string(side) + " x " +
+                            std::to_string(side) + " pixels of " + std::to_string(channels) + " floats)");
   Image image{request.resolution, request.resolution, request.channels,
               std::vector<float>(expected / sizeof(float))};
   std::ifstream file(picture_file_, std::ios::binary);
@@ -136,7 +136,7 @@ Image Worker::read_picture(const PictureRequest& request) {
     const std::size_t pixel = i / channels;
     fail(request.shown, "the picture is " + remap::number_text(static_cast<double>(image.values[i])) +
                             " in row " + std::to_string(pixel / side) + ", column " +
-                            std::to_string(pixel % side) + "; expected finite numbers");
+                            std::to_string(pixel % side) + " (values must be finite)");
   }
   return image;
 }

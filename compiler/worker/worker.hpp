@@ -1,4 +1,4 @@
-// One worker process and the conversation with it: a request, an answer, in turn.
+// Runs one worker process: sends a request, waits for its answer, in turn.
 #pragma once
 
 #include <atomic>
@@ -13,25 +13,24 @@
 
 namespace remapc {
 
-// A worker as it is registered (compiler/adapters/PROTOCOL.md).
+// A registered worker (compiler/adapters/PROTOCOL.md).
 struct WorkerEntry {
   std::string name;     // prefix of its models; empty: any
-  std::string command;  // for the shell
-  std::string folder;   // of the file that names it: REMAP_WORKER_FOLDER
-  std::string install;  // what to do where it does not start; may be empty
+  std::string command;  // run by the shell
+  std::string folder;   // of the file that registers it: REMAP_WORKER_FOLDER
+  std::string install;  // how to install it, shown if it does not start; may be empty
 };
 
 struct WorkerLimits {
-  double seconds = 120.0;  // for any one answer
-  unsigned threads = 1;    // of each process
-  const std::atomic<bool>* cancelled =
-      nullptr;  // an answer is not waited for any longer; throws kInterrupted
+  double seconds = 120.0;                        // for one answer
+  unsigned threads = 1;                          // of each process
+  const std::atomic<bool>* cancelled = nullptr;  // ends a wait and throws kInterrupted
 };
 
 class Worker {
  public:
-  // Starts the process and asks it what it is. Pictures pass through `picture_file`. Throws kInput where it
-  // does not start, does not answer, or answers what is against the protocol.
+  // Starts the process and asks for its description. Pictures are exchanged through `picture_file`. Throws
+  // kInput if the process does not start, does not answer, or violates the protocol.
   Worker(const WorkerEntry& entry, const WorkerLimits& limits, std::filesystem::path picture_file);
   ~Worker();
   Worker(const Worker&) = delete;
@@ -39,12 +38,10 @@ class Worker {
 
   const WorkerDescription& description() const { return description_; }
 
-  // Throws kInput, naming the request and the end of the worker's log, where it fails. The worker can be
-  // asked again if it answered with an error, and is_usable() says so.
+  // Throws kInput, naming the request and the end of the worker's log, if rendering fails. After an answer
+  // with an error is_usable() stays true and the worker can be asked again.
   Image render(const PictureRequest& request);
   bool is_usable() const { return usable_; }
-
-  pid_t process_id() const { return process_->id(); }
 
  private:
   std::string place(const std::string& shown) const;

@@ -39,7 +39,7 @@ std::vector<WorkerEntry> read_worker_list(const fs::path& path) {
 WorkerEntry parse_worker(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || !is_name(text.substr(0, equals)) || equals + 1 == text.size())
-    throw Error(ErrorKind::kUsage, "--worker " + text + ": is no worker; expected NAME=COMMAND");
+    throw Error(ErrorKind::kUsage, "--worker " + text + ": cannot be read as NAME=COMMAND");
   return {text.substr(0, equals), text.substr(equals + 1), fs::current_path().string(), ""};
 }
 
@@ -48,7 +48,7 @@ std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given) {
   for (const std::string& text : given) {
     WorkerEntry entry = parse_worker(text);
     if (!entries.emplace(entry.name, entry).second)
-      throw Error(ErrorKind::kUsage, "--worker " + text + ": " + entry.name + " was given before");
+      throw Error(ErrorKind::kUsage, "--worker " + text + ": " + entry.name + " was given twice");
   }
   for (const fs::path& list : {own_worker_list(), shipped_worker_list()}) {
     if (!fs::exists(list)) continue;

@@ -14,7 +14,7 @@ using remap::ErrorKind;
 
 unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-// With the numbers of processes and of threads each that are left to be chosen.
+// Replaces 0 by the numbers of processes, and of threads in each, that suit the machine.
 WorkerSettings settled(WorkerSettings settings) {
   if (settings.processes == 0) settings.processes = core_count();
   settings.limits.threads = std::max(1u, core_count() / settings.processes);
@@ -23,7 +23,7 @@ WorkerSettings settled(WorkerSettings settings) {
 
 }  // namespace
 
-// The right to render one picture: a second thread that wants the same waits until the first is done.
+// The right to render one picture: another thread that needs the same picture waits until it is done.
 class WorkerRenderer::Turn {
  public:
   Turn(const WorkerRenderer& renderer, const PictureRequest& request)
@@ -66,8 +66,8 @@ std::unique_ptr<Worker> WorkerRenderer::start() const {
 std::unique_ptr<Worker> WorkerRenderer::start_another() const {
   std::unique_ptr<Worker> worker = start();
   if (worker->description().renderer != description_.renderer)
-    throw Error(ErrorKind::kInput, "worker " + entry_.name + ": is " + worker->description().renderer +
-                                       " now; expected " + description_.renderer + ", as before in this run");
+    throw Error(ErrorKind::kInput, "worker " + entry_.name + ": its version changed during the run, from " +
+                                       description_.renderer + " to " + worker->description().renderer);
   return worker;
 }
 
@@ -90,7 +90,7 @@ std::unique_ptr<Worker> WorkerRenderer::take_worker() const {
   }
 }
 
-// One that broke is gone with this, and another may be started in its place.
+// Takes a worker back. A broken one is destroyed, so that another can be started.
 void WorkerRenderer::give_back(std::unique_ptr<Worker> worker) const {
   {
     const std::lock_guard lock(mutex_);
@@ -118,7 +118,7 @@ Image WorkerRenderer::render(const Material& material, const Scene& scene) const
   require_material(material, model(material.model));
   if (scene.shape != Shape::kSphere && !description_.meshes)
     throw Error(ErrorKind::kUsage,
-                "worker " + entry_.name + ": renders spheres only; expected no " + shape_name(scene.shape));
+                "worker " + entry_.name + ": renders spheres only, not a " + shape_name(scene.shape));
   const PictureRequest request = picture_request(material, scene);
   const Turn turn(*this, request);
   if (cache_) {
@@ -141,9 +141,8 @@ std::vector<std::string> WorkerRenderer::remarks() const {
   std::vector<std::string> remarks;
   if (!cache_) return remarks;
   for (const std::string& version : cache_->other_versions())
-    remarks.push_back("worker " + entry_.name + ": the cache " + settings_.cache->string() +
-                      " has pictures of " + version + ", which are not used; this is " +
-                      description_.renderer);
+    remarks.push_back("worker " + entry_.name + ": pictures of " + version + " in the cache " +
+                      settings_.cache->string() + " are not used; this is " + description_.renderer);
   return remarks;
 }
 

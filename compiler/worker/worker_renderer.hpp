@@ -1,5 +1,5 @@
-// A real renderer behind the interface of the sweep: several processes of one worker, and the pictures that
-// they made before.
+// Makes a real renderer usable by sweeps: several processes of one worker, and a cache of the pictures that
+// they made.
 #pragma once
 
 #include <atomic>
@@ -20,15 +20,15 @@
 
 namespace remapc {
 
-// How workers are run and their pictures kept.
+// How workers are run and how their pictures are kept.
 struct WorkerSettings {
-  std::optional<std::filesystem::path> cache;  // none: every picture is rendered
-  unsigned processes = 0;                      // of one worker at once, at most; 0: one a core
+  std::optional<std::filesystem::path> cache;  // empty: every picture is rendered
+  unsigned processes = 0;                      // at most, of one worker at once; 0: one for each core
   WorkerLimits limits;
-  std::function<void()> on_picture;  // after every picture, from any thread
+  std::function<void()> on_picture;  // called after every picture, from any thread
 };
 
-// Pictures that a renderer has given so far.
+// The number of pictures that a renderer has returned so far.
 struct PictureCount {
   std::size_t rendered = 0;
   std::size_t cached = 0;
@@ -36,8 +36,8 @@ struct PictureCount {
 
 class WorkerRenderer final : public Renderer {
  public:
-  // Starts one process, to know what it is; further ones when pictures are asked for side by side. Throws as
-  // Worker does.
+  // Starts one process to get its description; more are started when pictures are requested in parallel.
+  // Throws like Worker.
   WorkerRenderer(WorkerEntry entry, WorkerSettings settings);
   ~WorkerRenderer() override;
 
@@ -46,14 +46,14 @@ class WorkerRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
   PictureCount pictures() const;
-  // What a person should know: pictures of other versions that lie in the cache.
+  // Returns remarks for the user: pictures of other versions in the cache.
   std::vector<std::string> remarks() const;
 
  private:
   class Turn;
 
   std::unique_ptr<Worker> start() const;
-  std::unique_ptr<Worker> start_another() const;  // of the same version as the first
+  std::unique_ptr<Worker> start_another() const;  // it must have the version of the first
   std::unique_ptr<Worker> take_worker() const;
   void give_back(std::unique_ptr<Worker> worker) const;
   Image render_anew(const PictureRequest& request) const;
@@ -67,8 +67,8 @@ class WorkerRenderer final : public Renderer {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   mutable std::vector<std::unique_ptr<Worker>> idle_;
-  mutable std::size_t running_ = 0;        // idle or at work
-  mutable std::set<std::string> in_work_;  // pictures that some thread renders now
+  mutable std::size_t running_ = 0;        // number of processes
+  mutable std::set<std::string> in_work_;  // pictures that a thread is rendering
   mutable std::atomic<std::size_t> next_file_{0}, rendered_{0}, cached_{0};
 };
 

@@ -1,4 +1,4 @@
-// Converts a whole row of texels, roughness and RGB specular, by the batch function of a generated header.
+// Converts a row of texels, roughness and RGB specular, by the batch function of a generated header.
 #include <array>
 #include <cstdio>
 #include <remap/mitsuba_ward_to_mitsuba_as.hpp>
@@ -10,7 +10,7 @@ int main() {
   constexpr std::size_t kCount = 4;
   std::array<float, kCount> alpha = {0.05f, 0.2f, 0.4f, 0.8f};
   std::array<float, kCount> red = {0.7f, 0.7f, 0.7f, 0.7f}, green = {0.5f, 0.5f, 0.5f, 0.5f}, blue = {};
-  // In place: every output row is its input row.
+  // The conversion is in place: each output row is its input row.
   const std::size_t outside =
       ward_to_as::evaluate_batch<3>(kCount, alpha.data(), {red.data(), green.data(), blue.data()},
                                     alpha.data(), {red.data(), green.data(), blue.data()});

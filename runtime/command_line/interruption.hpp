@@ -1,14 +1,15 @@
-// The wish of a person or the system that the program stops, as a flag that long work looks at.
+// Requests to stop the program (SIGINT, SIGTERM), as a flag that long work polls.
 #pragma once
 
 #include <atomic>
 
 namespace remap {
 
-// From now on SIGINT and SIGTERM set the flag instead of ending the process, once: the second signal ends it.
+// From now on the first SIGINT or SIGTERM sets the flag instead of ending the process; the second one ends
+// it.
 void watch_interruptions();
 
-// Set when the program was asked to stop.
+// True after such a signal.
 const std::atomic<bool>& interruption() noexcept;
 
 }  // namespace remap

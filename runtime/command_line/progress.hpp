@@ -1,4 +1,4 @@
-// A line that tells a waiting person how far the work is.
+// A progress line on the terminal.
 #pragma once
 
 #include <chrono>
@@ -10,21 +10,21 @@
 
 namespace remap {
 
-// Keeps `label  42 %, 0:13 left` up to date on standard error, at most ten times a second, and takes the
-// line away when destroyed. Silent where standard error is no terminal. Safe to call from many threads.
+// Shows `label  42 %, 0:13 left` on standard error, updates it at most ten times a second, and erases it when
+// destroyed. Prints nothing where standard error is not a terminal. Thread-safe.
 class Progress {
  public:
-  // `total`: units of work until done, 0 where nothing is to be done. `shown` = false silences it.
+  // `total`: units of work, 0 for none. `shown`: false prints nothing.
   Progress(std::string label, std::size_t total, bool shown = true);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // `done` units of `total` are ready. A smaller count than before is ignored.
+  // Reports that `done` units of `total` are finished. A smaller count than before is ignored.
   void advance_to(std::size_t done);
-  // `count` more units are ready.
+  // Reports that `count` more units are finished.
   void advance(std::size_t count = 1);
-  // What the line says from now on.
+  // Changes the label.
   void relabel(std::string label);
 
  private:

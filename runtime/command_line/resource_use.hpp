@@ -1,4 +1,4 @@
-// What this process has taken of the machine.
+// Processor time and memory that this process has used.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ struct ResourceUse {
   std::size_t peak_memory_bytes = 0;  // resident
 };
 
-// Since the process began.
+// The use since the process began; zeros where the system does not report it.
 ResourceUse resource_use() noexcept;
 
 }  // namespace remap

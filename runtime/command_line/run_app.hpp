@@ -1,25 +1,24 @@
-// The frame of both programs: parses the command line, runs the chosen command and turns every failure into
-// one line on standard error and an exit code.
+// The frame of every program: it parses the command line, runs the chosen command, and turns each failure
+// into one line on standard error and an exit code.
 #pragma once
 
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace remap {
 
-// Parses the arguments with `app`, whose commands do their work in CLI11 callbacks and throw Error, and
-// returns the exit code: 0 done, 1 failed, 2 wrong usage. Failures are printed as `program: place: what; what
-// was expected`, where `program` is the name of `app`; unknown options and commands are answered with the
-// nearest known name. Never throws. Standard output is flushed, and a failure to do so is a failure.
-int run_app(CLI::App& app, int argc, const char* const* argv) noexcept;
+class Command;
 
-// One line on standard error: `program: message`. A line break inside becomes a space.
+// Lays out the help of `command` (help_text.hpp), parses the arguments, and runs the command. Commands work
+// in callbacks and throw Error. Returns the exit code: 0 for success, 1 for failure, 2 for wrong usage. A
+// failure is printed as `program: place: what is wrong (what to do)`, where `program` is the name of
+// `command`; an unknown option or command is answered with the nearest known name. Standard output is
+// flushed; failing to do so is a failure. Never throws.
+int run_app(Command& command, int argc, const char* const* argv) noexcept;
+
+// Prints one line to standard error: `program: message`. Line breaks in the message become spaces.
 void print_message(const std::string& program, const std::string& message);
 
-// Whether standard error is a terminal, that is whether a person watches it.
+// Whether standard error is a terminal.
 bool terminal_watches_errors() noexcept;
 
 }  // namespace remap

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <utility>
 
@@ -41,39 +40,6 @@ WrittenRows written(Between& between) {
 ReadRows read(const WrittenRows& rows) {
   return {rows.roughness, {rows.specular[0], rows.specular[1], rows.specular[2]}};
 }
-
-// The texels of a block that lay outside the domain of a step.
-class OutsideTexels {
- public:
-  void add(const ConverterInfo& step, std::size_t count, const ReadRows& given, std::size_t channels) {
-    if (!any_) outside_.fill(0);
-    any_ = true;
-    add_row(step.roughness, count, given.roughness);
-    for (std::size_t c = 0; c < channels; ++c) add_row(step.specular, count, given.specular[c]);
-  }
-  bool any() const noexcept { return any_; }
-  std::size_t count() const {
-    std::size_t texels = 0;
-    if (any_)
-      for (const std::uint32_t outside : outside_) texels += outside >> 31;
-    return texels;
-  }
-
- private:
-  // Floats that are not negative, as the ends of ranges, compare as integers do, which vectorises; a negative
-  // float has the sign bit already, and a NaN is above every end.
-  void add_row(const Range& range, std::size_t count, const float* values) {
-    const auto low = std::bit_cast<std::uint32_t>(static_cast<float>(range.min));
-    const auto high = std::bit_cast<std::uint32_t>(static_cast<float>(range.max));
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto value = std::bit_cast<std::uint32_t>(values[i] + 0.0f);  // -0 becomes 0
-      outside_[i] |= value | (value - low) | (high - value);
-    }
-  }
-
-  bool any_ = false;
-  std::array<std::uint32_t, kBlock> outside_;  // the sign bit
-};
 
 void require_joined(const std::vector<const Converter*>& steps) {
   const auto side_text = [](const ModelSide& side) {
@@ -123,11 +89,13 @@ class ChainedConverter final : public Converter {
       : Converter(chained_info(steps)), steps_(std::move(steps)) {}
 
   std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out) const override {
+                      float* roughness_out, std::span<float* const> specular_out,
+                      std::uint8_t* outside) const override {
     if (specular.empty() || specular.size() > kMostChannels)
       throw Error(ErrorKind::kUsage, "converter: got " + std::to_string(specular.size()) +
                                          " specular channels; expected 1 to 3");
     std::size_t outside_count = 0;
+    std::array<std::uint8_t, kBlock> flags;
     for (std::size_t start = 0; start < count; start += kBlock) {
       ReadRows from{roughness + start, {}};
       WrittenRows to{roughness_out + start, {}};
@@ -135,7 +103,10 @@ class ChainedConverter final : public Converter {
         from.specular[c] = specular[c] + start;
         to.specular[c] = specular_out[c] + start;
       }
-      outside_count += convert_block(std::min(kBlock, count - start), specular.size(), from, to);
+      const std::size_t size = std::min(kBlock, count - start);
+      convert_block(size, specular.size(), from, to, flags.data());
+      for (std::size_t i = 0; i < size; ++i) outside_count += flags[i];
+      if (outside != nullptr) std::copy_n(flags.begin(), size, outside + start);
     }
     return outside_count;
   }
@@ -145,26 +116,24 @@ class ChainedConverter final : public Converter {
   }
 
  private:
-  // Steps write to two copies by turns, so that what a step was given is still there after it: the texels of
-  // it that are out of domain are looked for only where the step counts some, and has others to be told from.
-  std::size_t convert_block(std::size_t count, std::size_t channels, const ReadRows& given,
-                            const WrittenRows& result) const {
+  // A texel is out of domain where it is for any step: `outside` gets their flags together. Steps write to
+  // two copies by turns, as what a step is given must stay while it runs.
+  void convert_block(std::size_t count, std::size_t channels, const ReadRows& given,
+                     const WrittenRows& result, std::uint8_t* outside) const {
     std::array<Between, 2> between;
-    OutsideTexels outside;
+    std::array<std::uint8_t, kBlock> of_step;
     ReadRows from = given;
+    std::fill_n(outside, count, std::uint8_t{0});
     for (std::size_t k = 0; k < steps_.size(); ++k) {
-      const bool last = k + 1 == steps_.size();
-      const WrittenRows to = last ? result : written(between[k % 2]);
+      const WrittenRows to = k + 1 == steps_.size() ? result : written(between[k % 2]);
       const std::size_t outside_count =
           steps_[k]->convert(count, from.roughness, {from.specular.data(), channels}, to.roughness,
-                             {to.specular.data(), channels});
-      if (outside_count > 0) {
-        if (last && !outside.any()) return outside_count;
-        outside.add(steps_[k]->info(), count, from, channels);
-      }
+                             {to.specular.data(), channels}, of_step.data());
+      if (outside_count > 0)
+        for (std::size_t i = 0; i < count; ++i)
+          outside[i] = static_cast<std::uint8_t>(outside[i] | of_step[i]);
       from = read(to);
     }
-    return outside.count();
   }
 
   std::vector<const Converter*> steps_;

@@ -20,7 +20,8 @@ class InterpretedConverter final : public Converter {
       : Converter(converter_info(fit, InstructionSet::kBaseline)), fit_(std::move(fit)) {}
 
   std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out) const override {
+                      float* roughness_out, std::span<float* const> specular_out,
+                      std::uint8_t* outside) const override {
     std::array<double, 3> in{}, out{};
     const std::size_t channels = specular.size();
     if (channels > in.size())
@@ -35,11 +36,12 @@ class InterpretedConverter final : public Converter {
       roughness_out[i] = static_cast<float>(width);
       for (std::size_t c = 0; c < channels; ++c) specular_out[c][i] = static_cast<float>(out[c]);
       outside_count += !in_domain;
+      if (outside != nullptr) outside[i] = !in_domain;
     }
     return outside_count;
   }
 
-  // It is the definition that golden vectors are made from.
+  // It is the definition that golden texels are made from.
   bool self_test() const override { return true; }
 
  private:

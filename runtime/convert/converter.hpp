@@ -1,8 +1,9 @@
 // A converter as the texture pass sees it: rows of planar floats in, rows of planar floats out. Behind it
-// stands a generated header or, for a fit that has not been compiled, its polynomials or the interpreter.
+// stand polynomials that a fit was lowered to, or the interpreter.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "convert/instruction_set.hpp"
+#include "converter_data/converter_data.hpp"
 #include "lower/lowered.hpp"
 #include "model/fit.hpp"
 
@@ -42,12 +44,13 @@ class Converter {
   // Converts `count` texels. `specular` and `specular_out` hold one row for each channel, 1 or 3 of them; an
   // output row may be exactly its input row. Domain rule as in interpreter.hpp. Safe to call from many
   // threads. Returns the number of texels out of domain.
+  // `outside`: where not null, a row that gets 1 for each texel out of domain and 0 for each other.
   virtual std::size_t convert(std::size_t count, const float* roughness,
                               std::span<const float* const> specular, float* roughness_out,
-                              std::span<float* const> specular_out) const = 0;
+                              std::span<float* const> specular_out,
+                              std::uint8_t* outside = nullptr) const = 0;
 
-  // Whether the converter gives the values it was made with: those of the golden vectors of a generated
-  // header, and on every instruction set the bits of the baseline; those of the interpreter for polynomials.
+  // Whether the converter gives its golden texels and, on every instruction set, the bits of the baseline.
   virtual bool self_test() const = 0;
 
  protected:
@@ -61,21 +64,16 @@ class Converter {
 // slower than the others.
 std::unique_ptr<Converter> make_interpreted_converter(Fit fit);
 
-// A converter that lowers `fit` to polynomials (lower/lower.hpp, tolerances of LoweringOptions) and evaluates
-// those in floats. Takes up to a second to make. Throws kNumeric where the
-// mapping cannot be lowered.
-std::unique_ptr<Converter> make_lowered_converter(Fit fit, InstructionSet set = best_instruction_set());
+// A converter of what `fit` is lowered to (lower/lower.hpp, tolerances of LoweringOptions). Takes up to a
+// second to make. Throws kNumeric where the mapping cannot be lowered.
+std::unique_ptr<Converter> make_lowered_converter(const Fit& fit,
+                                                  InstructionSet set = best_instruction_set());
 // The same, `lowered` being what lower() made of the fit.
-std::unique_ptr<Converter> make_lowered_converter(Fit fit, const Lowered& lowered, InstructionSet set);
+std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, const Lowered& lowered, InstructionSet set);
 
-// Every converter that was compiled into this program, in the order of their ids, for an instruction set that
-// this processor has.
-const std::vector<std::unique_ptr<Converter>>& compiled_converters(
-    InstructionSet set = best_instruction_set());
-
-// The compiled converter that leads from one model to another in one step; paths: path.hpp. Throws kUsage
-// where there is none.
-const Converter& find_converter(const std::string& source_model, const std::string& target_model,
-                                InstructionSet set = best_instruction_set());
+// A converter that runs `data` as it is, at about the speed of its generated header and with the same bits.
+// Throws kNumeric for a domain that is empty or negative.
+std::unique_ptr<Converter> make_converter(const ConverterData& data,
+                                          InstructionSet set = best_instruction_set());
 
 }  // namespace remap

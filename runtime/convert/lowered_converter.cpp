@@ -1,6 +1,7 @@
-// A fit that was not compiled, at nearly the speed of one that was: lowered once, then rows of floats.
+// A converter that runs as data: its polynomials through the kernel of an instruction set.
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "convert/converter.hpp"
@@ -8,98 +9,144 @@
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
+#include "text/number_text.hpp"
 
 namespace remap {
 namespace {
 
-// What rounding of parameters to floats may add to a proven bound, relative to magnitudes of order one.
-constexpr double kRounding = 1e-6;
-
-void require_evaluable(const Fit& fit, const Lowered& lowered) {
-  const auto refuse = [](const std::string& what) { throw Error(ErrorKind::kNumeric, "lower: " + what); };
-  for (const LoweredFunction* function : {&lowered.alpha, &lowered.specular})
-    if (function->polynomial.degrees.size() > kMostPowers)
-      refuse("the degree in specular is " + std::to_string(function->polynomial.degrees.size() - 1) +
-             "; expected " + std::to_string(kMostPowers - 1) + " at most");
-  const Range specular = specular_range(fit);
-  if (!(specular.min >= 0.0 && specular.max > 0.0 && own_roughness_range(fit).min >= 0.0))
+void require_evaluable(const ConverterData& data) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(ErrorKind::kNumeric, data.id + ": " + what);
+  };
+  for (const PiecewisePolynomial* polynomial : {&data.alpha_polynomial, &data.specular_polynomial})
+    if (polynomial->degrees.size() > kMostPowers)
+      refuse("the degree in specular is " + std::to_string(polynomial->degrees.size() - 1) + "; expected " +
+             std::to_string(kMostPowers - 1) + " at most");
+  if (!(data.specular.min >= 0.0 && data.specular.max > 0.0 && data.roughness.min >= 0.0))
     refuse("the domain is empty or negative; expected specular up to more than 0, and widths from 0");
 }
 
-class LoweredConverter final : public Converter {
+Range decimal(const Range& range) {
+  return {decimal_value(static_cast<float>(range.min)), decimal_value(static_cast<float>(range.max))};
+}
+
+ConverterInfo info_of(const ConverterData& data, InstructionSet set) {
+  return {data.id,
+          data.source,
+          data.target,
+          decimal(data.roughness),
+          decimal(data.specular),
+          data.roughness_rms_error,
+          data.specular_rms_error,
+          data.image_rms_error,
+          set,
+          {}};
+}
+
+bool is_close(float value, float expected, float within) { return std::fabs(value - expected) <= within; }
+
+class DataConverter final : public Converter {
  public:
-  LoweredConverter(Fit fit, const Lowered& lowered, InstructionSet set)
-      : Converter(converter_info(fit, set)),
-        fit_(std::move(fit)),
-        alpha_bound_(lowered.alpha.bound),
-        specular_bound_(lowered.specular.bound),
+  DataConverter(const ConverterData& data, InstructionSet set)
+      : Converter(info_of(data, set)),
+        alpha_(data.alpha_polynomial),
+        specular_(data.specular_polynomial),
+        golden_(data.golden),
         kernel_(lowered_kernel(set)) {
-    const Range own = own_roughness_range(fit_), covered = specular_range(fit_);
-    pass_ = {fit_.source.roughness,
-             fit_.target.roughness,
-             static_cast<float>(own.min),
-             static_cast<float>(own.max),
-             static_cast<float>(covered.min),
-             static_cast<float>(covered.max),
-             polynomial_rows(lowered.alpha.polynomial),
-             polynomial_rows(lowered.specular.polynomial)};
+    const std::vector<int>& degrees = data.specular_polynomial.degrees;
+    pass_ = {data.source.roughness,
+             data.target.roughness,
+             static_cast<float>(data.roughness.min),
+             static_cast<float>(data.roughness.max),
+             static_cast<float>(data.specular.min),
+             static_cast<float>(data.specular.max),
+             static_cast<float>(1.0 / data.specular.max),
+             degrees.size() == 2 && degrees[0] < 0 && data.alpha_polynomial.degrees.size() == 1,
+             alpha_.rows(),
+             specular_.rows()};
   }
 
   std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out) const override {
-    if (specular.empty() || specular.size() > 3)
+                      float* roughness_out, std::span<float* const> specular_out,
+                      std::uint8_t* outside) const override {
+    if (specular.size() != 1 && specular.size() != 3)
       throw Error(ErrorKind::kUsage, "converter: got " + std::to_string(specular.size()) +
-                                         " specular channels; expected 1 to 3");
-    return kernel_(pass_, count, roughness, specular, roughness_out, specular_out);
+                                         " specular channels; expected 1 or 3");
+    TexelRows rows{count, specular.size(), roughness, {}, roughness_out, {}, outside};
+    for (std::size_t c = 0; c < specular.size(); ++c) {
+      rows.specular[c] = specular[c];
+      rows.specular_out[c] = specular_out[c];
+    }
+    return kernel_(pass_, rows);
   }
 
-  bool self_test() const override {
-    constexpr int kWidths = 41, kSpeculars = 13;
-    for (int i = 0; i < kWidths; ++i)
-      for (int j = 0; j < kSpeculars; ++j) {
-        const float width = static_cast<float>(1.2 * i / (kWidths - 1) - 0.1);
-        const float specular = 1.5f * static_cast<float>(j) / (kSpeculars - 1);
-        const float roughness = pass_.roughness_min + width * (pass_.roughness_max - pass_.roughness_min);
-        if (!agrees_with_interpreter(roughness, specular * pass_.specular_max)) return false;
-      }
+  bool self_test() const override { return gives_golden_texels() && agrees_with_baseline(); }
+
+ private:
+  bool gives_golden_texels() const {
+    for (const GoldenTexel& golden : golden_) {
+      float width = 0.0f, mapped = 0.0f;
+      const std::array<const float*, 1> in = {&golden.specular};
+      const std::array<float*, 1> out = {&mapped};
+      convert(1, &golden.width, in, &width, out, nullptr);
+      if (!is_close(width, golden.width_out, golden.width_within) ||
+          !is_close(mapped, golden.specular_out, golden.specular_within))
+        return false;
+    }
     return true;
   }
 
- private:
-  bool agrees_with_interpreter(float roughness, float specular) const {
-    float width = 0.0f, mapped = 0.0f;
-    const std::array<const float*, 1> in = {&specular};
-    const std::array<float*, 1> out = {&mapped};
-    convert(1, &roughness, in, &width, out);
-    const double given = static_cast<double>(specular);
-    double expected = 0.0;
-    const double expected_width =
-        evaluate_texel(fit_, static_cast<double>(roughness), {&given, 1}, {&expected, 1});
-    const auto alpha = [&](double own) { return to_alpha(fit_.target.roughness, own); };
-    const double alpha_error = std::fabs(alpha(static_cast<double>(width)) - alpha(expected_width));
-    const double scale = std::max(1.0, given / specular_range(fit_).max);
-    return alpha_error <= alpha_bound_ + kRounding &&
-           std::fabs(static_cast<double>(mapped) - expected) <=
-               scale * (specular_bound_ + kRounding) + kRounding * std::fabs(expected);
+  // On rows that are longer than a block and reach beyond the domain, grey and RGB.
+  bool agrees_with_baseline() const {
+    constexpr std::size_t kCount = 301;
+    using Row = std::array<float, kCount>;
+    Row roughness, specular;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const float share = static_cast<float>(i) / (kCount - 1), other = static_cast<float>(i % 17) / 16.0f;
+      roughness[i] =
+          pass_.roughness_min + (1.2f * share - 0.1f) * (pass_.roughness_max - pass_.roughness_min);
+      specular[i] = pass_.specular_max * 1.2f * other;
+    }
+    const auto run = [&](LoweredKernel kernel, std::size_t channels) {
+      std::array<Row, 4> results{};
+      const float* in = specular.data();
+      kernel(pass_, {kCount,
+                     channels,
+                     roughness.data(),
+                     {in, in, in},
+                     results[0].data(),
+                     {results[1].data(), results[2].data(), results[3].data()},
+                     nullptr});
+      return results;
+    };
+    for (const std::size_t channels : {1u, 3u}) {
+      const auto found = run(kernel_, channels),
+                 expected = run(lowered_kernel(InstructionSet::kBaseline), channels);
+      if (std::memcmp(&found, &expected, sizeof found) != 0) return false;
+    }
+    return true;
   }
 
-  Fit fit_;
-  double alpha_bound_;     // proven, |lowered - fit|
-  double specular_bound_;  // the same, within the domain
-  LoweredPass pass_;
+  OwnedPolynomialRows alpha_, specular_;
+  std::vector<GoldenTexel> golden_;
+  LoweredPass pass_;  // points into the two polynomials
   LoweredKernel kernel_;
 };
 
 }  // namespace
 
-std::unique_ptr<Converter> make_lowered_converter(Fit fit, InstructionSet set) {
-  const Lowered lowered = lower(fit.mapping, fit.domain);
-  return make_lowered_converter(std::move(fit), lowered, set);
+std::unique_ptr<Converter> make_converter(const ConverterData& data, InstructionSet set) {
+  require_evaluable(data);
+  return std::make_unique<DataConverter>(data, set);
 }
 
-std::unique_ptr<Converter> make_lowered_converter(Fit fit, const Lowered& lowered, InstructionSet set) {
-  require_evaluable(fit, lowered);
-  return std::make_unique<LoweredConverter>(std::move(fit), lowered, set);
+std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, InstructionSet set) {
+  return make_lowered_converter(fit, lower(fit.mapping, fit.domain), set);
+}
+
+std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, const Lowered& lowered,
+                                                  InstructionSet set) {
+  return make_converter(converter_data(fit, lowered), set);
 }
 
 }  // namespace remap

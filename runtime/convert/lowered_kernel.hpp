@@ -1,43 +1,65 @@
 // Rows of texels through the polynomials of a lowered mapping, in floats.
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <span>
+#include <cstdint>
 #include <vector>
 
 #include "convert/instruction_set.hpp"
 #include "lower/lowered.hpp"
-#include "model/fit.hpp"
+#include "model/convention.hpp"
 
 namespace remap {
 
-// Powers of specular that a polynomial of a pass may have, 0 included.
-inline constexpr std::size_t kMostPowers = 16;
-
-// A piecewise polynomial with its numbers ordered as rows of texels read them: for each coefficient, those of
-// all cells.
+// A piecewise polynomial as rows of texels read it.
 struct PolynomialRows {
-  PiecewisePolynomial shape;   // without coefficients
-  std::vector<float> numbers;  // [coefficient of a cell][cell]
+  float pole = 0.0f, scale = 1.0f, start = 0.0f, middle = 0.0f;  // as in PiecewisePolynomial
+  int cell_count = 1;
+  int power_count = 1;
+  const int* degrees = nullptr;    // one a power
+  const float* numbers = nullptr;  // for each coefficient of a cell, those of all cells
 };
-PolynomialRows polynomial_rows(const PiecewisePolynomial& polynomial);
 
+// What a kernel is told of a converter.
 struct LoweredPass {
   RoughnessConvention source = RoughnessConvention::kAlpha;
   RoughnessConvention target = RoughnessConvention::kAlpha;
   float roughness_min = 0.0f, roughness_max = 0.0f;  // of the source's own width parameter
   float specular_min = 0.0f, specular_max = 0.0f;    // from 0; to more than 0
+  float inverse_specular_max = 1.0f;
+  bool is_proportional = false;  // target specular is a factor times specular, target alpha free of it
   PolynomialRows alpha;
   PolynomialRows specular;
 };
 
-// Converts `count` texels of 1 to 3 channels; the rule for rows is that of Converter::convert. Returns the
-// number of texels out of domain.
-using LoweredKernel = std::size_t (*)(const LoweredPass& pass, std::size_t count, const float* roughness,
-                                      std::span<const float* const> specular, float* roughness_out,
-                                      std::span<float* const> specular_out) noexcept;
+// A polynomial that owns its numbers.
+class OwnedPolynomialRows {
+ public:
+  explicit OwnedPolynomialRows(const PiecewisePolynomial& polynomial);
+  // Valid as long as this object stays where it is.
+  PolynomialRows rows() const;
 
-// For `set`, which the processor must have. Every set computes the same bits.
+ private:
+  PiecewisePolynomial shape_;  // without coefficients
+  std::vector<float> numbers_;
+};
+
+// Rows of `count` texels. An output row may be exactly its input row.
+struct TexelRows {
+  std::size_t count = 0;
+  std::size_t channels = 1;  // 1 or 3
+  const float* roughness = nullptr;
+  std::array<const float*, 3> specular{};
+  float* roughness_out = nullptr;
+  std::array<float*, 3> specular_out{};
+  std::uint8_t* outside = nullptr;  // 1 for each texel out of domain, else 0; null: nobody asks
+};
+
+// Converts the rows; returns the number of texels out of domain.
+using LoweredKernel = std::size_t (*)(const LoweredPass& pass, const TexelRows& rows) noexcept;
+
+// For `set`, which the processor must have. Every set computes the same bits, those of the generated header.
 LoweredKernel lowered_kernel(InstructionSet set);
 
 }  // namespace remap

@@ -31,12 +31,13 @@ class WidthSpecularConverter final : public MaterialConverter {
     return parameter == Parameter::kSpecular ? specular_channels : 1;
   }
 
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in,
-                      const MaterialRows<float>& out) const override {
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
+                      std::uint8_t* outside) const override {
     const auto& specular = in[Parameter::kSpecular];
     const auto& specular_out = out[Parameter::kSpecular];
     return converter_.convert(count, in[Parameter::kWidth].row[0], {specular.row.data(), specular.count},
-                              out[Parameter::kWidth].row[0], {specular_out.row.data(), specular.count});
+                              out[Parameter::kWidth].row[0], {specular_out.row.data(), specular.count},
+                              outside);
   }
 
  private:

@@ -36,9 +36,10 @@ class MaterialConverter {
   // Converts `count` texels. `in` has all of sources(), colors in one or three rows; of `out` those with
   // rows are written. An output row may be exactly the input row of the same parameter and channel. Widths
   // are the parameters that info() names. Safe to call from many threads. Returns the number of texels
-  // outside the domain of the converter of width and specular.
+  // outside the domain of the converter of width and specular. `outside`: where not null, a row that gets 1
+  // for each of those and 0 for each other.
   virtual std::size_t convert(std::size_t count, const MaterialRows<const float>& in,
-                              const MaterialRows<float>& out) const = 0;
+                              const MaterialRows<float>& out, std::uint8_t* outside = nullptr) const = 0;
 
  protected:
   MaterialConverter(ConverterInfo info, std::vector<Parameter> sources, std::vector<Parameter> targets)

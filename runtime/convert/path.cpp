@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
 #include "text/nearest_name.hpp"
 
@@ -174,9 +175,9 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
                                      "path without a cycle");
 }
 
-ConverterGraph compiled_graph(InstructionSet set) {
+ConverterGraph shipped_graph(InstructionSet set) {
   std::vector<const Converter*> converters;
-  for (const auto& converter : compiled_converters(set)) converters.push_back(converter.get());
+  for (const auto& converter : shipped_converters(set)) converters.push_back(converter.get());
   return ConverterGraph(std::move(converters), Detours::kRefused);
 }
 

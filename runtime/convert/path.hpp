@@ -84,7 +84,7 @@ class ConverterGraph {
   DirectedGraph graph_;                       // nodes as models_, edges as converters_, costs in 1e-9
 };
 
-// The graph of all compiled converters, without detours.
-ConverterGraph compiled_graph(InstructionSet set = best_instruction_set());
+// The graph of all shipped converters, without detours.
+ConverterGraph shipped_graph(InstructionSet set = best_instruction_set());
 
 }  // namespace remap

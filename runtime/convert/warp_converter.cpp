@@ -53,18 +53,28 @@ class WarpConverter final : public MaterialConverter {
     return is_color(parameter) ? 3 : 1;
   }
 
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in,
-                      const MaterialRows<float>& out) const override {
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
+                      std::uint8_t* outside) const override {
     const auto block = to_specular_ ? std::make_unique<Block>() : nullptr;
-    std::size_t outside = 0;
+    std::size_t outside_count = 0;
     for (std::size_t start = 0; start < count; start += kBlock) {
       const std::size_t size = std::min(kBlock, count - start);
-      outside += kernel_(warp_, size, source_rows(size, start, in, block.get()), target_rows(start, out));
+      const auto rows = source_rows(size, start, in, block.get());
+      if (outside != nullptr) flag_outside(size, rows, outside + start);  // before rows are written over
+      outside_count += kernel_(warp_, size, rows, target_rows(start, out));
     }
-    return outside;
+    return outside_count;
   }
 
  private:
+  // Parameters of a warp lie in 0 to 1.
+  static void flag_outside(std::size_t size, const std::array<const float*, kWarpParameters>& rows,
+                           std::uint8_t* outside) {
+    for (std::size_t i = 0; i < size; ++i)
+      outside[i] = !std::all_of(rows.begin(), rows.end(),
+                                [i](const float* row) { return row[i] >= 0.0f && row[i] <= 1.0f; });
+  }
+
   std::array<const float*, kWarpParameters> source_rows(std::size_t size, std::size_t start,
                                                         const MaterialRows<const float>& in,
                                                         Block* block) const {

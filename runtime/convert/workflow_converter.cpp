@@ -112,13 +112,14 @@ class WorkflowConverter final : public MaterialConverter {
   std::size_t target_channels(Parameter parameter, std::size_t) const override {
     return is_color(parameter) ? 3 : 1;
   }
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in,
-                      const MaterialRows<float>& out) const override;
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
+                      std::uint8_t* outside) const override;
 
  private:
   SpecularBlock read(std::size_t count, std::size_t start, const MaterialRows<const float>& in,
                      Scratch& scratch) const;
-  std::size_t convert_brdf(std::size_t count, SpecularBlock& block, Scratch& scratch) const;
+  std::size_t convert_brdf(std::size_t count, SpecularBlock& block, Scratch& scratch,
+                           std::uint8_t* outside) const;
   void write_specular(std::size_t count, std::size_t start, const SpecularBlock& block,
                       const MaterialRows<float>& out, Scratch& scratch) const;
   void write_metallic(std::size_t count, std::size_t start, const SpecularBlock& block,
@@ -158,13 +159,15 @@ WorkflowConverter::WorkflowConverter(const WorkflowStages& stages, InstructionSe
 }
 
 std::size_t WorkflowConverter::convert(std::size_t count, const MaterialRows<const float>& in,
-                                       const MaterialRows<float>& out) const {
+                                       const MaterialRows<float>& out, std::uint8_t* outside) const {
   const auto scratch = std::make_unique<Scratch>();
-  std::size_t outside = 0;
+  std::size_t outside_count = 0;
+  if (outside != nullptr) std::fill_n(outside, count, std::uint8_t{0});
   for (std::size_t start = 0; start < count; start += kBlock) {
     const std::size_t size = std::min(kBlock, count - start);
     SpecularBlock block = read(size, start, in, *scratch);
-    if (stages_.brdf != nullptr) outside += convert_brdf(size, block, *scratch);
+    if (stages_.brdf != nullptr)
+      outside_count += convert_brdf(size, block, *scratch, outside == nullptr ? nullptr : outside + start);
     if (to_metallic_)
       write_metallic(size, start, block, in, out, *scratch);
     else
@@ -172,7 +175,7 @@ std::size_t WorkflowConverter::convert(std::size_t count, const MaterialRows<con
     if (const auto& width = out[Parameter::kWidth]; width.count > 0 && width.row[0] + start != block.width)
       std::copy_n(block.width, size, width.row[0] + start);
   }
-  return outside;
+  return outside_count;
 }
 
 SpecularBlock WorkflowConverter::read(std::size_t count, std::size_t start,
@@ -199,15 +202,17 @@ SpecularBlock WorkflowConverter::read(std::size_t count, std::size_t start,
   return block;
 }
 
-std::size_t WorkflowConverter::convert_brdf(std::size_t count, SpecularBlock& block, Scratch& scratch) const {
+std::size_t WorkflowConverter::convert_brdf(std::size_t count, SpecularBlock& block, Scratch& scratch,
+                                            std::uint8_t* outside) const {
   const std::size_t channels = block.is_grey ? 1 : 3;
   auto& mapped = scratch.specular;
   const std::array<float*, 3> out = {mapped[0].data(), mapped[1].data(), mapped[2].data()};
-  const std::size_t outside = stages_.brdf->convert(count, block.width, {block.specular.data(), channels},
-                                                    scratch.width.data(), {out.data(), channels});
+  const std::size_t outside_count =
+      stages_.brdf->convert(count, block.width, {block.specular.data(), channels}, scratch.width.data(),
+                            {out.data(), channels}, outside);
   block.width = scratch.width.data();
   for (std::size_t c = 0; c < 3; ++c) block.specular[c] = mapped[block.is_grey ? 0 : c].data();
-  return outside;
+  return outside_count;
 }
 
 void WorkflowConverter::write_specular(std::size_t count, std::size_t start, const SpecularBlock& block,

@@ -11,18 +11,18 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A map of a folder and the set that it belongs to.
+// A map of a folder, with the ways to read its name.
 struct NamedMap {
   TileGroup files;
   std::vector<NameReading> readings;
-  std::size_t chosen = 0;  // index of the reading that is taken
-  bool numbered = false;   // a bare number before the word belongs to the set's name
+  std::size_t chosen = 0;  // index of the chosen reading
+  bool numbered = false;   // the number before the word belongs to the name of the set
 
   const NameReading& reading() const { return readings[chosen]; }
   const std::string& stem() const { return numbered ? reading().numbered_stem : reading().stem; }
 };
 
-// The name without extension and tile, as the habits read it.
+// The name without extension and tile, for Naming::read().
 std::string readable_name(const TileGroup& files) {
   const auto without_extension = [](const std::string& name) { return name.substr(0, name.rfind('.')); };
   if (!files.pattern) return without_extension(files.name);
@@ -31,9 +31,8 @@ std::string readable_name(const TileGroup& files) {
   return files.pattern->before + (doubled ? after.substr(1) : after);
 }
 
-// A longer word may have taken the end of the set's name: dark_metallic_roughness. It is given back where its
-// stem is that of no other map and the shorter word's is. Doubtful readings without such a neighbour are
-// given up.
+// Prefers a shorter word if only its stem belongs to another map: in dark_metallic_roughness the longer word
+// may have taken the end of the set's name. Doubtful readings are dropped unless another map has their stem.
 void choose_readings(std::vector<NamedMap>& maps) {
   std::map<std::string, int> map_counts;
   for (const NamedMap& map : maps) ++map_counts[map.readings.front().stem];
@@ -46,7 +45,7 @@ void choose_readings(std::vector<NamedMap>& maps) {
   }
 }
 
-// wood_512_rough beside wood_1024_rough: the numbers tell sets apart, and are no resolutions.
+// In wood_512_rough and wood_1024_rough the numbers distinguish sets, so they are not resolutions.
 void choose_stems(std::vector<NamedMap>& maps) {
   std::map<std::pair<std::string, std::vector<ChannelMeaning>>, std::set<std::string>> numbered_stems;
   std::set<std::string> numbered;
@@ -72,7 +71,7 @@ bool takes_part(const ChannelMeaning& entry) {
 
 std::string place_of(const FoundSet& set) { return shown(set.folder / set.name); }
 
-// The one candidate for a role; several make the set faulty.
+// The only candidate for a role. Several candidates make the set faulty.
 std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std::string& what) {
   const std::vector<MapUse> candidates = uses(set, wanted);
   if (candidates.size() == 1) return candidates.front();
@@ -98,16 +97,16 @@ void note_missing_tiles(FoundSet& set) {
 }
 
 void judge(FoundSet& set) {
-  set.width = single_use(set, tells_width, "the width of the highlight");
+  set.width = single_use(set, tells_width, "roughness");
   set.specular = single_use(
       set, [](Role role) { return role == Role::kSpecular; }, "specular");
   note_missing_tiles(set);
   if (set.state == SetState::kFaulty || set.width) return;
   set.state = SetState::kSkipped;
-  set.remarks.push_back(place_of(set) + ": no map of roughness or glossiness; expected one");
+  set.remarks.push_back(place_of(set) + ": no roughness or glossiness map found");
 }
 
-// The sets of one folder.
+// Adds the sets of one folder.
 void add_sets(const ImageFolder& folder, const std::string& folder_name, const Naming& naming,
               Discovery& discovery) {
   std::vector<NamedMap> maps;
@@ -140,7 +139,7 @@ void add_sets(const ImageFolder& folder, const std::string& folder_name, const N
   }
 }
 
-// The last name of a path; for `.` and `a/..` that of the folder they lead to.
+// The last name of a path, after `.` and `..` are resolved.
 std::string last_name(const fs::path& path) {
   std::error_code failure;
   const fs::path whole = fs::weakly_canonical(path, failure);
@@ -182,7 +181,7 @@ std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found,
     if (use.channels != Channels::kWhole) text += " in " + std::string(channels_name(use.channels));
     text += ")";
   }
-  return std::to_string(found.size()) + " maps for " + what + ": " + text + "; expected one";
+  return std::to_string(found.size()) + " " + what + " maps found: " + text + "; keep one";
 }
 
 Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {

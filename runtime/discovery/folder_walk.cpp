@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <set>
+#include <string_view>
 #include <sys/stat.h>
 #include <system_error>
 
@@ -18,6 +19,13 @@ namespace {
 constexpr std::array<std::string_view, 10> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
                                                           "jpeg", "tga", "bmp",  "hdr", "tx"};
 
+bool is_image_name(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos || dot == 0) return false;
+  const std::string extension = lower(name.substr(dot + 1));
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
 using FolderIdentity = std::pair<dev_t, ino_t>;
 
 class Walker {
@@ -27,7 +35,7 @@ class Walker {
       struct stat status {};
       if (::stat(folder.c_str(), &status) == 0) visited_.insert({status.st_dev, status.st_ino});
     }
-    // The root is what the caller asked for, even if results go there too.
+    // The root is searched even if results go there, too.
     struct stat status {};
     if (::stat(root.c_str(), &status) == 0) visited_.erase({status.st_dev, status.st_ino});
   }
@@ -36,7 +44,7 @@ class Walker {
     visit(fs::path());
     if (!walk_.problems.empty() && !root_was_read_)
       throw Error(ErrorKind::kInput, walk_.problems.front().message);
-    // Links come last, so that a folder keeps its own name where it has one here.
+    // Links come last, so that a folder below the root is found under its own name.
     while (!folders_.empty() || !links_.empty()) {
       std::set<std::string>& next = folders_.empty() ? links_ : folders_;
       const fs::path folder = *next.begin();
@@ -87,7 +95,7 @@ class Walker {
       if (fs::is_regular_file(status))
         folder.images.push_back(name);
       else if (failure || !fs::exists(status))
-        add_problem(relative, failure ? failure.message() : "leads to no file");
+        add_problem(relative, failure ? failure.message() : "the link has no target");
       else
         add_problem(relative, "not a file");
     }
@@ -102,19 +110,12 @@ class Walker {
   bool recursive_ = true;
   bool root_was_read_ = false;
   std::set<FolderIdentity> visited_;
-  std::set<std::string> folders_;  // still to be visited
+  std::set<std::string> folders_;  // not yet visited
   std::set<std::string> links_;
   Walk walk_;
 };
 
 }  // namespace
-
-bool is_image_name(std::string_view name) {
-  const std::size_t dot = name.rfind('.');
-  if (dot == std::string_view::npos || dot == 0) return false;
-  const std::string extension = lower(name.substr(dot + 1));
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
 
 Walk walk_images(const fs::path& root, const WalkOptions& options) { return Walker(root, options).run(); }
 

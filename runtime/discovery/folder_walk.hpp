@@ -1,16 +1,15 @@
-// The images of a tree of folders, whatever is wrong with it.
+// Lists the images of a tree of folders, even if parts of it cannot be read.
 #pragma once
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace remap {
 
 struct WalkOptions {
   bool recursive = true;
-  std::vector<std::filesystem::path> excluded;  // folders that are not entered, such as the one for results
+  std::vector<std::filesystem::path> excluded;  // folders to skip, such as the one for results
 };
 
 struct ImageFolder {
@@ -18,24 +17,21 @@ struct ImageFolder {
   std::vector<std::string> images;  // file names, sorted by bytes
 };
 
-// Something that could not be read.
+// A file or folder that could not be read.
 struct WalkProblem {
   std::filesystem::path path;  // relative to the root
-  std::string message;         // `place: what; expected`, one line
+  std::string message;         // `place: what is wrong`, one line
 };
 
 struct Walk {
-  std::vector<ImageFolder> folders;   // those with images; in no order that would mean anything
-  std::vector<WalkProblem> problems;  // likewise
+  std::vector<ImageFolder> folders;   // folders with images, in any order
+  std::vector<WalkProblem> problems;  // in any order
 };
 
-// Whether the extension is that of an image format that is read: exr tif tiff png jpg jpeg tga bmp hdr tx.
-bool is_image_name(std::string_view name);
-
-// Lists images under `root`. Hidden names are left out, and unfinished results with them (files.hpp).
-// Symbolic links are followed; a folder is visited once, under its own path if that lies below the root, so
-// that loops end. What cannot be read is a problem, and the rest is listed. Throws kInput where the root
-// itself cannot be read.
+// Lists the images under `root`, with the extensions exr tif tiff png jpg jpeg tga bmp hdr tx. Hidden names
+// are skipped, and with them unfinished results (files.hpp). Symbolic links are followed. Each folder is
+// visited once, under its own path if that lies below the root, so loops end. Unreadable files and folders
+// become problems. Throws kInput only if the root itself cannot be read.
 Walk walk_images(const std::filesystem::path& root, const WalkOptions& options);
 
 }  // namespace remap

@@ -9,7 +9,7 @@
 
 namespace remap {
 
-// The parts of a name that may be words, without what only follows the word of a map.
+// The pieces of a name up to the word of the map, without resolution, format and ignored words after it.
 struct NameParts {
   std::string_view name;
   std::vector<NamePiece> pieces;
@@ -35,12 +35,11 @@ constexpr std::array kChannels = {Channels::kWhole, Channels::kRed,   Channels::
                                   Channels::kBlue,  Channels::kAlpha, Channels::kRgb};
 constexpr std::array<std::string_view, kChannels.size()> kChannelNames = {"all", "R", "G", "B", "A", "RGB"};
 
-// Formats and qualities that stand beside a resolution (4K-PNG, 2K-HQ) or before a second extension
-// (.exr.tx).
+// Formats and qualities next to a resolution (4K-PNG, 2K-HQ) or before a second extension (.exr.tx).
 constexpr std::array<std::string_view, 11> kFormats = {"exr", "tif", "tiff", "png", "jpg", "jpeg",
                                                        "tga", "bmp", "hdr",  "hq",  "lq"};
 
-// A side of a square map: a power of two from 128 to 32768.
+// Whether `digits` is the side of a square map: a power of two from 128 to 32768.
 bool is_side(std::string_view digits) {
   if (digits.size() < 3 || digits.size() > 5 || !std::all_of(digits.begin(), digits.end(), is_digit))
     return false;
@@ -49,7 +48,7 @@ bool is_side(std::string_view digits) {
   return side >= 128 && side <= 32768 && (side & (side - 1)) == 0;
 }
 
-// Whether a capital at `i` begins a new part of a name: heroSpec before S, ORMMap before the second M.
+// Whether a capital at `i` begins a new part of a name, as S in heroSpec and the second M in ORMMap.
 bool begins_part(std::string_view name, std::size_t i) {
   if (i == 0 || !is_upper(name[i]) || is_separator(name[i - 1])) return false;
   if (!is_upper(name[i - 1])) return true;
@@ -58,10 +57,10 @@ bool begins_part(std::string_view name, std::size_t i) {
 
 bool is_acronym(std::string_view word) { return std::none_of(word.begin(), word.end(), is_lower); }
 
-// What stands between the name of the set and the word of a map.
+// The end of the set's name, and the resolution between it and the word of the map.
 struct Stem {
   std::size_t end = 0;           // of the set's name
-  std::size_t numbered_end = 0;  // the same with a bare number that may belong to it
+  std::size_t numbered_end = 0;  // the end with a number that may belong to the name
   ResolutionPlace resolution = ResolutionPlace::kNone;
 };
 
@@ -112,9 +111,9 @@ std::string word_key(std::string_view word) {
 
 struct Naming::Ending {
   std::string key;                // its letters in lower case
-  std::vector<std::size_t> cuts;  // where separators stand in it
-  std::string_view text;          // as the name has it
-  bool follows_separator = true;  // or begins the name
+  std::vector<std::size_t> cuts;  // offsets of its separators in `key`
+  std::string_view text;          // as in the name
+  bool follows_separator = true;  // or is at the beginning of the name
   ResolutionPlace resolution = ResolutionPlace::kNone;
 };
 
@@ -137,8 +136,8 @@ Naming::Naming(std::vector<Habit> habits, std::vector<std::string> ignored_words
   }
 }
 
-// Of the words that `ending` spells, the one of the user's habits, then the one that is written the same,
-// then the one whose habit writes resolutions there, then the first.
+// The best of the words that `ending` spells. Words of the user's habits come first, then words written in
+// the same way, then words whose habit writes resolutions in this place, then the first of the table.
 const Naming::Word* Naming::best_word(const Ending& ending) const {
   const auto found = words_.find(ending.key);
   if (found == words_.end()) return nullptr;
@@ -160,7 +159,7 @@ const Naming::Word* Naming::best_word(const Ending& ending) const {
   return best;
 }
 
-// The part of the name from `begin`, within piece `first`, to the end; none where it is longer than any word.
+// The part of the name from `begin`, within piece `first`, to the end; none if it is longer than any word.
 std::optional<Naming::Ending> Naming::ending_from(const NameParts& parts, std::size_t first,
                                                   std::size_t begin) const {
   Ending ending;

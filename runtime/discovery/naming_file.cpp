@@ -1,4 +1,4 @@
-// Naming habits as JSON: the built-in table and files that extend it.
+// Reads naming habits from JSON: the built-in table and files that extend it.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -18,17 +18,17 @@ constexpr std::array<std::pair<std::string_view, ResolutionPlace>, 4> kPlaces = 
      {"before-with-format", ResolutionPlace::kBeforeWithFormat},
      {"after", ResolutionPlace::kAfter}}};
 
-// A mistyped optional field would go unnoticed otherwise.
+// Otherwise a mistyped optional field would go unnoticed.
 void refuse_unknown_fields(const Field& field, const std::vector<std::string>& known) {
   field.require(field.json().is_object(), "an object");
   for (const auto& [key, value] : field.json().items())
     if (std::find(known.begin(), known.end(), key) == known.end())
-      field.fail("has an unknown field \"" + key + "\"" + suggestion(key, known));
+      field.fail("unknown field '" + key + "'" + suggestion(key, known));
 }
 
 bool has(const Field& field, const std::string& key) { return field.json().contains(key); }
 
-// False where it is not there.
+// False if the field is missing.
 bool read_flag(const Field& field, const std::string& key) {
   if (!has(field, key)) return false;
   field[key].require(field.json()[key].is_boolean(), "true or false");
@@ -42,10 +42,10 @@ Role read_role(const Field& field) {
     if (role_name(role) == text) return role;
     known.emplace_back(role_name(role));
   }
-  field.fail("is no role: \"" + text + "\"" + suggestion(text, known));
+  field.fail("unknown role '" + text + "'" + suggestion(text, known));
 }
 
-// The roles that a converter reads are of one map each, so that no rule may give one twice.
+// A converter reads roughness and specular from one map each, so no rule may name one twice.
 void refuse_doubles(const Field& field, const std::vector<ChannelMeaning>& meaning) {
   const auto width = [](const ChannelMeaning& entry) { return tells_width(entry.role); };
   const auto specular = [](const ChannelMeaning& entry) { return entry.role == Role::kSpecular; };
@@ -76,7 +76,7 @@ std::string read_word(const Field& field) {
   const std::string word = field.text();
   field.require(!word_key(word).empty(), "a word");
   field.require(!is_resolution(word) && !is_format_word(word),
-                "a word that is neither resolution nor format: those are skipped in every name");
+                "a word that is neither a resolution nor a format, which are skipped in every name");
   return word;
 }
 
@@ -100,7 +100,7 @@ ResolutionPlace read_place(const Field& field) {
     if (name == text) return place;
     known.emplace_back(name);
   }
-  field.fail("is no place of a resolution: \"" + text + "\"" + suggestion(text, known));
+  field.fail("unknown place of a resolution '" + text + "'" + suggestion(text, known));
 }
 
 Habit read_habit(const Field& field) {
@@ -117,7 +117,7 @@ Habit read_habit(const Field& field) {
     std::set<std::string> own;
     for (const std::string& word : rule.words) own.insert(word_key(word));
     for (const std::string& key : own)
-      if (!earlier.insert(key).second) field.fail("has two rules for the word \"" + key + "\"; expected one");
+      if (!earlier.insert(key).second) field.fail("two rules for the word '" + key + "' (keep one)");
   }
   return habit;
 }

@@ -1,4 +1,4 @@
-// The built-in naming habits, as the text of naming.json: compiled in, so that no file is needed at run time.
+// The built-in naming habits: the text of naming.json, compiled in so that no file is needed at run time.
 #pragma once
 
 #include <string_view>

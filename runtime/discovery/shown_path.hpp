@@ -1,4 +1,4 @@
-// Paths in messages: a file name may hold any byte, and a message is one line.
+// Paths in messages. A file name may hold any byte, but a message must be one line.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace remap {
 
-// The path with control characters escaped, as in `\n` and `\x1b`; other bytes as they are.
+// The path with control characters escaped, such as `\n` and `\x1b`. Other bytes are unchanged.
 std::string shown(const std::filesystem::path& path);
 
 }  // namespace remap

@@ -17,7 +17,8 @@ namespace {
 constexpr int kFirstUdim = 1001;
 constexpr int kLastUdim = 1999;
 constexpr int kUdimColumns = 10;
-constexpr int kAmbiguousUdim = 1024;  // the only power of two among them: a resolution where it stands alone
+constexpr int kAmbiguousUdim =
+    1024;  // the only power of two among them: a resolution if no other tile exists
 constexpr std::size_t kMostDigits = 9;
 
 constexpr std::array<std::pair<std::string_view, TileStyle>, 3> kTokens = {
@@ -25,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, TileStyle>, 3> kTokens = {
 
 bool is_udim(int number) { return number >= kFirstUdim && number <= kLastUdim; }
 
-// The number that all of `digits` spells; none for other text and for more digits than an int holds.
+// The number that `digits` spells; none for other text and for more digits than an int holds.
 std::optional<int> digits_value(std::string_view digits) {
   if (digits.empty() || digits.size() > kMostDigits || !std::all_of(digits.begin(), digits.end(), is_digit))
     return std::nullopt;
@@ -34,7 +35,7 @@ std::optional<int> digits_value(std::string_view digits) {
   return value;
 }
 
-// A place in a name.
+// A placeholder in a name.
 struct Place {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -49,7 +50,7 @@ std::optional<Place> printf_place(std::string_view text, std::size_t begin) {
   if (end >= text.size() || text[end] != 'd') return std::nullopt;
   const std::string_view width = text.substr(begin + 1, end - begin - 1);
   if (width.empty()) return Place{begin, end + 1, TileStyle::kFrame, 1};
-  // Without the zero, spaces would fill the number.
+  // Without the leading zero of the width, printf would pad with spaces.
   if (width.front() != '0' || width.size() != 2 || width.back() == '0') return std::nullopt;
   return Place{begin, end + 1, TileStyle::kFrame, width.back() - '0'};
 }
@@ -71,7 +72,7 @@ TilePattern pattern_of(std::string_view name, const Place& place) {
           place.style, place.digit_count};
 }
 
-// The number of u3_v2, or of u and v apart.
+// The UDIM of a tile such as u3_v2, given as its two parts.
 std::optional<int> uv_number(std::string_view u, std::string_view v) {
   if (u.size() < 2 || v.size() < 2 || lower(u.front()) != 'u' || lower(v.front()) != 'v') return std::nullopt;
   if (u[1] == '0' || v[1] == '0') return std::nullopt;
@@ -92,12 +93,12 @@ std::string number_in_style(const TilePattern& pattern, int number) {
   return digits;
 }
 
-// A file name that may be that of a tile.
+// A file name that may belong to a tile.
 struct Candidate {
   std::string name;
   TilePattern pattern;
   int number = 0;
-  bool ends_name = false;  // but for the extension
+  bool ends_name = false;  // only the extension follows
 };
 
 // The last number of `name` that may be a UDIM.
@@ -120,7 +121,7 @@ std::optional<Candidate> find_candidate(const std::string& name) {
       const Place place{pieces[i - 1].begin, pieces[i].end, TileStyle::kUvTile, 0};
       Candidate candidate{name, pattern_of(name, place), *uv, last};
       candidate.pattern.token = "<UVTILE>";
-      // Names in capitals could not be made again from the pattern.
+      // The pattern could not reproduce a name in capitals.
       if (tile_name(candidate.pattern, *uv) == name) return candidate;
     }
   }
@@ -139,8 +140,8 @@ std::optional<TilePattern> tile_pattern(std::string_view name) {
   for (std::size_t i = 0; i < name.size();) {
     const std::optional<Place> place = place_at(name, i);
     if (place && pattern)
-      throw Error(ErrorKind::kUsage, shown(name) + ": holds several places for a number, " + pattern->token +
-                                         " and " + pattern_of(name, *place).token + "; expected one");
+      throw Error(ErrorKind::kUsage, shown(name) + ": has two placeholders, " + pattern->token + " and " +
+                                         pattern_of(name, *place).token + " (use one)");
     if (place) pattern = pattern_of(name, *place);
     i = place ? place->end : i + 1;
   }
@@ -149,9 +150,9 @@ std::optional<TilePattern> tile_pattern(std::string_view name) {
 
 std::string tile_name(const TilePattern& pattern, int number) {
   if (pattern.style == TileStyle::kFrame ? number < 0 : !is_udim(number))
-    throw Error(ErrorKind::kUsage, shown(pattern.text()) + ": has no tile " + std::to_string(number) +
-                                       (pattern.style == TileStyle::kFrame ? "; expected a frame from 0"
-                                                                           : "; expected 1001 to 1999"));
+    throw Error(ErrorKind::kUsage,
+                shown(pattern.text()) + ": invalid tile number " + std::to_string(number) +
+                    (pattern.style == TileStyle::kFrame ? " (frames begin at 0)" : " (use 1001 to 1999)"));
   return pattern.before + number_in_style(pattern, number) + pattern.after;
 }
 
@@ -170,7 +171,7 @@ std::optional<int> tile_number(const TilePattern& pattern, std::string_view name
     number = digits_value(middle);
     if (pattern.style == TileStyle::kUdim && number && !is_udim(*number)) return std::nullopt;
   }
-  // Written otherwise (01001, U1_v1), it would be another file than the one that the number names.
+  // A different spelling (01001, U1_v1) is a different file.
   if (!number || number_in_style(pattern, *number) != middle) return std::nullopt;
   return number;
 }
@@ -180,12 +181,12 @@ std::vector<Tile> existing_tiles(const fs::path& path) {
   if (!pattern)
     throw Error(
         ErrorKind::kUsage,
-        shown(path) + ": holds no place for a number; expected <UDIM>, <UVTILE>, #### or %04d in the name");
+        shown(path) + ": no placeholder for tiles in the file name (use <UDIM>, <UVTILE>, #### or %04d)");
   const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
   for (const auto& [token, style] : kTokens)
     if (folder.string().find(token) != std::string::npos)
-      throw Error(ErrorKind::kUsage, shown(path) + ": holds " + std::string(token) +
-                                         " in a folder; expected it in the file's name");
+      throw Error(ErrorKind::kUsage,
+                  shown(path) + ": " + std::string(token) + " in a folder name (use it in the file name)");
 
   std::vector<Tile> tiles;
   std::error_code failure;

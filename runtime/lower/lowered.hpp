@@ -32,6 +32,9 @@ struct PiecewisePolynomial {
   bool operator==(const PiecewisePolynomial&) const = default;
 };
 
+// Powers of specular that the texture pass can evaluate, power 0 included.
+inline constexpr std::size_t kMostPowers = 16;
+
 struct LoweredFunction {
   PiecewisePolynomial polynomial;
   double bound = 0.0;    // proven: |polynomial in float arithmetic - model| over the whole domain

@@ -9,7 +9,7 @@
 namespace remap {
 namespace {
 
-constexpr int kAlphas = 60, kSpeculars = 20;
+constexpr int kReturnedAlphas = 60, kReturnedSpeculars = 20;
 constexpr double kMedianGoal = 0.005, kP99Goal = 0.02;
 
 // Nearest rank.
@@ -25,11 +25,11 @@ double quantile(std::vector<double>* values, double share) {
 
 RoundTrip round_trip(const Fit& there, const Fit& back) {
   std::vector<double> alphas, speculars;
-  for (int i = 0; i < kAlphas; ++i)
-    for (int j = 1; j <= kSpeculars; ++j) {
+  for (int i = 0; i < kReturnedAlphas; ++i)
+    for (int j = 1; j <= kReturnedSpeculars; ++j) {
       const Range& range = there.domain.alpha;
-      const double alpha = range.min + (range.max - range.min) * i / (kAlphas - 1);
-      const double specular = there.domain.specular.max * j / kSpeculars;
+      const double alpha = range.min + (range.max - range.min) * i / (kReturnedAlphas - 1);
+      const double specular = there.domain.specular.max * j / kReturnedSpeculars;
       const MappedTexel far = evaluate_mapping(there.mapping, alpha, specular);
       if (!back.domain.alpha.contains(far.alpha) || !back.domain.specular.contains(far.specular)) continue;
       const MappedTexel home = evaluate_mapping(back.mapping, far.alpha, far.specular);
@@ -37,7 +37,7 @@ RoundTrip round_trip(const Fit& there, const Fit& back) {
       speculars.push_back(std::fabs(home.specular - specular) / specular);
     }
   RoundTrip trip;
-  trip.share = static_cast<double>(alphas.size()) / (kAlphas * kSpeculars);
+  trip.share = static_cast<double>(alphas.size()) / (kReturnedAlphas * kReturnedSpeculars);
   trip.alpha_median = quantile(&alphas, 0.5);
   trip.alpha_p99 = quantile(&alphas, 0.99);
   trip.specular_median = quantile(&speculars, 0.5);

@@ -13,8 +13,7 @@ namespace remap {
 namespace fs = std::filesystem;
 
 std::string read_file(const fs::path& path) {
-  if (fs::is_directory(path))
-    throw Error(ErrorKind::kInput, path.string() + ": is a folder; expected a file");
+  if (fs::is_directory(path)) throw Error(ErrorKind::kInput, path.string() + ": is a folder, not a file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Error(ErrorKind::kInput, path.string() + ": cannot be read: " + std::strerror(errno));
   std::ostringstream content;
@@ -46,7 +45,7 @@ void create_parent(const fs::path& path) {
   fs::create_directories(parent, failure);
   if (failure || !fs::is_directory(parent)) {
     const std::string reason = failure ? failure.message() : "not a folder";
-    throw Error(ErrorKind::kOutput, parent.string() + ": cannot be made a folder: " + reason);
+    throw Error(ErrorKind::kOutput, parent.string() + ": folder cannot be created: " + reason);
   }
 }
 
@@ -71,9 +70,8 @@ void write_file(const fs::path& path, std::string_view content) {
 void copy_whole_file(const fs::path& from, const fs::path& to) {
   std::error_code failure;
   if (!fs::is_regular_file(from, failure))
-    throw Error(ErrorKind::kInput, from.string() + ": " +
-                                       (failure ? "cannot be read: " + failure.message() : "is no file") +
-                                       "; expected a file to copy");
+    throw Error(ErrorKind::kInput,
+                from.string() + ": cannot be copied: " + (failure ? failure.message() : "not a file"));
   const fs::path unfinished = unfinished_name(to);
   fs::copy_file(from, unfinished, fs::copy_options::overwrite_existing, failure);
   if (failure) {

@@ -1,4 +1,4 @@
-// Work on all processors.
+// Runs work on several threads.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace remap {
 
-// Runs `work(i)` for each i below `count` on `jobs` threads (0: one a processor); the first exception stops
-// the rest and is thrown here.
+// Runs `work(i)` for each i below `count` on `jobs` threads, or one per processor for 0. The first exception
+// stops the remaining work and is rethrown to the caller.
 void run_parallel(std::size_t count, unsigned jobs, const std::function<void(std::size_t)>& work);
 
 }  // namespace remap

@@ -1,14 +1,12 @@
-// The commands of texremap, one file each.
+// The commands of texremap. Each has a file of its own.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "command_line/command.hpp"
 
 namespace remap {
 
-void add_convert_command(CLI::App& app);
-void add_list_command(CLI::App& app);
-void add_path_command(CLI::App& app);
+void add_convert_command(Command& app);
+void add_list_command(Command& app);
+void add_path_command(Command& app);
 
 }  // namespace remap

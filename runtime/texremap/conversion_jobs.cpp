@@ -13,7 +13,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// The file of `map` for a tile; a map that is one file serves every tile. None where the tile is missing.
+// The file of `map` for a tile; none where the tile is missing. A map without tiles serves every tile.
 std::optional<fs::path> file_of(const FoundMap& map, int tile) {
   if (map.tiles.empty()) return map.path;
   for (const Tile& candidate : map.tiles)
@@ -29,7 +29,7 @@ std::vector<int> tiles_of(const FoundSet& set) {
   return {numbers.begin(), numbers.end()};
 }
 
-// The files that a job names, in one order.
+// The files of a job, always in the same order.
 std::vector<fs::path*> files_of(ConversionJob& job) {
   std::vector<fs::path*> files;
   const auto add = [&](ParameterRequest& parameter) {
@@ -41,14 +41,14 @@ std::vector<fs::path*> files_of(ConversionJob& job) {
   return files;
 }
 
-// Whether a request names a map or numbers, rather than nothing yet.
+// Whether a request names a map or numbers.
 bool is_given(const ParameterRequest& request) {
   const auto* map = std::get_if<MapName>(&request.source);
   return map == nullptr || !map->file.empty();
 }
 
-// Where a set may have a parameter: in the best role that there is. Many a set calls its base color diffuse,
-// or its diffuse color albedo.
+// The maps of a set that may hold a parameter, by the best role found: some sets call their base color
+// diffuse, or their diffuse color albedo.
 std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
   const auto is_diffuse = [](Role role) { return role == Role::kDiffuse; };
   const auto is_base_color = [](Role role) { return role == Role::kBaseColor; };
@@ -71,7 +71,7 @@ std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
   }
 }
 
-// The set with its diffuse map among those that take part, where that alone is to be converted.
+// The set with its diffuse map among the maps to convert, for a warp that converts diffuse alone.
 FoundSet of_diffuse_alone(FoundSet set) {
   const std::vector<MapUse> found = uses_of(set, Parameter::kDiffuse);
   if (found.empty() || found.front().map < set.maps.size()) return set;
@@ -83,7 +83,7 @@ FoundSet of_diffuse_alone(FoundSet set) {
   return set;
 }
 
-// The folder of sets turned into jobs.
+// Turns a folder of sets into jobs.
 class TreeJobs {
  public:
   TreeJobs(const ConvertOptions& options, const WorkflowChoice& workflow, const TextureSetRequest& stand_ins)
@@ -109,7 +109,7 @@ class TreeJobs {
   const ConvertOptions& options_;
   const WorkflowChoice& workflow_;
   TargetChoice choice_;
-  const TextureSetRequest& stand_ins_;  // for what sets do not have, and factors for all
+  const TextureSetRequest& stand_ins_;  // values for missing maps, and factors for all sets
   fs::path root_;
   std::vector<FoundSet> converted_;
   JobList jobs_;
@@ -136,22 +136,21 @@ JobList TreeJobs::list() {
   }
   require_no_collisions();
   if (jobs_.jobs.empty() && jobs_.left_out.empty())
-    throw Error(ErrorKind::kUsage, root_.string() +
-                                       ": has no texture set that is known by its names; expected " +
-                                       (options_.recursive ? "" : "--recursive for folders below it, or ") +
-                                       "--names FILE for other names");
+    throw Error(ErrorKind::kUsage, root_.string() + ": no texture set found by file names (use " +
+                                       (options_.recursive ? "" : "--recursive for subfolders, or ") +
+                                       "--names FILE for other names)");
   return std::move(jobs_);
 }
 
 void TreeJobs::add(const FoundSet& set) {
   for (const Parameter parameter : workflow_.sources()) {
     const std::vector<MapUse> found = uses_of(set, parameter);
-    const std::string name(parameter_name(parameter));
+    const std::string name = plain_name(parameter);
     if (!found.empty() && workflow_.constants.contains(parameter)) {
       jobs_.left_out.push_back(
           {place(set) + ": has a " + std::string(role_name(found.front().role)) +
-               " map, and the warp's source is a diffuse map alone; expected a warp of all "
-               "its maps, or --diffuse MAP in place of the folder",
+               " map, but the warp converts a diffuse map alone (use a warp of all its maps, or "
+               "--diffuse MAP instead of the folder)",
            true});
       return;
     }
@@ -160,8 +159,8 @@ void TreeJobs::add(const FoundSet& set) {
       return;
     }
     if (!found.empty() || is_given(stand_ins_.parameters.at(parameter))) continue;
-    jobs_.left_out.push_back({place(set) + ": has no " + name + " map; expected one, or " +
-                                  parameter_option(parameter) + " VALUE for such sets",
+    jobs_.left_out.push_back({place(set) + ": no " + name + " map found (or use " +
+                                  parameter_option(parameter) + " VALUE for such sets)",
                               true});
     return;
   }
@@ -169,7 +168,7 @@ void TreeJobs::add(const FoundSet& set) {
   for (const int tile : tiles_of(set)) add_tile(set, tile);
 }
 
-// Puts the map of a parameter into the job; false, with a message, where the set lacks the tile.
+// Puts the map of a parameter into the job. Notes a message and returns false where the set lacks the tile.
 bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::string& number, int tile,
                            ConversionJob& job) {
   const std::vector<MapUse> found = uses_of(set, parameter);
@@ -178,9 +177,9 @@ bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::
   const FoundMap& map = map_of(set, use);
   const std::optional<fs::path> file = file_of(map, tile);
   if (!file) {
-    jobs_.left_out.push_back({job.name + (number.empty() ? "" : ", tile " + number) + ": has no " +
-                                  std::string(role_name(use.role)) + " map; expected a tile " +
-                                  shown(map.path.filename()),
+    jobs_.left_out.push_back({job.name + (number.empty() ? "" : ", tile " + number) + ": no " +
+                                  std::string(role_name(use.role)) + " map found (" +
+                                  shown(map.path.filename()) + " lacks this tile)",
                               true});
     return false;
   }
@@ -205,7 +204,7 @@ void TreeJobs::add_tile(const FoundSet& set, int tile) {
   jobs_.jobs.push_back(std::move(job));
 }
 
-// What a layout has a place for, from the maps that are not converted.
+// Adds the maps that are not converted but have a place in the layout.
 void TreeJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
   for (const std::vector<FoundMap>* maps : {&set.maps, &set.bystanders})
     for (const FoundMap& map : *maps)
@@ -223,7 +222,7 @@ void TreeJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) 
       }
 }
 
-// The files that the conversion does not read. A map without tiles goes with the first tile of the set.
+// Adds the files that the conversion does not read. A map without tiles goes with the first tile of the set.
 void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) const {
   const std::vector<fs::path*> read = files_of(job);
   const bool is_first = tile == tiles_of(set).front();
@@ -237,7 +236,7 @@ void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) co
     }
 }
 
-// The files that the conversion of a set writes, with one map that each is made from: of all tiles as one.
+// The files that the conversion of a set writes, each with one of its source maps. Tiles count as one file.
 std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set) const {
   const FoundMap& first = set.width ? map_of(set, *set.width) : set.maps.front();
   const ResultNames names = {set.name + "_", tiles_of(set).front() == 0 ? "" : ".<UDIM>"};
@@ -268,19 +267,19 @@ void TreeJobs::require_no_collisions() const {
   if (collisions.empty()) return;
   const OutputCollision& first = collisions.front();
   throw Error(ErrorKind::kUsage, shown(fs::path(options_.output) / first.path) +
-                                     ": would be made from both " + shown(root_ / first.first_source) +
-                                     " and " + shown(root_ / first.second_source) +
-                                     "; expected names of their own");
+                                     ": would be written twice, from " + shown(root_ / first.first_source) +
+                                     " and from " + shown(root_ / first.second_source) +
+                                     " (rename one of the sets)");
 }
 
-// A file name that stands for tiles.
+// A file name with a placeholder for the tile.
 struct TiledFile {
   std::size_t index = 0;  // among the files of the job
   fs::path file;
   TilePattern pattern;
 
   fs::path tile(int number) const { return file.parent_path() / tile_name(pattern, number); }
-  // As the name has it: 0012 for a frame.
+  // The number as file names write it: 0012 for a frame.
   std::string number_text(int number) const {
     const std::string name = tile_name(pattern, number);
     return name.substr(pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
@@ -299,17 +298,16 @@ std::vector<TiledFile> tiled_files(ConversionJob& job) {
   return tiled;
 }
 
-// The tiles that any of the maps has; one that another map lacks is left out, with a message.
+// One job for each tile that all maps have. A tile that some map lacks is left out, with a message.
 JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& tiled) {
   JobList list;
   list.is_tree = true;
   if (tiled.front().pattern.style == TileStyle::kFrame) list.tile_noun = "frame";
-  std::map<int, std::set<std::size_t>> tiles;  // which of `tiled` have the tile of that number
+  std::map<int, std::set<std::size_t>> tiles;  // indices into `tiled` of the maps with that tile
   for (std::size_t i = 0; i < tiled.size(); ++i) {
     const std::vector<Tile> own = existing_tiles(tiled[i].file);
     if (own.empty())
-      throw Error(ErrorKind::kInput,
-                  tiled[i].file.string() + ": has no " + list.tile_noun + "; expected at least one file");
+      throw Error(ErrorKind::kInput, tiled[i].file.string() + ": no " + list.tile_noun + " found");
     for (const Tile& tile : own) tiles[tile.number].insert(i);
   }
   for (const auto& [number, present] : tiles) {
@@ -321,8 +319,8 @@ JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& 
     for (std::size_t i = 0; i < tiled.size(); ++i) {
       *files[tiled[i].index] = tiled[i].tile(number);
       if (!present.contains(i))
-        list.left_out.push_back({tiled[i].tile(number).string() + ": is missing; expected every " +
-                                     list.tile_noun + " of the set",
+        list.left_out.push_back({tiled[i].tile(number).string() +
+                                     ": not found, but other maps of the set have this " + list.tile_noun,
                                  true});
     }
     if (present.size() == tiled.size()) list.jobs.push_back(std::move(job));

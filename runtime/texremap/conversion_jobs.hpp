@@ -1,5 +1,5 @@
-// What `texremap convert` has to do, as a list of sets of single files: the one set of the command line, its
-// tiles, or the sets of a folder.
+// The jobs of `texremap convert`: the one set of the command line, its tiles, or the sets of a folder. Each
+// job converts a set of single files.
 #pragma once
 
 #include <filesystem>
@@ -13,32 +13,32 @@
 
 namespace remap {
 
-// One set of files, one tile of a set.
+// One set of single files: a texture set, or one tile of it.
 struct ConversionJob {
-  std::string name;  // of the set, for people
-  std::string tile;  // its number; empty where the set has none
+  std::string name;  // of the set, for messages
+  std::string tile;  // number of the tile; empty where the set has no tiles
   TextureSetRequest request;
-  std::filesystem::path folder;  // of the results
-  ResultNames names;             // of results that have no input
+  std::filesystem::path folder;  // where the results go
+  ResultNames names;             // of results without an input of the same name
   std::vector<CopiedFile> copies;
 };
 
-// A set that is not converted, or a file or folder that cannot be looked at.
+// A set that is not converted, or a file or folder that cannot be read.
 struct LeftOut {
   std::string message;
-  bool is_failure = false;  // rather than nothing to do
+  bool is_failure = false;  // false where there was nothing to convert
 };
 
 struct JobList {
   std::vector<ConversionJob> jobs;
   std::vector<LeftOut> left_out;
-  std::size_t unrecognised_count = 0;  // images of a folder that no naming habit knows
-  bool is_tree = false;                // many sets, or tiles: failures of one do not stop the others
-  std::string tile_noun = "tile";      // or frame
+  std::size_t unrecognised_count = 0;  // images of a folder whose names no habit matches
+  bool is_tree = false;                // several sets or tiles; a failing one does not stop the others
+  std::string tile_noun = "tile";      // "frame" for sequences
 };
 
-// `request`: what the options say of one set, or of all sets of a folder. Throws kUsage for a folder without
-// sets and where two sets would write one file; kInput where the folder or a naming file cannot be read.
+// `request` is what the options say about one set, or about all sets of a folder. Throws kUsage if the folder
+// has no sets or if two sets would write one file; kInput if the folder or a naming file cannot be read.
 JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
                         const TextureSetRequest& request);
 

@@ -12,7 +12,7 @@
 namespace remap {
 namespace {
 
-// What the options say of a parameter.
+// The value of the option of a parameter; empty where it was not given.
 const std::string& word_of(const ConvertOptions& options, Parameter parameter) {
   static const std::string kNone;
   switch (parameter) {
@@ -36,11 +36,11 @@ const std::string& word_of(const ConvertOptions& options, Parameter parameter) {
 std::optional<RoughnessConvention> convention_of(const std::string& option, const std::string& word) {
   if (word.empty()) return std::nullopt;
   const auto convention = convention_from_name(word);
-  if (!convention) fail_unknown(option, word, convention_names());
+  if (!convention) fail_unknown(option, "encoding", word, convention_names());
   return convention;
 }
 
-// `srgb`, or `specular=linear,diffuse=srgb`: of one color.
+// Finds the color space of `parameter` in a list such as `srgb` or `specular=linear,diffuse=srgb`.
 std::optional<Transfer> transfer_of(const std::string& words, Parameter parameter) {
   std::optional<Transfer> chosen;
   for (std::size_t begin = 0; begin < words.size();) {
@@ -51,13 +51,13 @@ std::optional<Transfer> transfer_of(const std::string& words, Parameter paramete
       const std::string name = word.substr(0, sign);
       const std::vector<std::string> colors = {"specular", "diffuse", "base_color"};
       if (std::find(colors.begin(), colors.end(), name) == colors.end())
-        fail_unknown("--color-space", name, colors);
+        fail_unknown("--color-space", "color", name, colors);
       word = word.substr(sign + 1);
-      if (!transfer_from_name(word)) fail_unknown("--color-space", word, transfer_names());
+      if (!transfer_from_name(word)) fail_unknown("--color-space", "color space", word, transfer_names());
       if (name != parameter_name(parameter)) continue;
     }
     chosen = transfer_from_name(word);
-    if (!chosen) fail_unknown("--color-space", word, transfer_names());
+    if (!chosen) fail_unknown("--color-space", "color space", word, transfer_names());
   }
   return chosen;
 }
@@ -65,7 +65,8 @@ std::optional<Transfer> transfer_of(const std::string& words, Parameter paramete
 std::optional<PixelType> chosen_type(const std::string& name) {
   if (name.empty()) return std::nullopt;
   const std::vector<std::string> known = {"uint8", "uint16", "half", "float"};
-  if (std::find(known.begin(), known.end(), name) == known.end()) fail_unknown("--type", name, known);
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    fail_unknown("--type", "pixel type", name, known);
   return pixel_type_from_name(name);
 }
 
@@ -74,7 +75,7 @@ constexpr NamedValues<BadTexels, 3> kBadTexels = {
 
 BadTexels bad_texels_of(const std::string& word) {
   const auto known = value_named(kBadTexels, word);
-  if (!known) fail_unknown("--bad-texels", word, names_of(kBadTexels));
+  if (!known) fail_unknown("--bad-texels", "treatment", word, names_of(kBadTexels));
   return *known;
 }
 
@@ -82,42 +83,40 @@ std::vector<float> factors_of(const std::string& option, const std::string& text
   return text.empty() ? std::vector<float>{} : parse_factors(option, text);
 }
 
-// Which parameters a set must have: the name of what is missing ends the conversion.
+// Throws for the first source parameter without an option.
 void require_parameters(const ConvertOptions& options, const WorkflowChoice& workflow) {
   for (const Parameter parameter : workflow.sources()) {
     if (!word_of(options, parameter).empty() || workflow.constants.contains(parameter)) continue;
     if (parameter == Parameter::kWidth && !options.glossiness.empty()) continue;
-    static const std::map<Parameter, std::string> kExpected = {
-        {Parameter::kWidth, "a map or a number, or --glossiness"},
-        {Parameter::kSpecular, "a map or a number (0.04 for most that is no metal)"},
-        {Parameter::kDiffuse, "a map or a number (0 for bare metal)"},
+    static const std::map<Parameter, std::string> kRemedies = {
+        {Parameter::kWidth, "a map or a number; or use --glossiness"},
+        {Parameter::kSpecular, "a map or a number; 0.04 for most dielectrics"},
+        {Parameter::kDiffuse, "a map or a number; 0 for bare metal"},
         {Parameter::kBaseColor, "a map or numbers"},
-        {Parameter::kMetallic, "a map or a number (0 where nothing is metal)"}};
+        {Parameter::kMetallic, "a map or a number; 0 for dielectrics"}};
     throw Error(ErrorKind::kUsage,
-                parameter_option(parameter) + ": is missing; expected " + kExpected.at(parameter));
+                parameter_option(parameter) + " is required (" + kRemedies.at(parameter) + ")");
   }
 }
 
-// Words that go together with a folder of sets, or with one set.
+// Refuses options of a single set with a folder, and options of a folder with a single set.
 void require_one_way(const ConvertOptions& options, const WorkflowChoice& workflow) {
   const bool glossy = !options.glossiness.empty(), is_tree = !options.folder.empty();
   if (is_tree && (glossy || !options.roughness.empty()))
-    throw Error(ErrorKind::kUsage, options.folder +
-                                       ": its sets are found by their names; expected no --roughness " +
-                                       "and no --glossiness beside it");
+    throw Error(ErrorKind::kUsage, std::string(glossy ? "--glossiness" : "--roughness") +
+                                       " cannot be used with a folder (its sets are found by name)");
   if (!is_tree && (options.recursive || options.copy_others || !options.names.empty()))
     throw Error(ErrorKind::kUsage, std::string(options.recursive     ? "--recursive"
                                                : options.copy_others ? "--copy-others"
                                                                      : "--names") +
-                                       ": is for a folder of sets; expected DIR");
+                                       " requires a folder of sets (give DIR)");
   for (const Parameter parameter : {Parameter::kBaseColor, Parameter::kDiffuse})
     if (is_tree && !workflow.has_source(parameter) && !word_of(options, parameter).empty())
-      throw Error(ErrorKind::kUsage, parameter_option(parameter) +
-                                         ": is for one set; expected --copy-others beside a folder of sets");
+      throw Error(ErrorKind::kUsage,
+                  parameter_option(parameter) + " cannot be used with a folder (use --copy-others)");
   if (!is_tree) require_parameters(options, workflow);
   if (glossy && !options.encoding.empty())
-    throw Error(ErrorKind::kUsage,
-                "--roughness-encoding: does not go with --glossiness; expected --roughness");
+    throw Error(ErrorKind::kUsage, "--roughness-encoding cannot be used with --glossiness (use --roughness)");
 }
 
 void require_numbers(const ConvertOptions& options, const std::string& option,
@@ -125,10 +124,10 @@ void require_numbers(const ConvertOptions& options, const std::string& option,
   if (const auto* map = std::get_if<MapName>(&parameter.source);
       !options.folder.empty() && map && !map->file.empty())
     throw Error(ErrorKind::kUsage,
-                option + ": is the map " + map->file.string() + "; expected numbers beside a folder of sets");
+                option + ": the map " + map->file.string() + " cannot be used with a folder (give numbers)");
 }
 
-// What the roughness maps hold: `--roughness` of a model whose own width is glossiness is roughness.
+// The encoding of the roughness maps. `--roughness` means roughness even for a model that takes glossiness.
 std::optional<RoughnessConvention> given_convention(const ConvertOptions& options,
                                                     const WorkflowChoice& workflow) {
   if (!options.glossiness.empty()) return RoughnessConvention::kGlossiness;
@@ -184,7 +183,7 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Workfl
 
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow) {
   if (!options.only.empty() && options.only != "roughness" && options.only != "specular")
-    fail_unknown("--only", options.only, {"roughness", "specular"});
+    fail_unknown("--only", "parameter", options.only, {"roughness", "specular"});
   TargetChoice choice;
   choice.folder = options.output;
   const bool is_other_kind = workflow.is_material() && kind_of(*workflow.source) != kind_of(*workflow.target);
@@ -192,7 +191,7 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
                            : is_other_kind || !workflow.constants.empty() ? "separate"
                                                                           : "as-inputs";
   const auto layout = layout_from_name(word);
-  if (!layout) fail_unknown("--layout", options.layout, layout_names());
+  if (!layout) fail_unknown("--layout", "layout", options.layout, layout_names());
   choice.layout = *layout;
   choice.extension = options.format;
   choice.type = chosen_type(options.type);

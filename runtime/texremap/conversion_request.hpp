@@ -1,4 +1,4 @@
-// What the options of `texremap convert` ask for, as the texture library takes it.
+// Translates the options of `texremap convert` into requests of the texture library.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@
 
 namespace remap {
 
-// Each throws kUsage, naming the option, for what there is not.
+// Each function throws kUsage, naming the option, for an invalid value.
 TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow);
-// Of the one set that the options name.
+// The files to copy with the one set that the options name.
 std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
 PassOptions pass_options(const ConvertOptions& options);
-// The options that results depend on, as one text.
+// All options that the results depend on, as one text to hash.
 std::string result_options_text(const ConvertOptions& options);
 InstructionSet chosen_instructions(const ConvertOptions& options);
 int thread_count(const ConvertOptions& options);

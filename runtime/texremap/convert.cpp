@@ -1,5 +1,5 @@
-// `texremap convert`: texture sets through one converter, or through a path of them. Checks everything that
-// can be checked before the first texel is read.
+// `texremap convert`: converts texture sets by one converter or by a path of converters. It checks everything
+// that can be checked before it reads the first texel.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "convert/chained_converter.hpp"
 #include "fit_file/fit_json.hpp"
@@ -27,36 +26,31 @@ namespace {
 
 constexpr const char* kProgram = "texremap";
 
-void require_agreement(const std::string& option, const std::string& asked, const std::string& file,
-                       const std::string& found) {
-  if (asked.empty() || asked == found) return;
-  throw Error(ErrorKind::kUsage, file + ": is a fit of " + found + "; expected " + asked + " of " + option);
-}
-
 void warn(const ConvertOptions& options, const std::string& message) {
   if (!options.quiet) print_message(kProgram, "warning: " + message);
 }
 
-// A fit that cannot be lowered is still converted: as it is, slowly.
+// The interpreter runs a fit that cannot be lowered, slowly.
 std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const WorkflowChoice& workflow,
                                             Fit fit, InstructionSet set) {
-  require_agreement("--from", workflow.source_brdf, options.fit, fit.source.model);
-  require_agreement("--to", workflow.target_brdf, options.fit, fit.target.model);
+  require_models_of_fit(options.fit, {workflow.source_brdf, workflow.target_brdf},
+                        {fit.source.model, fit.target.model});
   try {
     return make_lowered_converter(fit, set);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kNumeric) throw;
-    warn(options, options.fit + ": is evaluated by the interpreter, which is slow; " + error.what());
+    warn(options,
+         options.fit + ": runs in the slow interpreter, because it cannot be lowered (" + error.what() + ")");
   }
   return make_interpreted_converter(std::move(fit));
 }
 
-// What --fit names.
+// The fit that --fit names; none without that option.
 using GivenFit = std::optional<AnyFit>;
 
 const WarpMapFit* warp_in(const GivenFit& fit) { return fit ? std::get_if<WarpMapFit>(&*fit) : nullptr; }
 
-// The converter of width and specular; none where both workflows stand on one BRDF.
+// Chooses the converter of roughness and specular; none where both workflows share one BRDF.
 void choose_brdf(const ConvertOptions& options, const GivenFit& fit, InstructionSet set,
                  ChosenConverter& chosen) {
   const WorkflowChoice& workflow = chosen.workflow;
@@ -66,17 +60,16 @@ void choose_brdf(const ConvertOptions& options, const GivenFit& fit, Instruction
     chosen.path = {{chosen.owned.get()}, expected_error(chosen.owned->info())};
   } else {
     if (options.from.empty() || options.to.empty())
-      throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") +
-                                         ": is missing; expected --from and --to, or --fit");
+      throw Error(ErrorKind::kUsage,
+                  std::string(options.from.empty() ? "--from" : "--to") + " is required (or --fit)");
     if (workflow.is_material() && workflow.source_brdf == workflow.target_brdf && options.via.empty()) return;
     chosen.path =
-        compiled_graph(set).find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
+        shipped_graph(set).find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
     if (chosen.path.steps.size() > 1) chosen.owned = make_chained_converter(chosen.path.steps);
   }
   chosen.brdf = chosen.owned ? chosen.owned.get() : chosen.path.steps.front();
   if (!chosen.brdf->self_test())
-    throw Error(ErrorKind::kNumeric,
-                chosen.brdf->info().id + ": fails its self-test; expected the values it was made with");
+    throw Error(ErrorKind::kNumeric, chosen.brdf->info().id + ": self-test failed (results would be wrong)");
 }
 
 ChosenConverter choose_converter(const ConvertOptions& options, const GivenFit& fit,
@@ -100,14 +93,14 @@ bool are_constants(const TextureSetRequest& request) {
   });
 }
 
-// The name of a target: widths by what they hold.
+// The name of a target parameter; the roughness is called by its encoding.
 std::string name_of_target(const ChosenConverter& chosen, Parameter parameter, RoughnessConvention width) {
   if (parameter == Parameter::kWidth) return std::string(convention_name(width));
   if (!chosen.workflow.is_material()) return chosen.info().target.specular;
   return std::string(parameter_name(parameter));
 }
 
-// Numbers alone: no map is read or written.
+// Converts numbers; no map is read or written.
 void convert_values(const ConvertOptions& options, const ChosenConverter& chosen,
                     const TextureSetRequest& request) {
   const PassOptions pass = pass_options(options);
@@ -138,11 +131,12 @@ void convert_values(const ConvertOptions& options, const ChosenConverter& chosen
       maps.targets[parameter].channels.push_back(float_channel(&value, 1));
   }
   values.in_domain = convert_maps(*chosen.material, maps).out_of_domain_count == 0;
-  if (!values.in_domain) warn(options, "the values are outside " + domain_text(chosen.domain()));
+  if (!values.in_domain)
+    warn(options, "the values are outside the domain (" + domain_text(chosen.domain()) + ")");
   print_values(chosen, values, options.json);
 }
 
-// What a folder's roughness maps are taken for, where that is not what most tools write.
+// Warns if roughness maps of a folder are read in another encoding than most tools write.
 void warn_of_encoding(const ConvertOptions& options, const JobList& list, const ModelSide& source) {
   if (options.folder.empty() || !options.encoding.empty() ||
       source.roughness == RoughnessConvention::kRoughness)
@@ -150,16 +144,15 @@ void warn_of_encoding(const ConvertOptions& options, const JobList& list, const 
   const bool matters = std::any_of(list.jobs.begin(), list.jobs.end(),
                                    [](const ConversionJob& job) { return !job.request.convention; });
   if (matters)
-    warn(options, "roughness maps are read as " + std::string(convention_name(source.roughness)) + ", as " +
-                      source.model +
-                      " has it; --roughness-encoding roughness where they hold its square root");
+    warn(options, "roughness maps are read as " + std::string(convention_name(source.roughness)) +
+                      ", the parameter of " + source.model +
+                      " (use --roughness-encoding roughness if they hold its square root)");
 }
 
 void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chosen,
                      const TextureSetRequest& request) {
   const auto start = std::chrono::steady_clock::now();
-  if (options.output.empty())
-    throw Error(ErrorKind::kUsage, "--output: is missing; expected a folder for the results");
+  if (options.output.empty()) throw Error(ErrorKind::kUsage, "--output is required");
   const JobList list = conversion_jobs(options, chosen.workflow, request);
   warn_of_encoding(options, list, chosen.info().source);
   Outcome outcome{chosen, list, run_jobs(list, chosen, options), options.dry_run, 0.0, {}};
@@ -174,14 +167,14 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
   if (const std::size_t failed = outcome.failed_count(); failed > 0)
     throw Error(ErrorKind::kInput, std::to_string(failed) + " of " +
                                        std::to_string(outcome.reports.size() + list.left_out.size()) +
-                                       " sets failed; expected none");
+                                       " sets failed");
 }
 
 void convert(const ConvertOptions& options) {
   const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_any_fit(options.fit));
   const WarpMapFit* warp = warp_in(fit);
   WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
-  (void)pass_options(options);  // wrong words before anything is looked at
+  (void)pass_options(options);  // refuses invalid values before any file is read
   (void)target_choice(options, workflow);
   const TextureSetRequest request = set_request(options, workflow);
   const ChosenConverter chosen = choose_converter(options, fit, std::move(workflow));
@@ -194,32 +187,30 @@ void convert(const ConvertOptions& options) {
 
 }  // namespace
 
-void add_convert_command(CLI::App& app) {
+void add_convert_command(Command& app) {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App* command = app.add_subcommand(
-      "convert", "Convert the maps of a material: width and specular, or all of a workflow");
+  Command* command = app.add_subcommand(
+      "convert", "Convert the maps of a material: roughness and specular, or a whole workflow");
   add_convert_options(*command, *options);
   command->footer(
-      "Results have the names of the inputs. A packed map keeps its other channels bit for bit. <UDIM>, "
-      "%(UDIM)d,\n"
-      "<UVTILE>, %04d and #### in the names of maps stand for all tiles or frames. Two numbers instead of "
-      "maps are\n"
-      "converted and printed. With DIR, every set whose maps are named as Substance Painter, Poly Haven,\n"
-      "ambientCG, Quixel Megascans, glTF exporters or Mari name them is converted; one that fails does not "
-      "stop\n"
-      "the others, and makes the exit code 1.\n\n"
+      "MAP is a file, FILE:CHANNEL or FILE:R,G,B of a packed file, or linear numbers (0.5 or 0.9,0.6,0.2). "
+      "<UDIM>, %(UDIM)d, <UVTILE>, %04d and #### in a file name stand for all tiles or frames.\n\n"
+      "Results keep the names of their inputs, and a packed map keeps its other channels bit for bit. "
+      "Numbers "
+      "in place of all maps are converted and printed. With DIR, sets are found by the file names that "
+      "Substance Painter, Poly Haven, ambientCG, Quixel Megascans, glTF exporters and Mari use. A set that "
+      "fails does not stop the others; the exit code is then 1.\n\n"
       "Example:\n"
-      "  texremap convert --from mitsuba/ward --to mitsuba/as --roughness r.exr --specular s.exr -o out\n"
-      "  texremap convert --from mitsuba/ggx --to mitsuba/ward --roughness orm.png:G --roughness-encoding "
-      "\\\n"
-      "    roughness --specular 0.04 --only roughness -o out\n"
-      "  texremap convert assets --recursive --from mitsuba/ward --to mitsuba/ggx --specular 0.04 -o "
-      "converted\n"
-      "  texremap convert --from mitsuba/ward --to mitsuba/ggx --roughness 0.3 --specular 0.04\n"
-      "  texremap convert --from gltf-specgloss --to gltf --diffuse d.png --specular sg.png --glossiness "
-      "sg.png:A "
-      "\\\n"
-      "    --layout orm -o out");
+      "  texremap convert --from mitsuba/ward --to mitsuba/as \\\n"
+      "    --roughness r.exr --specular s.exr -o out\n"
+      "  texremap convert --from mitsuba/ggx --to mitsuba/ward --roughness orm.png:G \\\n"
+      "    --roughness-encoding roughness --specular 0.04 --only roughness -o out\n"
+      "  texremap convert assets --recursive --from mitsuba/ward --to mitsuba/ggx \\\n"
+      "    --specular 0.04 -o converted\n"
+      "  texremap convert --from mitsuba/ward --to mitsuba/ggx --roughness 0.3 \\\n"
+      "    --specular 0.04\n"
+      "  texremap convert --from gltf-specgloss --to gltf --diffuse d.png \\\n"
+      "    --specular sg.png --glossiness sg.png:A --layout orm -o out");
   command->callback([options] { convert(*options); });
 }
 

@@ -1,154 +1,172 @@
 #include "texremap/convert_options.hpp"
 
-#include <CLI/CLI.hpp>
+#include <initializer_list>
+#include <variant>
 
+#include "command_line/command.hpp"
 #include "remap/error.hpp"
+#include "texremap/converters_option.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remap {
 namespace {
 
-void add_input_options(CLI::App& command, ConvertOptions& options) {
-  command.add_option("DIR", options.folder, "Folder of texture sets, found by the names of their maps");
-  command.add_flag("-r,--recursive", options.recursive,
-                   "The folders below DIR, too; results mirror the tree");
-  command.add_option("--names", options.names,
-                     "Naming habits of your own (JSON), besides those of common tools");
-  CLI::Option* roughness =
-      command.add_option("--roughness", options.roughness,
-                         "Roughness of the source model: a map, FILE:CHANNEL of a packed one, or a number");
-  command
-      .add_option("--glossiness", options.glossiness,
-                  "The same as glossiness, 1 - sqrt(alpha): --roughness with --roughness-encoding glossiness")
-      ->excludes(roughness);
-  command.add_option(
-      "--specular", options.specular,
-      "Specular: a map, FILE:CHANNEL or FILE:R,G,B, or linear numbers: 0.5, or 0.9,0.6,0.2; with "
-      "DIR for the sets that have no such map");
-  command.add_option("--occlusion", options.occlusion,
-                     "Ambient occlusion: not converted; goes where --layout has a place for it");
-  command.add_option("--metallic", options.metallic,
-                     "Metallic of a metallic workflow: a map, FILE:CHANNEL, or a number; else it is not "
-                     "converted and goes where --layout has a place for it");
-  command.add_option("--diffuse", options.diffuse,
-                     "Diffuse of a specular workflow: a map or linear numbers; else the file is copied "
-                     "beside the results");
-  command.add_option("--base-color", options.base_color,
-                     "Base color of a metallic workflow: a map or linear numbers; else the file is copied "
-                     "beside the results");
-  command.add_option("--roughness-factor", options.roughness_factor,
-                     "Multiplies the roughness map (or the glossiness map) before it is read");
-  command.add_option("--specular-factor", options.specular_factor,
-                     "Multiplies linear specular: one number, or three");
-  command.add_option("--roughness-encoding", options.encoding,
-                     "What the roughness map holds: alpha, roughness (its square root), squared, glossiness, "
-                     "exponent; the default is the source model's own");
-  command.add_option(
-      "--color-space", options.color_space,
-      "Of color maps: srgb or linear, or of one: specular=linear,diffuse=srgb. The default: sRGB for color "
-      "in whole numbers that the file says to be sRGB (PNG, JPEG, TGA), else linear");
-  command.add_flag("--resample", options.resample,
-                   "Bring smaller maps of a set to the size of the largest, linearly between texels");
-  command
-      .add_option("--bad-texels", options.bad_texels,
-                  "NaN, infinite and negative values: keep, clamp to what the converter covers, or fail")
+// An option with a value, or a flag.
+struct Entry {
+  const char* names;
+  std::variant<std::string ConvertOptions::*, bool ConvertOptions::*> member;
+  const char* value;  // name of the value in the help; unused for a flag
+  const char* description;
+};
+
+// Adds options under a heading of the help. `--help` hides groups whose names begin with "Rare".
+void add_group(Command& command, ConvertOptions& options, const char* group,
+               std::initializer_list<Entry> entries) {
+  command.option_group(group);
+  for (const Entry& entry : entries) {
+    if (const auto* text = std::get_if<std::string ConvertOptions::*>(&entry.member))
+      command.add_option(entry.names, options.*(*text), entry.description)->type_name(entry.value);
+    else
+      command.add_flag(entry.names, options.*std::get<bool ConvertOptions::*>(entry.member),
+                       entry.description);
+  }
+}
+
+void add_source_options(Command& command, ConvertOptions& options) {
+  using O = ConvertOptions;
+  add_group(
+      command, options, "Source and target",
+      {{"DIR", &O::folder, "", "Folder of texture sets, found by the names of their maps"},
+       {"--from", &O::from, "MODEL", "Source model, e.g. mitsuba/ward"},
+       {"--to", &O::to, "MODEL", "Target model, e.g. mitsuba/as"},
+       {"--fit", &O::fit, "FILE", "Convert by this fit (JSON) instead of a shipped converter"},
+       {"-r,--recursive", &O::recursive, "", "Convert the subfolders of DIR, too; results mirror the tree"}});
+  command.add_option("--via", options.via, "Model that the path must pass through; repeatable, in order")
+      ->allow_extra_args(false)
+      ->excludes(command.option("--fit"))
+      ->type_name("MODEL");
+  add_converters_option(command);
+}
+
+// The footer of the command explains the value MAP.
+void add_map_options(Command& command, ConvertOptions& options) {
+  using O = ConvertOptions;
+  add_group(
+      command, options, "Maps",
+      {{"--roughness", &O::roughness, "MAP", "Roughness of the source model"},
+       {"--glossiness", &O::glossiness, "MAP", "Glossiness, 1 - sqrt(alpha), in place of the roughness"},
+       {"--specular", &O::specular, "MAP",
+        "Specular color; with DIR, numbers for sets without a specular map"},
+       {"--diffuse", &O::diffuse, "MAP", "Diffuse color of a specular workflow; else the file is copied"},
+       {"--base-color", &O::base_color, "MAP", "Base color of a metallic workflow; else the file is copied"},
+       {"--metallic", &O::metallic, "MAP",
+        "Metallic of a metallic workflow; else --layout places it unconverted"},
+       {"--occlusion", &O::occlusion, "MAP", "Ambient occlusion; --layout places it unconverted"},
+       {"--roughness-encoding", &O::encoding, "NAME",
+        "What the roughness map holds: alpha, roughness (its square root), squared, glossiness or exponent "
+        "(default: what the source model takes)"},
+       {"--color-space", &O::color_space, "NAME",
+        "srgb or linear, or per map: specular=linear,diffuse=srgb (default: srgb for integer color that the "
+        "file tags as sRGB, else linear)"},
+       {"--resample", &O::resample, "", "Enlarge smaller maps of a set to the largest size, bilinearly"},
+       {"--names", &O::names, "FILE", "More file-name habits for the maps in DIR (JSON)"}});
+  command.option("--glossiness")->excludes(command.option("--roughness"));
+}
+
+void add_output_options(Command& command, ConvertOptions& options) {
+  using O = ConvertOptions;
+  add_group(command, options, "Output",
+            {{"-o,--output", &O::output, "DIR", "Folder for the results, which keep the names of the inputs"},
+             {"--layout", &O::layout, "NAME",
+              "Files to write: as-inputs, separate, orm, arm or specgloss (default: as-inputs; separate "
+              "between workflows)"},
+             {"--format", &O::format, "EXT", "File extension of the results: exr, tif, png, ..."},
+             {"--type", &O::type, "NAME", "Pixel type of the results: uint8, uint16, half or float"},
+             {"--only", &O::only, "NAME", "Write only roughness or only specular"},
+             {"--copy-others", &O::copy_others, "",
+              "With DIR, also copy the maps that are not converted (normal, height, ...)"},
+             {"--force", &O::force, "",
+              "Overwrite existing results (never an input); accept maps that were already converted"},
+             {"--resume", &O::resume, "",
+              "Skip sets whose results exist and were made from the same inputs and options"},
+             {"--dry-run", &O::dry_run, "", "List the files that would be written; write nothing"},
+             {"--json", &O::json, "", "Print a report with histograms as JSON"},
+             {"--quiet", &O::quiet, "", "Print nothing but errors to standard error"}});
+}
+
+void add_workflow_options(Command& command, ConvertOptions& options) {
+  using O = ConvertOptions;
+  add_group(
+      command, options, "Whole materials (metallic and specular workflows)",
+      {{"--from-workflow", &O::from_workflow, "NAME",
+        "Workflow around the source model: specular (diffuse, specular) or metallic (base color, metallic)"},
+       {"--to-workflow", &O::to_workflow, "NAME", "Workflow around the target model"},
+       {"--dielectric-f0", &O::dielectric_f0, "VALUE",
+        "F0 of dielectrics: a number, or estimate to derive it from the maps (default: that of the metallic "
+        "model, 0.04)"},
+       {"--diffuse-convention", &O::diffuse_convention, "NAME",
+        "Meaning of the source's diffuse: plain (reflectance) or scaled (times 1 - max(specular), as in "
+        "glTF; "
+        "default: that of the source model)"}});
+  add_group(
+      command, options, "Rare: how metallic is found",
+      {{"--formula", &O::formula, "NAME",
+        "projection (default, smallest visible error), equation-3, equation-3-mean or khronos"},
+       {"--prior", &O::prior, "VALUE",
+        "How strongly projection prefers 0 and 1: clean (default), noisy (scans, JPEG) or a number from "
+        "0 to 1"},
+       {"--metal-mask", &O::metal_mask, "MAP",
+        "Map of the metals, which decides between metallic values that look alike"},
+       {"--smooth-metallic", &O::smooth_metallic, "",
+        "Where metallic is undetermined, follow the texels around it; reads the maps twice"}});
+}
+
+void add_rare_options(Command& command, ConvertOptions& options) {
+  using O = ConvertOptions;
+  add_group(command, options, "Rare: encodings and factors",
+            {{"--output-encoding", &O::output_encoding, "NAME",
+              "What the roughness results hold (default: as the inputs where that is known, else what the "
+              "target model takes)"},
+             {"--roughness-factor", &O::roughness_factor, "NUMBER",
+              "Multiply the roughness or glossiness map before it is decoded"},
+             {"--specular-factor", &O::specular_factor, "NUMBERS",
+              "Multiply linear specular by one number, or by three"},
+             {"--dither", &O::dither, "", "Add repeatable noise of half a step to 8-bit results"}});
+  add_group(
+      command, options, "Rare: diagnosis maps",
+      {{"--mask", &O::mask, "FILE", "Also write this map: 1 where a texel is outside the domain"},
+       {"--residual", &O::residual, "FILE",
+        "Also write this map: what metal-rough cannot represent; rendered pictures differ by 0.42 of it"},
+       {"--metallic-width", &O::metallic_width, "FILE",
+        "Also write this map: the share of [0, 1] in which metallic may lie; above 0.2 it is "
+        "undetermined"},
+       {"--doubts", &O::doubts, "FILE",
+        "Also write this map of doubts, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined"}});
+  add_group(command, options, "Rare: checks",
+            {{"--bad-texels", &O::bad_texels, "NAME",
+              "NaN, infinite and negative values: keep, clamp (to the domain) or fail"}});
+  command.option("--bad-texels")->capture_default_str();
+  add_group(command, options, "Rare: speed",
+            {{"--instructions", &O::instructions, "NAME",
+              "baseline, avx2 or avx512; results are identical (default: the widest of this processor)"}});
+  command.add_option("--threads", options.thread_count, "Number of threads; 0 for one per core")
+      ->range(0, 1024)
       ->capture_default_str();
-}
-
-void add_output_options(CLI::App& command, ConvertOptions& options) {
-  command.add_option("-o,--output", options.output, "Folder of the results; their names are the inputs'");
-  command.add_option(
-      "--layout", options.layout,
-      "Files of the results: as-inputs (the default, but between workflows); separate (a file each); orm "
-      "or arm (occlusion, roughness, metallic; and the colors); specgloss (specular, and glossiness in "
-      "alpha; and diffuse)");
-  command.add_option("--only", options.only, "Convert roughness or specular alone, the other one only read");
-  command.add_option(
-      "--output-encoding", options.output_encoding,
-      "What the roughness results hold; the default is what --roughness-encoding or the name of the "
-      "map says, else the target model's own");
-  command.add_option("--mask", options.mask, "Name of a map to write as well: 1 for texels out of domain");
-  command.add_option(
-      "--residual", options.residual,
-      "Name of a map to write as well: what metallic cannot say of the texel; 0.42 of it is the "
-      "difference of the pictures");
-  command.add_option(
-      "--metallic-width", options.metallic_width,
-      "Name of a map to write as well: share of [0, 1] in which metallic could lie; above 0.2 it "
-      "is a guess");
-  command.add_option(
-      "--doubts", options.doubts,
-      "Name of a map to write as well: why metallic or base color may not be those that were meant; in 8 "
-      "bits the sum of 1 (clamped), 2 (two answers look alike), 4 (too dark to tell), 8 (metallic is a "
-      "guess)");
-  command.add_option("--format", options.format, "Extension of the results: exr, tif, png, ...");
-  command.add_option("--type", options.type, "Pixel type of the results: uint8, uint16, half, float");
-  command.add_flag("--dither", options.dither,
-                   "Noise of half a step where results have 8 bits; the same in every run");
-  command.add_flag("--copy-others", options.copy_others,
-                   "With DIR: copy the other maps of each set as well (base color, normal, ...)");
-  command.add_flag("--dry-run", options.dry_run, "Say what would be written, and write nothing");
-  command.add_flag(
-      "--resume", options.resume,
-      "Leave out sets whose results are there and were made of the same inputs and options; make "
-      "the others");
-  command.add_flag("--force", options.force,
-                   "Replace results that exist (never an input); convert converted maps");
-}
-
-void add_workflow_options(CLI::App& command, ConvertOptions& options) {
-  command.add_option(
-      "--from-workflow", options.from_workflow,
-      "Of a BRDF model: specular (diffuse and specular) or metallic (base color and metallic)");
-  command.add_option("--to-workflow", options.to_workflow, "The same of the target");
-  command.add_option(
-      "--dielectric-f0", options.dielectric_f0,
-      "F0 of what is no metal: a number, or estimate from the maps; the default is that of the "
-      "metallic model, 0.04");
-  command.add_option(
-      "--diffuse-convention", options.diffuse_convention,
-      "What diffuse of the source means: plain (reflectance) or scaled (times 1 - max(specular), "
-      "as in glTF); the default is the model's own");
-  command.add_option("--formula", options.formula,
-                     "To metallic: projection (the default: the least difference of pictures), equation-3, "
-                     "equation-3-mean, khronos");
-  command.add_option(
-      "--prior", options.prior,
-      "How much the projection prefers 0 and 1: clean (the default), noisy (scans, JPEG), or a "
-      "number");
-  command.add_option("--metal-mask", options.metal_mask,
-                     "Map of what is metal: chooses among metallic values that look alike");
-  command.add_flag("--smooth-metallic", options.smooth_metallic,
-                   "Where metallic is a guess on which the picture does not depend, follow the texels around "
-                   "it that can tell; reads the maps twice");
 }
 
 }  // namespace
 
-void fail_unknown(const std::string& option, const std::string& word, const std::vector<std::string>& known) {
-  throw Error(ErrorKind::kUsage, option + ": is " + word + suggestion(word, known));
+void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
+                  const std::vector<std::string>& known) {
+  throw Error(ErrorKind::kUsage, option + ": unknown " + noun + " '" + word + "'" + suggestion(word, known));
 }
 
-void add_convert_options(CLI::App& command, ConvertOptions& options) {
-  command.add_option("--from", options.from, "Source model, e.g. mitsuba/ward");
-  command.add_option("--to", options.to, "Target model, e.g. mitsuba/as");
-  CLI::Option* via =
-      command
-          .add_option("--via", options.via,
-                      "Model that the path must go through; give it again for more, in their order")
-          ->allow_extra_args(false);
-  command.add_option("--fit", options.fit, "Lower this fit (JSON) instead of taking compiled converters")
-      ->excludes(via);
-  add_workflow_options(command, options);
-  add_input_options(command, options);
+void add_convert_options(Command& command, ConvertOptions& options) {
+  add_source_options(command, options);
+  add_map_options(command, options);
   add_output_options(command, options);
-  command.add_option("--threads", options.thread_count, "Threads; 0, the default, is one a core")
-      ->check(CLI::Range(0, 1024));
-  command.add_option("--instructions", options.instructions,
-                     "baseline, avx2 or avx512; the default is the widest of this processor. The results "
-                     "are the same");
-  command.add_flag("--json", options.json, "Machine-readable result on standard output, with histograms");
-  command.add_flag("--quiet", options.quiet, "Nothing on standard error but failures");
+  add_workflow_options(command, options);
+  add_rare_options(command, options);
 }
 
 }  // namespace remap

@@ -1,17 +1,15 @@
-// The words of `texremap convert` and what they ask for.
+// The options of `texremap convert`, as the user gave them.
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "command_line/command.hpp"
 
 namespace remap {
 
 struct ConvertOptions {
-  std::string folder;  // of sets; empty: the set that the options name
+  std::string folder;  // of texture sets; empty where the options name one set
   std::string names;
   bool recursive = false;
   bool dry_run = false;
@@ -60,10 +58,10 @@ struct ConvertOptions {
   bool quiet = false;
 };
 
-void add_convert_options(CLI::App& command, ConvertOptions& options);
+void add_convert_options(Command& command, ConvertOptions& options);
 
-// Throws kUsage for a word that `option` does not know.
-[[noreturn]] void fail_unknown(const std::string& option, const std::string& word,
+// Throws kUsage: `option` got `word`, but the `known` names of a `noun` are others.
+[[noreturn]] void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
                                const std::vector<std::string>& known);
 
 }  // namespace remap

@@ -14,15 +14,15 @@
 namespace remap {
 namespace {
 
-// `diffuse plain, F0 of a dielectric 0.04`.
+// `diffuse plain, dielectric F0 0.04`.
 std::string conventions_text(const WorkflowEnd& end) {
   std::string text = "diffuse " + std::string(diffuse_convention_name(diffuse_of(end)));
   if (const auto* metallic = std::get_if<MetallicWorkflow>(&end))
-    text += ", F0 of a dielectric " + number_text(metallic->dielectric_f0);
+    text += ", dielectric F0 " + number_text(metallic->dielectric_f0);
   return text;
 }
 
-// Both ends of a workflow, and what is between.
+// Both ends of a workflow conversion, and the steps between them.
 std::string material_text(const ChosenConverter& chosen) {
   const WorkflowChoice& workflow = chosen.workflow;
   const auto end_text = [](const WorkflowEnd& end) {
@@ -39,18 +39,18 @@ std::string material_text(const ChosenConverter& chosen) {
   return text;
 }
 
-// The id of one converter; the models of a path.
+// The id of a single converter, or the models of a path.
 std::string converter_text(const ChosenConverter& chosen) {
   if (chosen.workflow.is_material()) return material_text(chosen);
   if (chosen.path.steps.size() == 1) return chosen.info().id;
   return models_text(chosen.path) + " (expected error " + expected_text(chosen.path.expected_error) + ")";
 }
 
-// What texels were outside of.
+// The domain that texels were outside of.
 std::string outside_text(const ChosenConverter& chosen) {
   const std::string domain = domain_text(chosen.domain());
-  if (chosen.path.steps.size() <= 1) return domain;
-  return "what one of the steps covers (the path: " + domain + ")";
+  return chosen.path.steps.size() <= 1 ? "the domain (" + domain + ")"
+                                       : "the domain of a step (path: " + domain + ")";
 }
 
 Json position_json(const std::optional<TexelPosition>& texel) {
@@ -59,11 +59,11 @@ Json position_json(const std::optional<TexelPosition>& texel) {
 
 std::string first_text(const MapStatistics& counts) {
   if (!counts.first_bad) return "";
-  return "; the first bad texel is (" + std::to_string(counts.first_bad->x) + ", " +
+  return "; first bad texel: (" + std::to_string(counts.first_bad->x) + ", " +
          std::to_string(counts.first_bad->y) + ")";
 }
 
-// The file that holds it; null where there is none.
+// The result that holds `parameter`; null where none does.
 Json file_json(const JobReport& report, Parameter parameter) {
   for (const JobReport::Result& result : report.results)
     if (std::find(result.parameters.begin(), result.parameters.end(), parameter) != result.parameters.end())
@@ -114,7 +114,7 @@ Json converter_json(const ChosenConverter& chosen) {
   return json;
 }
 
-// How far metallic can be trusted.
+// The reliability of the metallic that was found.
 Json metallic_json(const MetallicStatistics& metallic) {
   if (metallic.texel_count == 0) return {};
   return {{"texels", metallic.texel_count},
@@ -158,9 +158,7 @@ std::string files_text(const JobReport& report) {
   for (std::size_t i = 0; i < std::min(results.size(), kShown); ++i)
     text += (i == 0 ? "" : ", ") + results[i].path.string();
   if (results.size() > kShown) text += " and " + std::to_string(results.size() - kShown) + " more";
-  if (!report.copies.empty())
-    text += (report.copies.size() == 1 ? ", and a copy of " : ", and copies of ") +
-            counted(report.copies.size(), "other file");
+  if (!report.copies.empty()) text += ", plus " + counted(report.copies.size(), "copied file");
   return text;
 }
 
@@ -216,7 +214,7 @@ std::string_view state_text(const JobReport& report, bool dry_run) {
   return dry_run ? "planned" : "converted";
 }
 
-// Of one set among many.
+// One set of a tree.
 Json set_json(const ChosenConverter& chosen, const JobReport& report, bool dry_run) {
   Json json = {{"name", report.name},
                {"state", state_text(report, dry_run)},
@@ -294,24 +292,22 @@ double f0_of(const ChosenConverter& chosen, const DielectricF0& estimated) {
   return std::get<MetallicWorkflow>(*chosen.workflow.target).dielectric_f0;
 }
 
-// How far the metallic that was found can be trusted.
+// Prints the reliability of the metallic that was found.
 void print_confidence(const std::string& program, const std::string& place, const ChosenConverter& chosen,
                       const JobReport& report) {
   const MapStatistics& counts = report.statistics;
   const MetallicStatistics& metallic = counts.metallic;
   if (const auto& f0 = report.estimated_f0)
-    print_message(program, place + "the maps' own F0 of a dielectric is about " +
-                               number_text(rounded(f0->f0)) +
-                               (f0->is_certain ? "" : ", but hardly any texel tells") + "; " +
+    print_message(program, place + "dielectric F0 estimated from the maps: " + number_text(rounded(f0->f0)) +
+                               (f0->is_certain ? "" : " (uncertain: too few texels)") + "; " +
                                number_text(f0_of(chosen, *f0)) + " is used");
   if (counts.masked_count > 0)
     print_message(program, place + std::to_string(counts.masked_count) +
-                               " texels with alpha 0: converted, and not counted below");
+                               " transparent texels are converted, but not counted below");
   if (counts.above_one_count > 0)
     print_message(program,
                   place + "warning: " + std::to_string(counts.above_one_count) +
-                      " texels with values above 1, which reflect more than they receive: held at 1; "
-                      "expected emission in a map of its own");
+                      " texels reflect more than 1; clamped to 1 (put emission into a map of its own)");
   if (metallic.texel_count == 0) return;
   const auto share = [&](std::size_t count) {
     std::array<char, 32> text;
@@ -322,13 +318,12 @@ void print_confidence(const std::string& program, const std::string& place, cons
   std::array<char, 96> residual;
   std::snprintf(residual.data(), residual.size(), "%.4f rms, %.3f at most", metallic.rms_residual(),
                 static_cast<double>(metallic.largest_residual));
-  print_message(program, place + "what metallic cannot say (residual): " + residual.data() +
+  print_message(program, place + "not representable in metal-rough (residual): " + residual.data() +
                              "; pictures differ by about 0.42 of it");
-  print_message(program, place + "metallic is a guess that the picture does not depend on in " +
-                             share(metallic.guess.count) + " of the texels (" + share(metallic.dark.count) +
-                             " too dark to tell); two answers look alike in " +
-                             share(metallic.two_answers.count) + ", clamped " +
-                             share(metallic.clamped.count));
+  print_message(program, place + "metallic undetermined, no visible effect: " + share(metallic.guess.count) +
+                             " (too dark: " + share(metallic.dark.count) +
+                             "); ambiguous: " + share(metallic.two_answers.count) +
+                             "; clamped: " + share(metallic.clamped.count));
 }
 
 }  // namespace
@@ -343,9 +338,9 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
   }
   if (report.was_done) return;
   if (outcome.dry_run) {
-    print_message(program, place + "would make " + files_text(report) + " of " +
-                               counted(report.inputs.size(), "file") + ", the first " +
-                               report.inputs.front().string());
+    print_message(program, place + "would write " + files_text(report) + " from " +
+                               counted(report.inputs.size(), "file") +
+                               " (first: " + report.inputs.front().string() + ")");
     return;
   }
   const MapStatistics& counts = report.statistics;
@@ -356,7 +351,7 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
   line(counts.texel_count, " texels in " + seconds_text(report.seconds) + by + ": " + files_text(report));
   print_confidence(program, place, outcome.chosen, report);
   line(counts.out_of_domain_count, " texels outside " + outside_text(outcome.chosen) +
-                                       ": width clamped, specular extrapolated in proportion");
+                                       ": roughness clamped, specular extrapolated in proportion");
   line(counts.nan_count, " texels with NaN" + first_text(counts));
   line(counts.infinite_count, " texels with infinite values" + first_text(counts));
   line(counts.negative_count, " texels with negative values" + first_text(counts));
@@ -372,7 +367,7 @@ void print_summary(const std::string& program, const Outcome& outcome) {
     texels += report.statistics.texel_count;
   }
   for (const LeftOut& entry : outcome.list.left_out)
-    print_message(program, (entry.is_failure ? "failed: " : "left out: ") + entry.message);
+    print_message(program, (entry.is_failure ? "failed: " : "skipped: ") + entry.message);
   std::string text = counted(done, "set") + (outcome.dry_run ? " would be converted by " : " converted by ") +
                      converter_text(outcome.chosen) + ", " + std::to_string(outcome.failed_count()) +
                      " failed";
@@ -381,8 +376,7 @@ void print_summary(const std::string& program, const Outcome& outcome) {
     text += "; " + std::to_string(texels) + " texels in " + seconds_text(outcome.seconds) + ", " +
             seconds_text(outcome.used.processor_seconds) + " of processor time";
   if (outcome.list.unrecognised_count > 0)
-    text +=
-        "; " + counted(outcome.list.unrecognised_count, "image") + " that no naming habit knows left alone";
+    text += "; unrecognised images skipped: " + std::to_string(outcome.list.unrecognised_count);
   print_message(program, text);
 }
 
@@ -407,7 +401,7 @@ void print_values(const ChosenConverter& chosen, const ConvertedValues& values, 
     print(result);
     return;
   }
-  // Six digits are what a float holds, and more than any map.
+  // Six digits: the precision of a float.
   std::cout << std::setprecision(6);
   for (const ConvertedValues::Value& value : values.values) {
     std::cout << value.name;

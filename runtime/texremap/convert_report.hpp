@@ -1,4 +1,4 @@
-// What `texremap convert` says of a conversion that is done, to people and to scripts.
+// The report of `texremap convert` about a finished conversion, as text lines and as JSON.
 #pragma once
 
 #include <cstdint>
@@ -16,75 +16,75 @@
 
 namespace remap {
 
-// What a run converts with: converters that are compiled in or were made for it, of a fit or of the steps of
-// a path, and the workflows around them.
+// The converter of a run, and the workflows around it. It is compiled in, made from a fit, or chained from
+// the steps of a path.
 struct ChosenConverter {
   std::unique_ptr<Converter> owned;
-  const Converter* brdf = nullptr;  // of width and specular; null where both ends have one BRDF
-  ConverterPath path;               // its steps
+  const Converter* brdf = nullptr;  // roughness and specular; null where both ends share a BRDF
+  ConverterPath path;               // the steps of `brdf`
   WorkflowChoice workflow;
-  std::unique_ptr<MaterialConverter> material;  // all of it
+  std::unique_ptr<MaterialConverter> material;  // the whole conversion
 
   const ConverterInfo& info() const noexcept { return material->info(); }
-  // What tells its domain.
+  // The converter whose domain limits the conversion.
   const ConverterInfo& domain() const noexcept { return brdf != nullptr ? brdf->info() : info(); }
 };
 
 // The stages of a conversion between workflows.
 WorkflowStages stages_of(const ChosenConverter& chosen);
-// What results say that they were made by: the ids of the steps, and the formula of a workflow.
+// The text that results carry as `remap:converter`: the ids of the steps, and the formula of a workflow.
 std::string converter_ids(const ChosenConverter& chosen);
 
-// What came of one set, of all its tiles.
+// The outcome of one set with all its tiles.
 struct JobReport {
   struct Result {
     std::filesystem::path path;
-    std::vector<Parameter> parameters;  // what it holds
+    std::vector<Parameter> parameters;  // that the file holds
     bool mask = false;
   };
   std::string name;                // empty for the one set of a command line
-  std::vector<std::string> tiles;  // those that were converted; empty where the set has none
+  std::vector<std::string> tiles;  // converted tiles; empty where the set has no tiles
   std::vector<std::filesystem::path> inputs;
-  std::vector<Result> results;                // those that would be, in a dry run and after a failure
-  std::vector<std::filesystem::path> copies;  // the same, of files that are carried along
+  std::vector<Result> results;                // the planned ones in a dry run and after a failure
+  std::vector<std::filesystem::path> copies;  // files that are not converted; also planned ones
   Transfer specular_transfer = Transfer::kLinear;
-  std::optional<DielectricF0> estimated_f0;  // of maps of the specular workflow, on their way to metallic
+  std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
   std::vector<std::string> warnings;
   std::optional<std::string> failure;
-  bool was_done = false;  // by an earlier run, which this one resumes
+  bool was_done = false;  // by the earlier run that this one resumes
   MapStatistics statistics;
-  double seconds = 0.0;           // of all tiles together, whatever ran at once
-  std::uintmax_t bytes_read = 0;  // sizes of the files
+  double seconds = 0.0;           // sum over all tiles, even where tiles ran in parallel
+  std::uintmax_t bytes_read = 0;  // sizes of the files on disk
   std::uintmax_t bytes_written = 0;
 
-  // `other`: of the next tile of the set.
+  // Adds the report of the next tile of the set.
   JobReport& operator+=(const JobReport& other);
 };
 
-// All of them.
+// The outcome of the whole run.
 struct Outcome {
   const ChosenConverter& chosen;
   const JobList& list;
-  std::vector<JobReport> reports;  // one a set
+  std::vector<JobReport> reports;  // one per set
   bool dry_run = false;
   double seconds = 0.0;
-  ResourceUse used;  // processor time short of seconds times threads was waiting
+  ResourceUse used;  // threads waited for the rest of seconds x threads
 
-  std::size_t failed_count() const;  // sets, and what was left out and should not have been
+  std::size_t failed_count() const;  // failed sets and the failures among `list.left_out`
 };
 
-// The lines for one set: on standard error, to people.
+// Prints the lines about one set to standard error.
 void print_job(const std::string& program, const Outcome& outcome, const JobReport& report);
-// The line for all: sets, texels, time.
+// Prints the line about the whole run: sets, texels, time.
 void print_summary(const std::string& program, const Outcome& outcome);
 void print_json(const Outcome& outcome);
 
-// Of a conversion without maps.
+// The result of a conversion of numbers, without maps.
 struct ConvertedValues {
   struct Value {
     std::string name;
     std::vector<float> channels;
-    bool is_scalar = false;  // a number rather than a list in JSON
+    bool is_scalar = false;  // JSON shows a number, not a list
   };
   std::vector<Value> values;
   bool in_domain = true;

@@ -1,4 +1,4 @@
-// How commands show converters and paths, to people and as JSON.
+// Converters and paths as text and as JSON, for all commands.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@ using Json = nlohmann::ordered_json;
 // `alpha 0.01 to 1`.
 std::string range_text(std::string_view name, const Range& range);
 
-// `alpha 0.01 to 1, specular 0 to 0.5`: what a converter covers of its source.
+// `alpha 0.01 to 1, specular 0 to 0.5`: the domain of a converter.
 std::string domain_text(const ConverterInfo& info);
 
-// An error figure, rounded up to two digits.
+// An RMS error, rounded up to two digits.
 std::string figure_text(double error);
 
-// An expected error, which is an estimate, rounded up to three digits.
+// An expected error, rounded up to three digits. It is an estimate.
 std::string expected_text(double error);
 
 // `image 0.059, fit rms 0.00026 in alpha and 4.1e-05 in f0`.
@@ -32,7 +32,7 @@ std::string models_text(const ConverterPath& path);
 
 Json side_json(const ModelSide& side);
 Json domain_json(const ConverterInfo& info);
-// Of the fit, and null for an image error that is unknown.
+// The errors of the fit; null for an unknown error.
 Json errors_json(const ConverterInfo& info);
 // The ids of the steps.
 Json path_json(const ConverterPath& path);

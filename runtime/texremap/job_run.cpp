@@ -21,10 +21,10 @@
 namespace remap {
 namespace {
 
-// A set's share of the progress line, whatever its size.
+// The share of one set in the progress line, independent of its size.
 constexpr std::size_t kSetProgress = 1000;
 
-// Each once: a file of several parts is several maps.
+// Each file once: a file of several parts is several maps.
 std::vector<std::filesystem::path> files_of(const TextureSet& set) {
   std::vector<std::filesystem::path> files;
   for (const ImageReader& map : set.maps)
@@ -42,7 +42,8 @@ std::uintmax_t size_of(const std::vector<std::filesystem::path>& files) {
   return bytes;
 }
 
-// Of what the results of a set are made: the bytes of its files, the converter, the options.
+// A hash of everything that the results of a set depend on: the bytes of its files, the converter, the
+// options.
 std::string hash_of(const std::vector<std::filesystem::path>& files, const ChosenConverter& chosen,
                     const ConvertOptions& options) {
   ContentHash hash;
@@ -64,8 +65,7 @@ Metadata metadata_of(const ChosenConverter& chosen, const std::string& hash) {
           {"remap:inputs", hash}};
 }
 
-// A map that was converted already holds parameters of another model, unless that is the one to start from,
-// under whatever name.
+// Refuses maps that were converted before to another model than the source of this conversion.
 void require_not_converted(const TextureSet& set, const ChosenConverter& chosen, bool force) {
   if (force) return;
   const std::string& source = chosen.info().source.model;
@@ -78,19 +78,19 @@ void require_not_converted(const TextureSet& set, const ChosenConverter& chosen,
   for (const ImageReader& map : set.maps) {
     const std::optional<std::string> model = noted_metadata(map, "remap:target");
     if (model && *model != source && !holds_materials_of(*model, end, brdf))
-      throw Error(ErrorKind::kUsage, map.path().string() + ": was converted to " + *model +
-                                         " already; expected a map of " + source + ", or --force");
+      throw Error(ErrorKind::kUsage, map.path().string() + ": already converted to " + *model +
+                                         ", but the source is " + source + " (--force converts it anyway)");
   }
 }
 
-// Whether `path` is a result of these inputs and options. Formats without metadata never are.
+// Whether `path` is a result of these inputs and options. Without metadata the answer is no.
 bool is_made_of(const std::filesystem::path& path, const std::string& hash) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   try {
     return noted_metadata(ImageReader(path), "remap:inputs") == hash;
   } catch (const Error&) {
-    return false;  // no whole image: somebody else's
+    return false;  // an incomplete image is not ours
   }
 }
 
@@ -107,15 +107,14 @@ bool is_copy_of(const std::filesystem::path& path, const std::filesystem::path& 
   return hash_of_file(path) == hash_of_file(source);
 }
 
-// Whether all results are there already. Throws kOutput for a file that is there and is none of them.
+// Whether all results exist already. Throws kOutput for an existing file of other inputs or options.
 bool all_done(const TargetPlan& plan, const std::string& hash, bool force) {
   bool all = true;
   const auto look = [&](const std::filesystem::path& path, bool is_ours) {
     std::error_code ignored;
     if (!is_ours && !force && std::filesystem::exists(path, ignored))
       throw Error(ErrorKind::kOutput,
-                  path.string() + ": exists, and was not made of these inputs and options; expected a name " +
-                      "that is free, or --force");
+                  path.string() + ": already exists, made from other inputs or options (--force overwrites)");
     all = all && is_ours;
   };
   for (const PlannedMap& map : plan.maps) look(map.path, is_made_of(map.path, hash));
@@ -145,7 +144,7 @@ class JobRunner {
     pass_.cancelled = &interruption();
   }
 
-  // `progress`: gets the share of the set that is done, 0 to 1.
+  // `progress` receives the finished share of the set, 0 to 1.
   void run(const ConversionJob& job, const std::function<void(double)>& progress, JobReport& report) const;
 
  private:
@@ -154,12 +153,12 @@ class JobRunner {
 
   const ChosenConverter& chosen_;
   const ConvertOptions& options_;
-  TargetChoice choice_;  // but for what belongs to one set
+  TargetChoice choice_;  // without the members that differ between sets
   PassOptions pass_;
 };
 
-// Looks at the maps of a workflow. Returns a converter of the set's own where the F0 of its dielectrics is to
-// be that of the maps.
+// Samples the maps of a workflow and notes warnings. Returns a converter for this set alone if its dielectric
+// F0 is to be estimated from the maps.
 std::unique_ptr<MaterialConverter> JobRunner::survey(TextureSet& set, JobReport& report) const {
   const WorkflowChoice& workflow = chosen_.workflow;
   if (!workflow.is_material()) return nullptr;
@@ -172,8 +171,8 @@ std::unique_ptr<MaterialConverter> JobRunner::survey(TextureSet& set, JobReport&
   if (!workflow.estimates_f0) return nullptr;
   if (!report.estimated_f0 || !report.estimated_f0->is_certain) {
     report.warnings.push_back(report.inputs.front().string() +
-                              ": hardly any texel tells the F0 of a dielectric; the default is used, or "
-                              "--dielectric-f0 VALUE");
+                              ": too few texels to estimate the dielectric F0; the default is used "
+                              "(--dielectric-f0 VALUE sets it)");
     return nullptr;
   }
   std::get<MetallicWorkflow>(stages.target).dielectric_f0 = std::round(report.estimated_f0->f0 * 1e4) / 1e4;
@@ -187,8 +186,8 @@ void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>&
     const auto note = [&](const std::string& name, const std::string& value) {
       const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };
       if (std::none_of(set.carried.begin(), set.carried.end(), has_name))
-        report.warnings.push_back(targets.front().writer.path().string() + ": has no " + name + " map; " +
-                                  name + " is " + value);
+        report.warnings.push_back(targets.front().writer.path().string() + ": no " + name + " map; " + name +
+                                  " is set to " + value);
     };
     note("occlusion", "1");
     if (!chosen_.workflow.is_to_metallic()) note("metallic", "0");
@@ -196,7 +195,7 @@ void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>&
   for (const TargetMap& target : targets) {
     if (const std::string& lossy = target.writer.layout().lossy_compression; !lossy.empty())
       report.warnings.push_back(target.writer.path().string() + ": " + lossy +
-                                " compression changes values; --format png or exr keeps them");
+                                " compression changes values (--format png or exr keeps them)");
   }
 }
 
@@ -215,7 +214,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   const bool needs_hash = options_.resume || !options_.dry_run;
   const std::string hash = needs_hash ? hash_of(report.inputs, chosen_, options_) : "";
   choice.metadata = metadata_of(chosen_, hash);
-  choice.force = options_.force || options_.resume;  // what is there is looked at below
+  choice.force = options_.force || options_.resume;  // existing files are checked below
   choice.copies = job.copies;
   const TargetPlan plan = plan_targets(set, choice);
   for (const PlannedMap& map : plan.maps) report.results.push_back(result_of(map));
@@ -230,7 +229,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   std::vector<TargetMap> targets = open_targets(set, plan, choice);
   note_doubts(set, targets, report);
   PassOptions pass = pass_;
-  // Results hold what the inputs hold, where that was named; those of a workflow what its model says.
+  // Results have the encoding of the inputs if that was given. Those of a workflow follow its model.
   if (choice.layout == Layout::kSpecGloss) pass.target_convention = RoughnessConvention::kGlossiness;
   if (!pass.target_convention)
     pass.target_convention =
@@ -243,7 +242,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The line that a person waits by.
+// The progress line of the whole run.
 class JobProgress {
  public:
   JobProgress(const JobList& list, const std::string& converter, bool shown)
@@ -266,10 +265,10 @@ class JobProgress {
   std::mutex mutex_;
   std::size_t done_ = 0;
   std::size_t texels_ = 0;
-  Progress line_;  // after the counts that its first text shows
+  Progress line_;  // declared after the counts that its first text needs
 };
 
-// Tiles of one set, which follow one another, as one report.
+// Merges the reports of the tiles of each set, which follow one another.
 std::vector<JobReport> merged(std::vector<JobReport> tiles) {
   std::vector<JobReport> sets;
   for (JobReport& tile : tiles) {
@@ -306,8 +305,7 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
     } catch (const Error& error) {
       if (!list.is_tree) throw;
       if (error.kind() == ErrorKind::kInterrupted)
-        throw Error(error.kind(),
-                    "interrupted: the sets that were done are whole; --resume makes the others");
+        throw Error(error.kind(), "interrupted: finished sets are complete (--resume converts the others)");
       reports[i].failure = error.what();
       reports[i].tiles.clear();
     }

@@ -5,8 +5,8 @@
 
 namespace remap {
 
-// The reports of all sets, in their order. A failing job of a tree is part of its report; that of a single
-// set is thrown, and so is kInterrupted.
+// Returns the reports of all sets, in order. In a tree, the report of a set holds its failure; the failure of
+// a single set is thrown. kInterrupted is always thrown.
 std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chosen,
                                 const ConvertOptions& options);
 

@@ -1,13 +1,13 @@
-// `texremap list`: the converters that were compiled in, and whether they still compute what they should; or
-// the models that they join.
+// `texremap list`: the converters with the result of their self-tests, their models, or the workflows.
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
+#include "commands/converters_option.hpp"
 #include "convert/path.hpp"
+#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
@@ -47,7 +47,7 @@ void print_converter(const Converter& converter) {
 void list_converters(const ListOptions& options) {
   Json all = Json::array();
   std::string failed;
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     if (options.json)
       all.push_back(converter_json(*converter));
     else
@@ -56,12 +56,12 @@ void list_converters(const ListOptions& options) {
   }
   if (options.json) std::cout << all.dump(2) << '\n';
   if (!failed.empty())
-    throw Error(ErrorKind::kNumeric, failed + ": fails its self-test; expected the values it was made with");
+    throw Error(ErrorKind::kNumeric, failed + ": self-test failed (results would be wrong)");
 }
 
-// The two parameters of a model, as a converter to or from it knows them.
+// The two parameters of a model, as given by a converter from or to it.
 ModelSide side_of(const std::string& model) {
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     if (converter->info().source.model == model) return converter->info().source;
     if (converter->info().target.model == model) return converter->info().target;
   }
@@ -69,7 +69,7 @@ ModelSide side_of(const std::string& model) {
 }
 
 void list_models(const ListOptions& options) {
-  const ConverterGraph graph = compiled_graph();
+  const ConverterGraph graph = shipped_graph();
   Json all = Json::array();
   for (const std::string& model : graph.models()) {
     Json entry = side_json(side_of(model));
@@ -113,8 +113,8 @@ void print_workflow(const WorkflowModel& model) {
             << "  takes    " << (metallic != nullptr ? "base color, metallic and " : "diffuse, specular and ")
             << convention_name(width_of(model.end)) << '\n'
             << "  diffuse  " << diffuse_convention_name(diffuse_of(model.end));
-  if (metallic != nullptr) std::cout << ", F0 of a dielectric " << metallic->dielectric_f0;
-  std::cout << (model.conventions_known ? "" : ", unless you say otherwise") << '\n'
+  if (metallic != nullptr) std::cout << ", dielectric F0 " << metallic->dielectric_f0;
+  std::cout << (model.conventions_known ? "" : " (assumed)") << '\n'
             << "  over     " << model.brdf << '\n'
             << "  because  " << model.reason << '\n';
 }
@@ -132,15 +132,15 @@ void list_workflows(const ListOptions& options) {
 
 }  // namespace
 
-void add_list_command(CLI::App& app) {
+void add_list_command(Command& app) {
   auto options = std::make_shared<ListOptions>();
-  CLI::App* command = app.add_subcommand("list", "List the converters that are compiled in, or their models");
-  command->add_flag("--models", options->models, "The models instead, and which others each one reaches");
-  command->add_flag(
-      "--workflows", options->workflows,
-      "The workflows that have a name instead, with their conventions; every model of --models is "
-      "one, too, by --from-workflow and --to-workflow");
-  command->add_flag("--json", options->json, "Machine-readable result on standard output");
+  Command* command = app.add_subcommand("list", "List the converters, their models, or the workflows");
+  command->add_flag("--models", options->models, "List the models, and the models that each one reaches");
+  command->add_flag("--workflows", options->workflows,
+                    "List the named workflows with their conventions. `convert` combines other models with a "
+                    "workflow by --from-workflow and --to-workflow");
+  add_converters_option(*command);
+  command->add_flag("--json", options->json, "Print JSON");
   command->footer("Example:\n  texremap list --json\n  texremap list --workflows");
   command->callback([options] {
     if (options->workflows) return list_workflows(*options);

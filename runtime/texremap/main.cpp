@@ -1,8 +1,7 @@
 // texremap: converts texture maps from the parameters of one BRDF model to those of another.
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/run_app.hpp"
 #include "remap/version.hpp"
@@ -10,14 +9,15 @@
 
 int main(int argc, char** argv) {
   remap::watch_interruptions();
-  CLI::App app("Convert texture maps from the parameters of one BRDF model to those of another.", "texremap");
+  Command app("Convert texture maps from the parameters of one BRDF model to those of another.", "texremap");
   app.set_version_flag("--version", std::string("texremap ") + remap::kVersion);
   app.require_subcommand(1);
   remap::add_convert_command(app);
   remap::add_list_command(app);
   remap::add_path_command(app);
   app.footer(
-      "Example:\n  texremap convert --from mitsuba/ward --to mitsuba/as --roughness r.exr --specular s.exr "
-      "-o out");
+      "Example:\n"
+      "  texremap convert --from mitsuba/ward --to mitsuba/as \\\n"
+      "    --roughness r.exr --specular s.exr -o out");
   return remap::run_app(app, argc, argv);
 }

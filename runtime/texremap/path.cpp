@@ -1,5 +1,5 @@
-// `texremap path`: which converters `convert` takes from one model to another, what to expect of them, and
-// why these.
+// `texremap path`: explains which converters `convert` uses from one model to another, with their errors and
+// the reason for the choice.
 #include "convert/path.hpp"
 
 #include <iostream>
@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "convert/chained_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
+#include "texremap/converters_option.hpp"
 #include "texremap/workflow_choice.hpp"
 
 namespace remap {
 namespace {
 
-// The path itself and the next best two.
+// The chosen path and the next best two.
 constexpr std::size_t kPathsShown = 3;
 
 struct PathOptions {
@@ -25,14 +25,14 @@ struct PathOptions {
   bool json = false;
 };
 
-// Why the first of `paths` is the one.
+// The reason why the first of `paths` was chosen.
 std::string reason(const std::vector<ConverterPath>& paths) {
   if (paths.size() == 1) return "it is the only path";
   const ConverterPath &best = paths[0], &next = paths[1];
   if (best.expected_error < next.expected_error) return "its expected error is the least";
   if (best.steps.size() < next.steps.size())
-    return "no path has a smaller expected error, and of those that have the same it has the fewest steps";
-  return "no path has a smaller expected error or, with the same, fewer steps; it is the first by its ids";
+    return "it has the fewest steps of the paths with the least expected error";
+  return "it is the first, by its ids, of the shortest paths with the least expected error";
 }
 
 void print_step(std::size_t number, const ConverterInfo& info) {
@@ -41,7 +41,7 @@ void print_step(std::size_t number, const ConverterInfo& info) {
             << "     covers   " << domain_text(info) << '\n'
             << "     expected error " << expected_text(expected_error(info));
   if (!info.image_rms_error)
-    std::cout << ", with " << figure_text(kAssumedImageError) << " for the image error that is unknown";
+    std::cout << ", with " << figure_text(kAssumedImageError) << " for the unknown image error";
   std::cout << '\n';
 }
 
@@ -96,14 +96,14 @@ std::string end_text(const WorkflowEnd& end, const std::string& brdf) {
          ", diffuse " + std::string(diffuse_convention_name(diffuse_of(end)));
 }
 
-// What becomes of a material, before and after the converters of width and specular.
+// The stages of a material conversion, with the models at both ends.
 std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
   std::vector<std::string> stages = {end_text(*choice.source, choice.source_brdf)};
   const bool from_metallic = kind_of(*choice.source) == WorkflowKind::kMetallic;
   if (from_metallic && (choice.source_brdf != choice.target_brdf || !choice.is_to_metallic()))
     stages.push_back("to diffuse and specular by equation (2), exact");
   if (choice.source_brdf != choice.target_brdf)
-    stages.push_back("width and specular from " + choice.source_brdf + " to " + choice.target_brdf);
+    stages.push_back("roughness and specular from " + choice.source_brdf + " to " + choice.target_brdf);
   if (choice.is_to_metallic())
     stages.push_back("to base color and metallic by " + std::string(formula_name(choice.formula)));
   stages.push_back(end_text(*choice.target, choice.target_brdf));
@@ -126,7 +126,7 @@ void explain(const PathOptions& asked) {
       std::cout << Json{{"stages", stages}, {"path", Json::array()}, {"expected_error", 0.0}}.dump(2) << '\n';
     return;
   }
-  const ConverterGraph graph = compiled_graph();
+  const ConverterGraph graph = shipped_graph();
   const std::vector<ConverterPath> paths = graph.find_paths(options.request, kPathsShown);
   const ConverterInfo whole = make_chained_converter(paths.front().steps)->info();
   if (options.json)
@@ -137,17 +137,22 @@ void explain(const PathOptions& asked) {
 
 }  // namespace
 
-void add_path_command(CLI::App& app) {
+void add_path_command(Command& app) {
   auto options = std::make_shared<PathOptions>();
-  CLI::App* command =
-      app.add_subcommand("path", "Explain which converters lead from one model to another, and why these");
-  command->add_option("--from", options->request.source, "Source model, e.g. mitsuba/ward")->required();
-  command->add_option("--to", options->request.target, "Target model, e.g. mitsuba/as")->required();
+  Command* command = app.add_subcommand("path", "Explain which converters lead from one model to another");
+  command->add_option("--from", options->request.source, "Source model, e.g. mitsuba/ward")
+      ->required()
+      ->type_name("MODEL");
+  command->add_option("--to", options->request.target, "Target model, e.g. mitsuba/as")
+      ->required()
+      ->type_name("MODEL");
   command
       ->add_option("--via", options->request.via,
-                   "Model that the path must go through; give it again for more, in their order")
-      ->allow_extra_args(false);
-  command->add_flag("--json", options->json, "Machine-readable result on standard output");
+                   "Model that the path must pass through; repeatable, in order")
+      ->allow_extra_args(false)
+      ->type_name("MODEL");
+  add_converters_option(*command);
+  command->add_flag("--json", options->json, "Print JSON");
   command->footer(
       "Example:\n  texremap path --from mitsuba/ward --to mitsuba/as\n"
       "  texremap path --from mitsuba/ward --to gltf");

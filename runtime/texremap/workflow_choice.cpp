@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "convert/path.hpp"
+#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
 
@@ -12,25 +13,25 @@ namespace {
 std::optional<WorkflowKind> kind_named(const std::string& option, const std::string& word) {
   if (word.empty()) return std::nullopt;
   const auto kind = workflow_kind_from_name(word);
-  if (!kind) fail_unknown(option, word, workflow_kind_names());
+  if (!kind) fail_unknown(option, "workflow", word, workflow_kind_names());
   return kind;
 }
 
-// A model of the graph has its own width parameter; a name that there is not is refused where the path is
-// looked for.
+// The roughness parameter of a model of the graph. An unknown model is refused later, by the search for a
+// path.
 RoughnessConvention width_of_brdf(const std::string& model) {
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     if (converter->info().source.model == model) return converter->info().source.roughness;
     if (converter->info().target.model == model) return converter->info().target.roughness;
   }
   return RoughnessConvention::kAlpha;
 }
 
-// One end before both are known.
+// One end of the conversion, before both ends are known.
 struct NamedEnd {
   std::string option, name;
-  const WorkflowModel* model = nullptr;  // of that name
-  std::optional<WorkflowKind> kind;      // that was asked for
+  const WorkflowModel* model = nullptr;  // null where `name` is a BRDF model
+  std::optional<WorkflowKind> kind;      // as `--from-workflow` or `--to-workflow` says
 
   bool has_workflow() const { return model != nullptr || kind; }
   WorkflowModel workflow() const {
@@ -43,9 +44,9 @@ struct NamedEnd {
 NamedEnd named_end(const std::string& option, const std::string& name, const std::string& kind) {
   NamedEnd end{option, name, find_workflow_model(name), kind_named(option + "-workflow", kind)};
   if (end.model != nullptr && end.kind && *end.kind != kind_of(end.model->end))
-    throw Error(ErrorKind::kUsage, option + "-workflow: is " + kind + ", and " + name + " has the " +
+    throw Error(ErrorKind::kUsage, option + "-workflow: " + name + " has the " +
                                        std::string(workflow_kind_name(kind_of(end.model->end))) +
-                                       " workflow; expected that, or no such option");
+                                       " workflow, not " + kind + " (remove this option)");
   return end;
 }
 
@@ -57,28 +58,31 @@ void set_f0(std::optional<WorkflowEnd>& end, double f0) {
   if (auto* metallic = end ? std::get_if<MetallicWorkflow>(&*end) : nullptr) metallic->dielectric_f0 = f0;
 }
 
-// The maps' diffuse convention, and that of a target that names none.
+// Sets the diffuse convention of the source, and of a target whose model leaves it open.
 void choose_diffuse(const ConvertOptions& options, const WorkflowModel& source, const WorkflowModel& target,
                     WorkflowChoice& choice) {
   if (!options.diffuse_convention.empty()) {
     const auto convention = diffuse_convention_from_name(options.diffuse_convention);
     if (!convention)
-      fail_unknown("--diffuse-convention", options.diffuse_convention, diffuse_convention_names());
+      fail_unknown("--diffuse-convention", "convention", options.diffuse_convention,
+                   diffuse_convention_names());
     set_diffuse(*choice.source, *convention);
   } else if (!source.conventions_known) {
     const std::string other = diffuse_of(*choice.source) == DiffuseConvention::kPlain ? "scaled" : "plain";
     choice.assumptions.push_back(
-        "diffuse of " + model_of(*choice.source) + " is taken as " +
-        std::string(diffuse_convention_name(diffuse_of(*choice.source))) +
-        ", which no map can tell; --diffuse-convention " + other +
-        (other == "scaled" ? " where the light that specular reflects is taken from it, as in glTF" : ""));
+        "diffuse of " + model_of(*choice.source) + " is assumed to be " +
+        std::string(diffuse_convention_name(diffuse_of(*choice.source))) + " (--diffuse-convention " + other +
+        (other == "scaled" ? " excludes the light that specular reflects, as in glTF)" : " changes that)"));
   }
   if (!target.conventions_known) set_diffuse(*choice.target, diffuse_of(*choice.source));
 }
 
-double number_of(const std::string& option, const std::string& text, const std::string& expected) {
+// The number from 0 to `highest` in `text`; `allowed` tells the user what the option takes.
+double number_of(const std::string& option, const std::string& text, double highest,
+                 const std::string& allowed) {
   const auto number = parse_number(text);
-  if (!number) throw Error(ErrorKind::kUsage, option + ": is " + text + "; expected " + expected);
+  if (!number || !(*number >= 0.0 && *number <= highest))
+    throw Error(ErrorKind::kUsage, option + ": invalid value '" + text + "' (use " + allowed + ")");
   return *number;
 }
 
@@ -89,18 +93,15 @@ void choose_f0(const ConvertOptions& options, WorkflowChoice& choice) {
   if (options.dielectric_f0 == "estimate") {
     if (!to_metallic_alone)
       throw Error(ErrorKind::kUsage,
-                  "--dielectric-f0: is estimate, which takes maps of the specular workflow and a metallic "
-                  "target; expected a number");
+                  "--dielectric-f0: estimate requires maps of the specular workflow and a metallic target "
+                  "(give a number)");
     choice.estimates_f0 = true;
     return;
   }
-  const double f0 = number_of("--dielectric-f0", options.dielectric_f0, "0 to 0.9, or estimate");
-  if (!(f0 >= 0.0 && f0 <= 0.9))
-    throw Error(ErrorKind::kUsage,
-                "--dielectric-f0: is " + options.dielectric_f0 + "; expected 0 to 0.9, or estimate");
+  const double f0 = number_of("--dielectric-f0", options.dielectric_f0, 0.9, "0 to 0.9, or estimate");
   if (kind_of(*choice.source) == WorkflowKind::kSpecular && !choice.is_to_metallic())
     throw Error(ErrorKind::kUsage,
-                "--dielectric-f0: is for metallic, which neither end has; expected no such option");
+                "--dielectric-f0 requires a model of the metallic workflow (remove this option)");
   choice.f0_given = true;
   set_f0(choice.source, f0);
   set_f0(choice.target, f0);
@@ -111,21 +112,19 @@ WorkflowFormula formula_of(const ConvertOptions& options) {
   if (options.prior == "noisy")
     prior = kNoisyPrior;
   else if (!options.prior.empty() && options.prior != "clean")
-    prior = number_of("--prior", options.prior, "clean, noisy, or a number from 0 to 1");
-  if (!(prior >= 0.0 && prior <= kLargestPrior))
-    throw Error(ErrorKind::kUsage,
-                "--prior: is " + options.prior + "; expected clean, noisy, or a number from 0 to 1");
+    prior = number_of("--prior", options.prior, kLargestPrior, "clean, noisy, or a number from 0 to 1");
   const std::string& name = options.formula;
   if (name.empty() || name == "projection") return Projection{prior};
   if (!options.prior.empty())
-    throw Error(ErrorKind::kUsage, "--prior: is of --formula projection; expected no --formula " + name);
+    throw Error(ErrorKind::kUsage,
+                "--prior cannot be used with --formula " + name + " (only with projection)");
   if (name == "equation-3") return Equation3{MetallicMean::kAlbedo};
   if (name == "equation-3-mean") return Equation3{MetallicMean::kPlain};
   if (name == "khronos") return KhronosSolver{};
-  fail_unknown("--formula", name, {"projection", "equation-3", "equation-3-mean", "khronos"});
+  fail_unknown("--formula", "formula", name, {"projection", "equation-3", "equation-3-mean", "khronos"});
 }
 
-// Options that mean nothing for width and specular alone, or for a target without metallic.
+// Refuses options that require a workflow, or a target with metallic.
 void require_workflow(const ConvertOptions& options, const WorkflowChoice& choice) {
   struct Entry {
     const char* option;
@@ -145,15 +144,14 @@ void require_workflow(const ConvertOptions& options, const WorkflowChoice& choic
     if (!choice.is_material())
       throw Error(ErrorKind::kUsage,
                   std::string(entry.option) +
-                      ": is for workflows; expected --from-workflow or --to-workflow, or a "
-                      "model that has one (texremap list --workflows)");
+                      " requires a workflow (set --from-workflow or --to-workflow, or choose a model of "
+                      "texremap list --workflows)");
     if (entry.needs_metallic && !choice.is_to_metallic())
       throw Error(ErrorKind::kUsage,
-                  std::string(entry.option) + ": is for metallic results; expected a metallic target");
+                  std::string(entry.option) + " requires a metallic target (set --to or --to-workflow)");
   }
   if (choice.is_material() && !options.only.empty())
-    throw Error(ErrorKind::kUsage,
-                "--only: is for width and specular alone; expected no such option beside a workflow");
+    throw Error(ErrorKind::kUsage, "--only cannot be used with a workflow (remove this option)");
 }
 
 }  // namespace
@@ -179,8 +177,7 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
   choice.target_brdf = options.to;
   if (from.has_workflow() || to.has_workflow()) {
     if (options.from.empty() || options.to.empty())
-      throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") +
-                                         ": is missing; expected --from and --to");
+      throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") + " is required");
     const WorkflowModel source = from.workflow(), target = to.workflow();
     choice.source_brdf = source.brdf;
     choice.target_brdf = target.brdf;
@@ -190,8 +187,8 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
     choose_f0(options, choice);
     choice.formula = formula_of(options);
     if (choice.source == choice.target)
-      throw Error(ErrorKind::kUsage,
-                  options.from + " to " + options.to + ": is the same material; expected two models");
+      throw Error(ErrorKind::kUsage, "--to: " + options.to + " is the same material as --from " +
+                                         options.from + " (choose another model)");
   }
   require_workflow(options, choice);
   return choice;
@@ -199,42 +196,49 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
 
 namespace {
 
-// A warp whose source was diffuse alone knows nothing of a lobe beside it.
-void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
-  const std::pair<const char*, bool> refused[] = {{"--from-workflow", !options.from_workflow.empty()},
-                                                  {"--specular", !options.specular.empty()},
-                                                  {"--specular-factor", !options.specular_factor.empty()},
-                                                  {"--roughness", !options.roughness.empty()},
-                                                  {"--roughness-factor", !options.roughness_factor.empty()},
-                                                  {"--roughness-encoding", !options.encoding.empty()},
-                                                  {"--glossiness", !options.glossiness.empty()}};
-  for (const auto& [option, given] : refused)
+using GivenOptions = std::vector<std::pair<const char*, bool>>;  // name, and whether it was given
+
+void refuse_with_warp(const GivenOptions& options, const std::string& warp) {
+  for (const auto& [option, given] : options)
     if (given)
-      throw Error(ErrorKind::kUsage, std::string(option) + ": means nothing to the warp " + options.fit +
-                                         ", whose source is a diffuse map alone; expected no such option");
+      throw Error(ErrorKind::kUsage,
+                  std::string(option) + " cannot be used with the warp " + warp + " (remove this option)");
+}
+
+// The source of the warp is a diffuse map alone, so the conversion has neither specular nor roughness maps.
+void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
+  refuse_with_warp({{"--from-workflow", !options.from_workflow.empty()},
+                    {"--specular", !options.specular.empty()},
+                    {"--specular-factor", !options.specular_factor.empty()},
+                    {"--roughness", !options.roughness.empty()},
+                    {"--roughness-factor", !options.roughness_factor.empty()},
+                    {"--roughness-encoding", !options.encoding.empty()},
+                    {"--glossiness", !options.glossiness.empty()}},
+                   options.fit + ", which converts a diffuse map alone");
   std::get<SpecularWorkflow>(*choice.source).width = RoughnessConvention::kAlpha;
   choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kWidth, {1.0f}}};
 }
 
 }  // namespace
 
-WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
-  const std::pair<const char*, bool> refused[] = {
-      {"--to-workflow", !options.to_workflow.empty()},
-      {"--dielectric-f0", !options.dielectric_f0.empty()},
-      {"--diffuse-convention", !options.diffuse_convention.empty()}};
-  for (const auto& [option, given] : refused)
-    if (given)
-      throw Error(ErrorKind::kUsage, std::string(option) + ": means nothing to the warp " + options.fit +
-                                         ", which has seen its maps; expected no such option");
-  const auto require_model = [&](const char* option, const std::string& asked, const std::string& own) {
-    if (!asked.empty() && asked != own)
-      throw Error(ErrorKind::kUsage,
-                  options.fit + ": is a warp of " + own + "; expected " + asked + " of " + option);
+void require_models_of_fit(const std::string& file, const ModelPair& asked, const ModelPair& own) {
+  const auto require = [&](const std::string& role, const std::string& option, const std::string& wanted,
+                           const std::string& found) {
+    if (!wanted.empty() && wanted != found)
+      throw Error(ErrorKind::kUsage, file + ": " + role + " model is " + found + ", but " + option +
+                                         " asks for " + wanted + " (remove " + option + ")");
   };
-  require_model("--from", options.from, fit.source_model);
-  require_model("--to", options.to, fit.template_model);
-  RoughnessConvention width = RoughnessConvention::kRoughness;  // as the warp was made from such maps
+  require("source", "--from", asked.source, own.source);
+  require("target", "--to", asked.target, own.target);
+}
+
+WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
+  refuse_with_warp({{"--to-workflow", !options.to_workflow.empty()},
+                    {"--dielectric-f0", !options.dielectric_f0.empty()},
+                    {"--diffuse-convention", !options.diffuse_convention.empty()}},
+                   options.fit);
+  require_models_of_fit(options.fit, {options.from, options.to}, {fit.source_model, fit.template_model});
+  RoughnessConvention width = RoughnessConvention::kRoughness;  // the warp was made from such maps
   if (!options.glossiness.empty())
     width = RoughnessConvention::kGlossiness;
   else if (const auto named = convention_from_name(options.encoding))
@@ -242,7 +246,7 @@ WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit&
   WorkflowChoice choice;
   choice.source_brdf = fit.source_model;
   choice.target_brdf = fit.template_model;
-  // As `remapc warp` reads metallic sets: by equation (2), diffuse plain.
+  // `remapc warp` reads metallic sets in the same way: by equation (2), with plain diffuse.
   if (kind_named("--from-workflow", options.from_workflow) == WorkflowKind::kMetallic)
     choice.source = MetallicWorkflow{fit.source_model, kCommonDielectricF0, DiffuseConvention::kPlain, width};
   else

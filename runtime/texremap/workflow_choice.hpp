@@ -1,5 +1,5 @@
-// What `--from`, `--to` and the options of workflows mean: which material each end is, and which conventions
-// had to be assumed.
+// The meaning of `--from`, `--to` and the workflow options: the material at each end, and the conventions
+// that had to be assumed.
 #pragma once
 
 #include <map>
@@ -15,33 +15,40 @@ namespace remap {
 
 struct WorkflowChoice {
   std::string source_brdf, target_brdf;  // models of the graph of converters
-  // Both or none: with none width and specular alone are converted.
+  // Both or neither are set. Without them, roughness and specular alone are converted.
   std::optional<WorkflowEnd> source, target;
-  std::map<Parameter, ConstantValues> constants;  // of the source, in place of maps that it has not
+  std::map<Parameter, ConstantValues> constants;  // source values in place of missing maps
   WorkflowFormula formula = Projection{kCleanPrior};
-  bool estimates_f0 = false;  // use the F0 that the maps tell
+  bool estimates_f0 = false;  // use the F0 estimated from the maps
   bool f0_given = false;
-  std::vector<std::string> assumptions;  // one message each
+  std::vector<std::string> assumptions;  // one message per assumption
 
   bool is_material() const noexcept { return source.has_value(); }
   bool is_to_metallic() const noexcept {
     return is_material() && kind_of(*target) == WorkflowKind::kMetallic;
   }
-  // A parameter that the source has maps of, in the order of Parameter.
+  // The parameters of the source and of the target, in the order of Parameter.
   std::vector<Parameter> sources() const;
   std::vector<Parameter> targets() const;
   bool has_source(Parameter parameter) const;
 };
 
-// `--from` or `--to` may be missing beside `--fit`. Throws kUsage for a word that there is not, for a
-// workflow that a named model does not have, and for options that need a workflow where there is none.
+// `--from` and `--to` are optional with `--fit`. Throws kUsage for an unknown name, for a workflow that
+// contradicts the named model, and for options that require a workflow where neither end has one.
 WorkflowChoice workflow_choice(const ConvertOptions& options);
 
-// What a warp converts: diffuse, specular and a width of both ends, in the encoding that the options name.
-// Throws kUsage for options that mean nothing beside it, and for models that are not the warp's.
+// The choice for a warp: both ends have diffuse, specular and roughness, in the encoding that the options
+// name. Throws kUsage for options that cannot be used with a warp, and for models other than the warp's.
 WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit);
 
-// The same for two names alone.
+// workflow_choice() for `--from` and `--to` alone.
 WorkflowChoice workflow_between(const std::string& from, const std::string& to);
+
+struct ModelPair {
+  std::string source, target;
+};
+// Throws kUsage if the models of the fit in `file` are not the `asked` ones; an empty name asks for any
+// model.
+void require_models_of_fit(const std::string& file, const ModelPair& asked, const ModelPair& own);
 
 }  // namespace remap

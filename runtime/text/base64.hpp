@@ -1,4 +1,4 @@
-// Bytes as text (RFC 4648).
+// Base64 (RFC 4648).
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace remap {
 inline constexpr std::string_view kBase64Digits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-// `bytes`: a string, or a list of bytes. Padded to groups of four.
+// Encodes `bytes`, a string or a list of bytes, and pads the text to groups of four characters.
 template <typename Bytes>
 std::string base64(const Bytes& bytes) {
   std::string text;

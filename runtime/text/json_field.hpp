@@ -1,4 +1,4 @@
-// JSON files that are read with a complaint for everything that is not as expected.
+// Reads JSON files strictly: every value of the wrong kind is an error that names its place in the file.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,16 @@
 
 namespace remap {
 
-// Throws kInput, opened by `place`, for text that is no JSON.
+// Throws kInput, beginning with `place`, if `text` is not valid JSON.
 inline nlohmann::ordered_json parse_json(std::string_view text, const std::string& place) {
   try {
     return nlohmann::ordered_json::parse(text);
   } catch (const nlohmann::ordered_json::exception& failure) {
-    throw Error(ErrorKind::kInput, place + ": is no JSON: " + failure.what());
+    throw Error(ErrorKind::kInput, place + ": invalid JSON: " + failure.what());
   }
 }
 
-// A JSON value with the place it came from, so that every complaint says where.
+// A JSON value and its place, such as `fit.json.domain.alpha`, which every error begins with.
 class Field {
  public:
   Field(const nlohmann::ordered_json& value, std::string place) : value_(value), place_(std::move(place)) {}
@@ -39,7 +39,7 @@ class Field {
     require(value_.is_array() && value_.size() == count, "a list of " + std::to_string(count));
     return Field(value_[index], place_ + "[" + std::to_string(index) + "]");
   }
-  // Every entry of a list of at least `fewest`.
+  // Reads every entry of a list of at least `fewest` entries.
   template <typename Read>
   auto list(std::size_t fewest, Read read) const {
     require(value_.is_array() && value_.size() >= fewest, "a list of at least " + std::to_string(fewest));
@@ -56,7 +56,7 @@ class Field {
     require(value_.is_string(), "a text");
     const std::string text = value_.get<std::string>();
     const bool one_line = std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; });
-    require(one_line, "a text of one line");  // it may become a comment in generated code
+    require(one_line, "a text of one line");  // the text may become a comment in generated code
     return text;
   }
   double number() const {
@@ -77,8 +77,9 @@ class Field {
     for (const auto& [key, value] : value_.items()) entries[key] = read(Field(value, place_ + "." + key));
     return entries;
   }
+  // Throws `place: expected EXPECTED, found VALUE`.
   void require(bool condition, const std::string& expected) const {
-    if (!condition) fail("is " + excerpt() + "; expected " + expected);
+    if (!condition) fail("expected " + expected + ", found " + excerpt());
   }
   [[noreturn]] void fail(const std::string& what) const {
     throw Error(ErrorKind::kInput, place_ + ": " + what);

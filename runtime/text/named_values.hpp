@@ -1,4 +1,4 @@
-// Enumerators and the words that people and files call them by.
+// Names of enumerators in files and on the command line.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@ struct NamedValue {
   std::string_view name;
 };
 
-// Every enumerator once.
+// Each enumerator appears once.
 template <typename Value, std::size_t Count>
 using NamedValues = std::array<NamedValue<Value>, Count>;
 
-// Empty for a value that is not there.
+// Empty for a value that is not in the table.
 template <typename Value, std::size_t Count>
 constexpr std::string_view name_of(const NamedValues<Value, Count>& table, Value value) noexcept {
   for (const NamedValue<Value>& entry : table)
@@ -36,7 +36,7 @@ constexpr std::optional<Value> value_named(const NamedValues<Value, Count>& tabl
   return std::nullopt;
 }
 
-// In the order of the table.
+// All names in the order of the table.
 template <typename Value, std::size_t Count>
 std::vector<std::string> names_of(const NamedValues<Value, Count>& table) {
   std::vector<std::string> names;

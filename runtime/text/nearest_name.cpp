@@ -48,11 +48,11 @@ std::string closest_name(std::string_view name, std::span<const std::string> can
 
 std::string suggestion(std::string_view name, std::span<const std::string> candidates) {
   if (const std::string nearest = nearest_name(name, candidates); !nearest.empty())
-    return "; did you mean " + nearest + "?";
-  if (candidates.empty()) return "; none is known";
-  std::string text = "; known: ";
+    return " (did you mean " + nearest + "?)";
+  if (candidates.empty()) return "";
+  std::string text = " (choose ";
   for (std::size_t i = 0; i < candidates.size(); ++i) text += (i == 0 ? "" : ", ") + candidates[i];
-  return text;
+  return text + ")";
 }
 
 }  // namespace remap

@@ -1,4 +1,4 @@
-// Suggestions for mistyped names: models, converter ids, options.
+// Suggestions for mistyped names, such as models, converter ids and options.
 #pragma once
 
 #include <span>
@@ -11,11 +11,12 @@ namespace remap {
 // empty string where none is within half of the longer name.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
-// The candidate with the smallest such distance however far it is; the first of several. `candidates` is not
+// The candidate with the smallest such distance, however large; the first of equals. `candidates` must not be
 // empty.
 std::string closest_name(std::string_view name, std::span<const std::string> candidates);
 
-// `; did you mean X?` for a near name, else `; known: A, B, C`. Ready to append to a message.
+// The end of a message: ` (did you mean X?)` for a near name, else ` (choose A, B, C)`; empty without
+// candidates.
 std::string suggestion(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace remap

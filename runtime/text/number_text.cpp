@@ -18,7 +18,7 @@ double rounded_up(double value, int digits) {
   if (value == 0.0 || !std::isfinite(value)) return value;
   const double magnitude = std::floor(std::log10(std::fabs(value)));
   const double scale = std::pow(10.0, digits - 1 - magnitude);
-  // Scaling is not exact: 0.07 is 7.000000000000001 hundredths and still needs no rounding.
+  // The margin absorbs rounding errors of the scaling: 0.07 becomes 7.000000000000001 hundredths.
   const double scaled = std::ceil(std::fabs(value) * scale * (1.0 - 1e-14));
   return std::copysign(scale >= 1.0 ? scaled / scale : scaled * std::pow(10.0, magnitude - digits + 1),
                        value);
@@ -41,9 +41,7 @@ double decimal_value(float value) {
 }
 
 std::string float_literal(float value) {
-  if (!std::isfinite(value))
-    throw Error(ErrorKind::kNumeric,
-                "emit: a coefficient is not finite; generated code holds finite numbers only");
+  if (!std::isfinite(value)) throw Error(ErrorKind::kNumeric, "emit: a coefficient is not finite");
   std::array<char, 64> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   std::string text(buffer.data(), end);

@@ -1,4 +1,4 @@
-// Numbers and words in columns, as reports for people have them.
+// Numbers and words in columns, for reports.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 
 namespace remapc {
 
-// With that many decimals, and spaces before it where it is shorter than `width`.
+// `value` with `decimals` decimals, padded on the left to `width` characters.
 inline std::string fixed(double value, int decimals, int width = 0) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%*.*f", width, decimals, value);
   return text.data();
 }
 
-// With spaces behind it, or before it, where it is shorter.
+// `text` padded with spaces on the right (padded) or left (padded_left) to `width` characters.
 inline std::string padded(std::string text, std::size_t width) {
   text.resize(std::max(text.size(), width), ' ');
   return text;
@@ -28,7 +28,7 @@ inline std::string padded_left(const std::string& text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
 }
 
-// `12 %`, two digits.
+// A share as `12 %`, rounded to two digits.
 inline std::string percent(double share) {
   return remap::number_text(remap::rounded(100.0 * share, 2)) + " %";
 }
@@ -40,7 +40,7 @@ inline std::string listed(const std::vector<double>& values) {
   return text;
 }
 
-// What the rows of a table depend on: `# key: value`, a line each.
+// The settings of a table as comments: one line `# key: value` per entry.
 inline std::string comment_lines(const std::vector<std::pair<std::string, std::string>>& entries) {
   std::string text;
   for (const auto& [key, value] : entries) text += "# " + key + ": " + value + "\n";

@@ -1,4 +1,4 @@
-// Rows of floats out of channels of maps in memory, and back.
+// Loads rows of floats from channels of maps in memory, and stores them.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace remap {
 
-// Texels converted at a time: rows of floats that stay in the cache of one core.
+// The number of texels converted at a time, so that their rows stay in the cache of one core.
 inline constexpr std::size_t kSegment = 2048;
 using FloatRow = std::array<float, kSegment>;
 
@@ -28,7 +28,7 @@ inline void load(const ConstChannelView& view, const Segment& segment, float* va
               segment.count, values);
 }
 
-// Returns how many values an integer type cut to its range.
+// Returns the number of values that an integer type clipped.
 inline std::size_t store(const ChannelView& view, const Segment& segment, const float* values) {
   return store_values(view.type, values, segment.count, at(view, segment.x, segment.y),
                       static_cast<std::size_t>(view.texel_stride));

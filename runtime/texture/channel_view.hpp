@@ -1,4 +1,4 @@
-// Channels of maps in memory.
+// Views of the channels of maps in memory.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,9 @@
 
 namespace remap {
 
-// One channel of a map in memory. The value of texel (x, y) lies at first + y row_stride + x texel_stride and
-// need not be aligned. Strides are in bytes; a negative row stride is an image that begins at its bottom.
+// One channel of a map in memory. The value of texel (x, y) is at first + y row_stride + x texel_stride and
+// need not be aligned. Strides are in bytes; the row stride is negative for an image that is stored bottom
+// up.
 template <typename Byte>
 struct BasicChannelView {
   Byte* first = nullptr;
@@ -17,7 +18,7 @@ struct BasicChannelView {
   std::ptrdiff_t texel_stride = 0;
   std::ptrdiff_t row_stride = 0;
 
-  operator BasicChannelView<const Byte>() const noexcept  // what can be written can be read
+  operator BasicChannelView<const Byte>() const noexcept  // a writable channel is readable
       requires(!std::is_const_v<Byte>) {
     return {first, type, texel_stride, row_stride};
   }
@@ -25,8 +26,8 @@ struct BasicChannelView {
 using ChannelView = BasicChannelView<std::byte>;
 using ConstChannelView = BasicChannelView<const std::byte>;
 
-// A channel of packed rows of `width` texels of floats with `values_a_texel` values each, `first` being its
-// value in the first texel.
+// A channel of packed rows of `width` texels with `values_a_texel` floats each. `first` points to the value
+// of the first texel.
 ChannelView float_channel(float* first, std::size_t width, std::size_t values_a_texel = 1) noexcept;
 ConstChannelView float_channel(const float* first, std::size_t width,
                                std::size_t values_a_texel = 1) noexcept;

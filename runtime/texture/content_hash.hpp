@@ -1,4 +1,4 @@
-// What a result is made of, in a number: so that a run that goes on knows what is done.
+// A hash of the inputs of a result, by which a resumed run recognises finished results.
 #pragma once
 
 #include <array>
@@ -10,8 +10,7 @@
 
 namespace remap {
 
-// XXH3, 128 bits (Collet 2012 to 2023): as fast as memory, and no defence against anybody who wants two
-// contents of one hash.
+// XXH3, 128 bits (Collet 2012 to 2023). It is as fast as memory, and not safe against deliberate collisions.
 class ContentHash {
  public:
   ContentHash();
@@ -19,12 +18,12 @@ class ContentHash {
   ContentHash(ContentHash&&) noexcept;
   ContentHash& operator=(ContentHash&&) noexcept;
 
-  // A text with its length: `ab`, `c` and `a`, `bc` differ.
+  // Adds a text and its length, so `ab`, `c` and `a`, `bc` differ.
   void add(std::string_view text);
-  // The bytes of a file. Throws kInput where it cannot be read.
+  // Adds the bytes of a file. Throws kInput if it cannot be read.
   void add_file(const std::filesystem::path& path);
 
-  // 32 hexadecimal digits.
+  // The hash as 32 hexadecimal digits.
   std::string hex() const;
 
  private:

@@ -21,7 +21,8 @@ constexpr std::size_t kMaxChannels = 3;
 bool is_ordinary(float value, float highest) { return value >= 0.0f && value <= highest; }
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-// Even in [-1/2, 1/2), a function of the place alone (finalizer of MurmurHash3, A. Appleby, public domain).
+// Uniform noise in [-1/2, 1/2), a function of the position alone (finalizer of MurmurHash3, A. Appleby,
+// public domain).
 float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
   std::uint64_t bits = (static_cast<std::uint64_t>(y) << 32 | x) + 0x9e3779b97f4a7c15u * (channel + 1);
   bits = (bits ^ bits >> 33) * 0xff51afd7ed558ccdu;
@@ -33,7 +34,7 @@ float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
 // The rows of a segment: a row for each channel of each parameter.
 class SegmentRows {
  public:
-  // Makes the rows of a parameter; those that are there stay.
+  // Makes the rows of a parameter and keeps existing rows.
   void make(Parameter parameter, std::size_t count) {
     std::vector<FloatRow>& rows = rows_[static_cast<std::size_t>(parameter)];
     if (rows.size() < count) rows.resize(count);
@@ -43,7 +44,7 @@ class SegmentRows {
   float* row(Parameter parameter, std::size_t channel) {
     return rows_[static_cast<std::size_t>(parameter)][channel].data();
   }
-  // All that are there, from texel `begin` on.
+  // All rows, from texel `begin` on.
   template <typename Float>
   MaterialRows<Float> all(std::size_t begin = 0) {
     MaterialRows<Float> material;
@@ -63,8 +64,8 @@ class SegmentRows {
 // The parameters of one segment as rows of floats.
 struct Scratch {
   SegmentRows source, target;
-  SegmentRows given, ignored;  // what a mask is found from
-  FloatRow first, other;       // copies of one value; what is stored
+  std::array<std::uint8_t, kSegment> outside;  // what a mask is written from
+  FloatRow first, other;                       // copies of one value; what is stored
   FloatRow coverage;
 };
 
@@ -85,7 +86,7 @@ class Conversion {
   void meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
   [[noreturn]] void fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const;
   void clamp_bad(std::size_t count, Scratch& scratch) const;
-  void write_mask(const Segment& segment, std::size_t begin, std::size_t end, Scratch& scratch) const;
+  void write_mask(const Segment& segment, Scratch& scratch) const;
   std::size_t store_parameter(const TargetParameter& parameter, std::size_t channel, const Segment& segment,
                               const float* values, FloatRow& stored) const;
   void store_targets(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
@@ -97,8 +98,8 @@ class Conversion {
 
   const MaterialConverter& converter_;
   const MapConversion& maps_;
-  std::vector<Parameter> sources_;  // that the converter takes and the maps have
-  bool is_material_;                // more than width and specular
+  std::vector<Parameter> sources_;  // of the converter, as far as the maps have them
+  bool is_material_;                // more than roughness and specular
 };
 
 std::size_t channel_count(const SourceParameter& parameter) {
@@ -122,12 +123,12 @@ void Conversion::require_fitting() const {
     const std::size_t count = found == maps_.sources.end() ? 0 : channel_count(found->second);
     const std::string name = plain_name(parameter);
     if (!is_color(parameter) && (count == 0 || (found->second.channels.empty() && count > 1)))
-      fail("the " + name + " has no channel; expected one, or one constant");
+      fail(name + " has no channel (give one channel or one constant)");
     if (is_color(parameter) && count != 1 && count != kMaxChannels)
-      fail(name + " has " + std::to_string(count) + " channels; expected 1 or 3");
+      fail(name + " has " + std::to_string(count) + " channels (give 1 or 3)");
     const std::size_t factors = found->second.factors.size();
     if (factors > 1 && (!is_color(parameter) || factors != count))
-      fail("there are more factors than channels; expected one, or one a channel");
+      fail(name + " has more factors than channels (give one, or one per channel)");
   }
   const auto specular = maps_.sources.find(Parameter::kSpecular);
   const std::size_t channels = specular == maps_.sources.end() ? 3 : channel_count(specular->second);
@@ -135,11 +136,10 @@ void Conversion::require_fitting() const {
     const std::size_t written = target.channels.size(),
                       given = converter_.target_channels(parameter, channels);
     if (written == 0) continue;
-    if (!converter_.has_target(parameter))
-      fail("there is no " + plain_name(parameter) + " in the result; expected other targets");
+    if (!converter_.has_target(parameter)) fail("the converter does not make " + plain_name(parameter));
     if (is_color(parameter) && written != given && !(given == 1 && written == kMaxChannels))
-      fail("the " + plain_name(parameter) + " to write has " + std::to_string(written) +
-           " channels; expected the " + std::to_string(given) + " of the source");
+      fail("target " + plain_name(parameter) + " has " + std::to_string(written) +
+           " channels, but the converter makes " + std::to_string(given));
   }
 }
 
@@ -148,13 +148,13 @@ const TargetParameter* Conversion::wanted(Parameter parameter) const {
   return found == maps_.targets.end() || found->second.channels.empty() ? nullptr : &found->second;
 }
 
-// Measures are made where a map or the statistics hold them.
+// Measures are computed only for maps and statistics that hold them.
 bool Conversion::is_made(Parameter parameter) const {
   const bool counts = maps_.metallic_statistics && parameter != Parameter::kMetallicWidth;
   return !is_measure(parameter) || counts || wanted(parameter) != nullptr;
 }
 
-// What no material goes beyond; widths and specular alone have no such limit.
+// The largest valid value. Roughness and specular alone have no limit.
 float Conversion::highest(Parameter parameter) const {
   return is_material_ && parameter != Parameter::kWidth ? 1.0f : kLargest;
 }
@@ -194,11 +194,11 @@ void Conversion::require_grey(Parameter parameter, const Segment& segment, Scrat
                                                    : "channel " + std::to_string(channel);
     };
     throw Error(ErrorKind::kInput, source.name + ": texel (" + std::to_string(segment.x + i) + ", " +
-                                       std::to_string(maps_.first_row + segment.y) + ") is not grey, " +
-                                       name(0) + " is " + number_text(static_cast<double>(first[i])) +
-                                       " and " + name(c) + " is " +
-                                       number_text(static_cast<double>(scratch.other[i])) +
-                                       "; expected equal channels, or FILE:CHANNEL to pick one");
+                                       std::to_string(maps_.first_row + segment.y) +
+                                       ") is not grey: " + name(0) + " is " +
+                                       number_text(static_cast<double>(first[i])) + " and " + name(c) +
+                                       " is " + number_text(static_cast<double>(scratch.other[i])) +
+                                       " (choose one channel with FILE:CHANNEL)");
   }
 }
 
@@ -236,12 +236,12 @@ void Conversion::fail_bad(const Segment& segment, std::size_t texel, Scratch& sc
       throw Error(ErrorKind::kInput, source.name + ": " + of + "texel (" + std::to_string(segment.x + texel) +
                                          ", " + std::to_string(maps_.first_row + segment.y) + ") is " +
                                          number_text(static_cast<double>(value)) +
-                                         "; expected finite values from 0, or --bad-texels clamp");
+                                         " (--bad-texels clamp replaces such values)");
     }
-  throw Error(ErrorKind::kUsage, "convert_maps: no bad texel; expected one");
+  throw Error(ErrorKind::kUsage, "convert_maps: no invalid texel found");
 }
 
-// Counts them, and ends the conversion where it is to.
+// Counts invalid texels, and throws for the first one with BadTexels::kFail.
 void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
   struct CheckedRow {
     const float* values;
@@ -254,7 +254,7 @@ void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapSt
   std::size_t odd = 0;
   for (const CheckedRow& row : rows)
     for (std::size_t i = 0; i < segment.count; ++i) odd += !is_ordinary(row.values[i], row.highest);
-  if (odd == 0) return;  // as nearly always, and found out at the speed of memory
+  if (odd == 0) return;  // the usual case, detected at the speed of memory
   for (std::size_t i = 0; i < segment.count; ++i) {
     bool nan = false, infinite = false, negative = false, above = false;
     for (const CheckedRow& row : rows) {
@@ -292,20 +292,9 @@ void Conversion::clamp_bad(std::size_t count, Scratch& scratch) const {
   }
 }
 
-// The converter counts texels and names none: halves are converted again until all or none of a part are out.
-void Conversion::write_mask(const Segment& segment, std::size_t begin, std::size_t end,
-                            Scratch& scratch) const {
-  const std::size_t count = end - begin;
-  const std::size_t outside =
-      converter_.convert(count, scratch.given.all<const float>(begin), scratch.ignored.all<float>());
-  if (outside > 0 && outside < count) {
-    const std::size_t middle = begin + count / 2;
-    write_mask(segment, begin, middle, scratch);
-    write_mask(segment, middle, end, scratch);
-    return;
-  }
-  std::fill_n(scratch.other.data(), count, outside > 0 ? 1.0f : 0.0f);
-  store(*maps_.mask, {segment.x + begin, segment.y, count}, scratch.other.data());
+void Conversion::write_mask(const Segment& segment, Scratch& scratch) const {
+  for (std::size_t i = 0; i < segment.count; ++i) scratch.other[i] = scratch.outside[i] != 0 ? 1.0f : 0.0f;
+  store(*maps_.mask, segment, scratch.other.data());
 }
 
 std::size_t Conversion::store_parameter(const TargetParameter& parameter, std::size_t channel,
@@ -336,7 +325,7 @@ void Conversion::store_targets(const Segment& segment, Scratch& scratch, MapStat
     for (std::size_t c = 0; c < target->channels.size(); ++c) {
       const std::size_t own = store_parameter(
           *target, c, segment, scratch.target.row(parameter, std::min(c, made - 1)), scratch.other);
-      clipped = is_color(parameter) ? clipped + own : own;  // copies of one value count once
+      clipped = is_color(parameter) ? clipped + own : own;  // equal channels count once
     }
     statistics.clipped_count += clipped;
   }
@@ -355,19 +344,14 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
   change_convention(maps_.source_convention.value_or(info.source.roughness), info.source.roughness,
                     {scratch.source.row(Parameter::kWidth, 0), count});
   if (maps_.bad_texels == BadTexels::kClamp) clamp_bad(count, scratch);
-  if (maps_.mask) scratch.given = scratch.ignored = scratch.source;
 
   const std::size_t specular = scratch.source.count(Parameter::kSpecular);
   for (const Parameter parameter : converter_.targets())
     if (is_made(parameter)) scratch.target.make(parameter, converter_.target_channels(parameter, specular));
   statistics.out_of_domain_count +=
-      converter_.convert(count, scratch.source.all<const float>(), scratch.target.all<float>());
-  if (maps_.mask) {
-    for (const Parameter parameter : converter_.targets())
-      if (!is_measure(parameter))
-        scratch.ignored.make(parameter, converter_.target_channels(parameter, specular));
-    write_mask(segment, 0, count, scratch);
-  }
+      converter_.convert(count, scratch.source.all<const float>(), scratch.target.all<float>(),
+                         maps_.mask ? scratch.outside.data() : nullptr);
+  if (maps_.mask) write_mask(segment, scratch);
   if (converter_.can_diagnose() && maps_.metallic_statistics)
     statistics.metallic += statistics_of(count, {{segment.x, maps_.first_row + segment.y},
                                                  scratch.target.row(Parameter::kResidual, 0),

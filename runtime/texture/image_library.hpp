@@ -1,4 +1,4 @@
-// What the reader and the writer of images share: the only header that brings OpenImageIO in. Private to
+// Shared by the reader and the writer of images: the only header that includes OpenImageIO. Private to
 // image_reader.cpp, image_writer.cpp and output_spec.cpp.
 #pragma once
 
@@ -13,17 +13,17 @@
 
 namespace remap {
 
-// An attribute that keeps OpenImageIO from multiplying or dividing colors by alpha: maps hold data.
+// The attribute that stops OpenImageIO from multiplying or dividing colors by alpha, because maps hold data.
 inline constexpr const char* kUnassociatedAlpha = "oiio:UnassociatedAlpha";
 
-// The first line of a message of OpenImageIO, or `otherwise` where it said nothing.
+// The first line of a message of OpenImageIO, or `otherwise` if the message is empty.
 std::string first_line(const std::string& text, const std::string& otherwise);
 
-// The type to hand rows over in, so that none is converted. Channels of several types need TypeUnknown, which
-// the TIFF writer of OpenImageIO 2.4 gets wrong at the right and lower edge of tiled images.
+// The type for passing rows without conversion. Channels of several types need TypeUnknown, which the TIFF
+// writer of OpenImageIO 2.4 gets wrong at the right and lower edge of tiled images.
 OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec);
 
-// Throws kInput where a channel has a type that cannot be converted.
+// Throws kInput if a channel has an unsupported type.
 ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
                       const std::filesystem::path& path);
 
@@ -33,21 +33,21 @@ struct ImageReader::State {
   int part = 0;
   int part_count = 0;
   int level = 0;
-  std::vector<OIIO::ImageSpec> levels;   // specs of the part's levels, at the size that they are read in
-  bool has_assumed_color_space = false;  // OpenImageIO says sRGB, and the file does not
+  std::vector<OIIO::ImageSpec> levels;   // of the levels of the part, at the size of reading
+  bool has_assumed_color_space = false;  // OpenImageIO reports sRGB although the file does not
   ImageLayout layout;                    // of `level`
   std::unique_ptr<ResampledRows> resampled;
 
   const OIIO::ImageSpec& spec() const { return levels[static_cast<std::size_t>(level)]; }
   void open();
   void find_planes();
-  // Rows as the file has them.
+  // Reads rows at the size of the file.
   void read_rows(int first_row, int row_count, std::byte* texels);
   [[noreturn]] void fail(const std::string& what) const;
 };
 
-// The description of a new file that follows `model` in everything but `changes`, as far as the format of
-// `output` can hold it. Throws kOutput, naming `path`, where it cannot hold the channels or the type asked.
+// The description of a new file that follows `model` in everything except `changes`, as far as the format of
+// `output` can hold it. Throws kOutput, naming `path`, if it cannot hold the channels or the requested type.
 OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& model_format,
                             const OIIO::ImageOutput& output, const ImageChanges& changes,
                             const std::filesystem::path& path);

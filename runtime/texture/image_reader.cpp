@@ -13,7 +13,7 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// The compression, where it changes values.
+// The name of a lossy compression; empty for a lossless one.
 std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& format) {
   if (format == "jpeg" || format == "hdr") return format;
   const std::string compression = spec.get_string_attribute("Compression");
@@ -23,7 +23,7 @@ std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& fo
   return "";
 }
 
-// Whether a chunk of a PNG before its pixels says how they are coded.
+// Whether a PNG has a chunk with its color space before the pixels.
 bool png_tells_color_space(std::FILE* file) {
   std::array<unsigned char, 8> head{};
   for (long place = 8; std::fseek(file, place, SEEK_SET) == 0;) {
@@ -31,21 +31,21 @@ bool png_tells_color_space(std::FILE* file) {
     const std::string_view name(reinterpret_cast<const char*>(head.data()) + 4, 4);
     if (name == "sRGB" || name == "gAMA") return true;
     if (name == "IDAT") return false;
-    std::uint32_t length = 0;  // the highest byte first
+    std::uint32_t length = 0;  // big-endian
     for (std::size_t i = 0; i < 4; ++i) length = length << 8 | head[i];
-    place += static_cast<long>(length) + 12;  // its head and its checksum
+    place += static_cast<long>(length) + 12;  // header and checksum
   }
   return false;
 }
 
-// OpenImageIO takes files of these formats for sRGB where they say nothing.
+// OpenImageIO assumes sRGB for files of these formats without a color space.
 bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format, std::FILE* file) {
   if (format == "png") return png_tells_color_space(file);
   if (format == "jpeg" || format == "tiff") return spec.get_int_attribute("Exif:ColorSpace") == 1;
   return true;
 }
 
-// What no file has, and a damaged one may claim.
+// No valid file has more parts, but a damaged one may claim so.
 constexpr int kMostParts = 4096;
 
 std::optional<PixelType> pixel_type(OIIO::TypeDesc type) {
@@ -79,9 +79,9 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
     const std::string name = spec.channel_name(c);
     const auto type = pixel_type(spec.channelformat(c));
     if (!type)
-      throw Error(ErrorKind::kInput, path.string() + ": channel " + name + " is " +
+      throw Error(ErrorKind::kInput, path.string() + ": channel " + name + " has the unsupported type " +
                                          spec.channelformat(c).c_str() +
-                                         "; expected integers of up to 32 bits, half, float or double");
+                                         " (use integers of up to 32 bits, half, float or double)");
     layout.channels.push_back({name, *type, layout.texel_bytes});
     layout.texel_bytes += byte_count(*type);
   }
@@ -90,7 +90,7 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
 
 void set_image_thread_count(int count) {
   OIIO::attribute("threads", count);
-  // -1 tells OpenEXR to work in the calling thread; 1 would start a thread and leave the caller idle.
+  // With -1 OpenEXR works in the calling thread; with 1 it would start a thread while the caller waits.
   OIIO::attribute("exr_threads", count == 1 ? -1 : count);
 }
 
@@ -100,15 +100,15 @@ void ImageReader::State::fail(const std::string& what) const {
 
 void ImageReader::State::open() {
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) fail("is a folder; expected an image file");
-  // OpenImageIO does not say why a file cannot be opened.
+  if (fs::is_directory(path, ignored)) fail("is a folder, not an image file");
+  // OpenImageIO gives no reason if a file cannot be opened.
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) fail(std::string("cannot be read: ") + std::strerror(errno));
   OIIO::ImageSpec hints;
   hints.attribute(kUnassociatedAlpha, 1);
   input = OIIO::ImageInput::open(path.string(), &hints);
   if (!input) fail("cannot be read as an image: " + first_line(OIIO::geterror(), "unknown format"));
-  (void)input->geterror();  // remarks on odd headers
+  (void)input->geterror();  // discards remarks on unusual headers
   find_planes();
   has_assumed_color_space = !tells_color_space(spec(), input->format_name(), file.get());
   layout = layout_of(spec(), input->format_name(), path);
@@ -118,16 +118,15 @@ void ImageReader::State::find_planes() {
   while (part_count < kMostParts && input->seek_subimage(part_count, 0)) ++part_count;
   (void)input->geterror();
   if (part >= part_count)
-    fail("has " + std::to_string(part_count) + " parts; expected a part " + std::to_string(part));
+    fail("part " + std::to_string(part) + " not found (number of parts: " + std::to_string(part_count) + ")");
   for (int number = 0; input->seek_subimage(part, number); ++number) levels.push_back(input->spec());
   (void)input->geterror();
   if (!input->seek_subimage(part, 0))
     fail("cannot be read: " + first_line(input->geterror(), "no image in it"));
-  if (spec().deep) fail("is a deep image; expected a flat one");
-  if (spec().depth > 1) fail("is a volume; expected a flat image");
-  if (spec().width < 1 || spec().height < 1)  // Targa and Radiance files may say so
-    fail("has " + std::to_string(spec().width) + " x " + std::to_string(spec().height) +
-         " texels; expected at least one");
+  if (spec().deep) fail("deep images are not supported");
+  if (spec().depth > 1) fail("volumes are not supported");
+  if (spec().width < 1 || spec().height < 1)  // possible in Targa and Radiance files
+    fail("image is empty (" + std::to_string(spec().width) + "x" + std::to_string(spec().height) + ")");
 }
 
 ImageReader::ImageReader(const fs::path& path, int part) : state_(std::make_unique<State>()) {
@@ -158,12 +157,11 @@ void ImageReader::select_level(int level) {
 bool ImageReader::is_resampled() const noexcept { return state_->resampled != nullptr; }
 
 void ImageReader::resample(int width, int height, const std::vector<Transfer>& transfers) {
-  if (level_count() > 1) state_->fail("has mip levels; expected one level, to be resampled");
+  if (level_count() > 1) state_->fail("cannot be resampled, because it has mip levels");
   OIIO::ImageSpec& spec = state_->levels.front();
   if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
       spec.height != spec.full_height)
-    state_->fail(
-        "has a data window that is not its display window; expected a whole picture, to be resampled");
+    state_->fail("cannot be resampled, because its data window differs from its display window");
   state_->resampled = std::make_unique<ResampledRows>(state_->layout, width, height, transfers);
   state_->layout = state_->resampled->layout();
   spec.width = spec.full_width = width;
@@ -187,11 +185,11 @@ void ImageReader::State::read_rows(int first_row, int row_count, std::byte* texe
                                             plane.z + 1, 0, plane.nchannels, native_type(plane), texels)
                         : input->read_scanlines(part, level, begin, end, plane.z, 0, plane.nchannels,
                                                 native_type(plane), texels);
-  // Truncated TIFF and JPEG files are read "successfully": only the message tells.
+  // OpenImageIO reads truncated TIFF and JPEG files "successfully"; only the message reveals the error.
   const std::string message = input->geterror();
   if (!read || !message.empty())
     fail("rows " + std::to_string(first_row) + " to " + std::to_string(first_row + row_count - 1) +
-         " cannot be read: " + first_line(message, "unknown reason") + "; expected a whole file");
+         " cannot be read: " + first_line(message, "unknown reason") + " (the file may be truncated)");
 }
 
 std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name) {

@@ -14,8 +14,8 @@ namespace remap {
 namespace fs = std::filesystem;
 namespace {
 
-// A file that remembers the first failure to write to it, because some encoders forget it (libpng) or end
-// the process (libjpeg). They are told that all went well; the writer asks after every band.
+// A file that remembers its first write failure, because some encoders ignore failures (libpng) or end the
+// process (libjpeg). It reports success to the encoder; the writer checks for a failure after every band.
 class CheckedFile : public OIIO::Filesystem::IOProxy {
  public:
   explicit CheckedFile(const fs::path& path)
@@ -38,14 +38,14 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
     end_ = std::max(end_, tell());
     return size;
   }
-  std::size_t size() const override { return static_cast<std::size_t>(end_); }  // where footers go
+  std::size_t size() const override { return static_cast<std::size_t>(end_); }  // footers are written here
   void flush() const override { std::fflush(file_); }
 
   void close_file() {
     if (file_ != nullptr && std::fclose(file_) != 0) note_failure();
     file_ = nullptr;
   }
-  // The reason of the first failure, empty where all went well.
+  // The reason of the first failure; empty without a failure.
   const std::string& failure() const noexcept { return failure_; }
 
  private:
@@ -69,12 +69,12 @@ struct ImageWriter::State {
   fs::path path;
   fs::path unfinished;
   std::unique_ptr<CheckedFile> file;
-  std::unique_ptr<OIIO::ImageOutput> output;        // after `file`, which it uses until it is gone
+  std::unique_ptr<OIIO::ImageOutput> output;  // declared after `file`, which it uses until its destructor
   std::vector<std::vector<OIIO::ImageSpec>> specs;  // of every level of every part
   int part = 0;
   int level = 0;
-  std::string format;  // as OpenImageIO names it
-  ImageLayout layout;  // of the plane that is written
+  std::string format;  // name in OpenImageIO
+  ImageLayout layout;  // of the selected plane
   bool is_open = false;
   bool plane_is_open = false;
   bool is_committed = false;
@@ -99,22 +99,22 @@ struct ImageWriter::State {
   void check_finished() const;
 };
 
-// Everything but the first byte: encoders that are opened and given no texels complain aloud (libpng).
+// Prepares everything without opening the encoder: libpng prints errors if it is opened and gets no texels.
 void ImageWriter::State::plan(const std::vector<std::vector<OIIO::ImageSpec>>& models,
                               const std::string& model_format, const std::vector<ImagePart>& parts) {
   output = OIIO::ImageOutput::create(path.string());
   if (!output) {
     (void)OIIO::geterror();
-    fail("has no known image format; expected a name that ends in .exr, .tif, .png, ...");
+    fail("unknown image format (use .exr, .tif, .png, ...)");
   }
   if (models.size() > 1 && !output->supports("multiimage"))
-    fail(std::string("the format ") + output->format_name() + " holds one part, and there are " +
-         std::to_string(models.size()) + "; expected exr or tif");
+    fail(std::string("format ") + output->format_name() + " cannot hold " + std::to_string(models.size()) +
+         " parts (use exr or tif)");
   for (std::size_t p = 0; p < models.size(); ++p) {
     specs.emplace_back();
     for (const OIIO::ImageSpec& model : models[p]) {
       specs[p].push_back(output_spec(model, model_format, *output, parts[p].changes, path));
-      // TIFF has no levels of its own: textures keep them as parts, which their readers take for levels.
+      // TIFF has no mip levels. Textures store them as parts, which readers of textures treat as levels.
       const bool has_levels =
           output->supports("mipmap") ||
           (model_format == output->format_name() && output->supports("multiimage") && models.size() == 1);
@@ -129,13 +129,13 @@ void ImageWriter::State::plan(const std::vector<std::vector<OIIO::ImageSpec>>& m
 }
 
 void ImageWriter::State::open() {
-  // The TIFF writer of OpenImageIO 2.4 loses the directory of a file with Exif data behind a proxy. By
-  // itself it reports refused bytes, except for the last ones, which `check_finished` looks at.
+  // With a proxy, the TIFF writer of OpenImageIO 2.4 loses the directory of a file with Exif data. Without
+  // one it reports write failures itself, except for the last bytes, which `check_finished` checks.
   if (layout.format == "tiff")
     file->close_file();
   else
     output->set_ioproxy(file.get());
-  if (specs.size() > 1 && layout.format == "openexr") {  // it wants to know all parts at once
+  if (specs.size() > 1 && layout.format == "openexr") {  // needs all parts at once
     std::vector<OIIO::ImageSpec> firsts;
     for (const auto& levels : specs) firsts.push_back(levels.front());
     check(output->open(unfinished.string(), static_cast<int>(firsts.size()), firsts.data()));
@@ -153,23 +153,23 @@ void ImageWriter::State::open_plane() {
                        level > 0 && output->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel
                                                                : OIIO::ImageOutput::AppendSubimage));
   if (!same_storage(layout_of(output->spec(), output->format_name(), path), layout))
-    fail("cannot be written: the format " + layout.format + " would change the pixel type");
+    fail("cannot be written: format " + layout.format + " would change the pixel type");
   plane_is_open = true;
 }
 
-// Throws where the system refused bytes or OpenImageIO failed.
+// Throws if the system refused bytes or OpenImageIO failed.
 void ImageWriter::State::check(bool done) const {
   const std::string message = output ? output->geterror() : "";
   if (!file->failure().empty()) fail("cannot be written: " + file->failure());
   if (!done) fail("cannot be written: " + first_line(message, "unknown reason"));
 }
 
-// Reads the closed file's head, and its last rows where that does not mean to read all of it.
+// Reads the header of the closed file and, for TIFF, its last rows.
 void ImageWriter::State::check_finished() const {
   try {
     ImageReader reader(unfinished, part);
     reader.select_level(level);
-    if (!same_storage(reader.layout(), layout)) fail("was written, but reads as another image");
+    if (!same_storage(reader.layout(), layout)) fail("was written, but reads back as a different image");
     if (layout.format != "tiff") return;
     const int unit = std::max(layout.tile_height, 1), first = (layout.height - 1) / unit * unit;
     const int row_count = layout.height - first;
@@ -178,7 +178,7 @@ void ImageWriter::State::check_finished() const {
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kOutput) throw;
     const std::string reason = std::string(error.what()).substr(unfinished.string().size());
-    fail("cannot be written whole" + reason);
+    fail("cannot be written completely" + reason);
   }
 }
 
@@ -188,7 +188,7 @@ ImageWriter::ImageWriter(const fs::path& path, const std::vector<ImagePart>& par
   std::vector<std::vector<OIIO::ImageSpec>> models;
   for (const ImagePart& part : parts) {
     models.push_back(part.model->state_->levels);
-    // What a file does not say, the new one does not either: sRGB would be wrong for data.
+    // A color space that only OpenImageIO assumed is not written: sRGB would be wrong for data.
     for (OIIO::ImageSpec& model : models.back())
       if (part.model->state_->has_assumed_color_space) model.erase_attribute("oiio:ColorSpace");
   }
@@ -229,7 +229,7 @@ void ImageWriter::write_rows(int first_row, int row_count, const std::byte* texe
 void ImageWriter::finish() {
   const bool closed = state_->output->close();
   state_->check(closed);
-  state_->output.reset();  // the writer of EXR keeps files with mip levels open until it goes
+  state_->output.reset();  // the EXR writer keeps files with mip levels open until it is destroyed
   state_->file->close_file();
   state_->check(true);
   state_->check_finished();

@@ -14,7 +14,7 @@ namespace {
 constexpr int kBands = 16, kTexelsARow = 256;
 constexpr std::size_t kEstimatedTexels = 2048;
 
-// The maps that parameters or coverage lie in.
+// The maps that hold parameters or coverage.
 std::vector<std::size_t> sampled_maps(const TextureSet& set) {
   std::vector<bool> used(set.maps.size());
   for (const auto& [parameter, values] : set.parameters)
@@ -26,7 +26,7 @@ std::vector<std::size_t> sampled_maps(const TextureSet& set) {
   return maps;
 }
 
-// A row of every map, as the files hold it.
+// One row of every map, as stored.
 using StoredRows = std::map<std::size_t, std::vector<std::byte>>;
 
 // Every `step`-th value of a channel.
@@ -64,7 +64,7 @@ void add_row(const TextureSet& set, const StoredRows& rows, int step, MaterialSa
   sample.texel_count += added;
 }
 
-// Of the largest channel of each texel.
+// The largest channel of each texel.
 std::vector<float> largest_of(const std::vector<std::vector<float>>& rows) {
   std::vector<float> largest = rows.front();
   for (const std::vector<float>& row : rows)
@@ -84,8 +84,8 @@ std::string percent(double share) {
   return text.data();
 }
 
-// Most of what there is are dielectrics, whose F0 lies at 0.03 to 0.05: read in the wrong way, it lies at
-// 0.19 to 0.25, where nothing but a few gems does, or at 0.002 to 0.004, where nothing does.
+// Most materials are dielectrics with an F0 of 0.03 to 0.05. In the wrong color space they read as 0.19 to
+// 0.25, where only a few gems are, or as 0.002 to 0.004, where no material is.
 void look_at_color_space(const MaterialSample& sample, const TextureSet& set,
                          std::vector<std::string>& messages) {
   constexpr double kMuch = 0.4, kLittle = 0.05;
@@ -97,11 +97,10 @@ void look_at_color_space(const MaterialSample& sample, const TextureSet& set,
   const double share = is_srgb ? share_within(values, 0.0018f, 0.0045f) : share_within(values, 0.185f, 0.26f);
   if (share < kMuch) return;
   const std::string place = set.maps[specular->channels.front().map].path().string();
-  messages.push_back(place + ": specular is " + (is_srgb ? "0.002 to 0.0045" : "0.19 to 0.26") + " in " +
-                     percent(share) + " of the texels, read as " +
-                     std::string(transfer_name(specular->transfer)) + ": F0 0.04 stored " +
-                     (is_srgb ? "linear" : "in sRGB") + " looks like this; expected --color-space specular=" +
-                     (is_srgb ? "linear" : "srgb") + " where that is so");
+  messages.push_back(place + ": specular, read as " + std::string(transfer_name(specular->transfer)) +
+                     ", is " + (is_srgb ? "0.002 to 0.0045" : "0.19 to 0.26") + " in " + percent(share) +
+                     " of the texels, like F0 0.04 stored " + (is_srgb ? "linear" : "in sRGB") +
+                     " (use --color-space specular=" + (is_srgb ? "linear" : "srgb") + " in that case)");
 }
 
 void look_at_flat_maps(const MaterialSample& sample, const TextureSet& set,
@@ -122,13 +121,13 @@ void look_at_flat_maps(const MaterialSample& sample, const TextureSet& set,
       });
     };
     if (all(0.0f) && parameter != Parameter::kDiffuse)
-      messages.push_back(
-          place + "black in every texel that was looked at; expected " +
-          (parameter == Parameter::kSpecular ? "0.04 for what is no metal, linear" : "a color"));
+      messages.push_back(place + "black in every sampled texel (" +
+                         (parameter == Parameter::kSpecular ? "dielectrics have a linear F0 of 0.04)"
+                                                            : "a color is needed)"));
     else if (all(1.0f) && is_white_everywhere())
-      messages.push_back(place + "white in every texel that was looked at; expected " +
-                         (parameter == Parameter::kSpecular ? "F0: a map of its strength is none"
-                                                            : "a reflectance below 1"));
+      messages.push_back(place + "white in every sampled texel (" +
+                         (parameter == Parameter::kSpecular ? "F0 is needed, not a specular strength)"
+                                                            : "a reflectance below 1 is needed)"));
   }
 }
 
@@ -202,7 +201,7 @@ std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const Wor
   try {
     return estimate_dielectric_f0(conversion, materials);
   } catch (const Error&) {
-    return std::nullopt;  // nothing but NaN
+    return std::nullopt;  // all texels are NaN
   }
 }
 

@@ -1,5 +1,4 @@
-// A look at the maps of a material before they are converted: a grid of texels, and what they betray of
-// conventions that no file states.
+// Samples the maps of a material before the conversion, to detect conventions that no file states.
 #pragma once
 
 #include <map>
@@ -13,23 +12,22 @@
 
 namespace remap {
 
-// Texels of a grid over the whole picture, without those that coverage takes out: for each parameter one row
-// or three, linear, with factors, the width in the convention of the maps.
+// Covered texels of a grid over the whole picture. Each parameter has one or three rows of linear values,
+// with factors applied; the roughness is in the encoding of the maps.
 struct MaterialSample {
   std::size_t texel_count = 0;
   std::map<Parameter, std::vector<std::vector<float>>> rows;
 };
 
-// Some 4000 texels of 16 bands of rows. Each map is read once, up to the last band.
+// Samples about 4000 texels in 16 bands of rows. Each map is read once, up to the last band.
 MaterialSample sample_materials(TextureSet& set);
 
-// What a person should know, one message each: color that looks as if it were read in the wrong color
-// space, and maps that are black or white everywhere and cannot be meant so.
+// Warnings, one message each: colors that were probably read in the wrong color space, and implausible maps
+// that are black or white everywhere.
 std::vector<std::string> doubts_about(const MaterialSample& sample, const TextureSet& set);
 
-// The F0 that dielectrics were made with, where `stages` lead from a specular to a metallic workflow: after
-// the width and the specular have gone through `stages.brdf`. `width`: what the sample's are. None where no
-// texel tells.
+// The F0 of the dielectrics after `stages.brdf`, for `stages` from a specular to a metallic workflow. `width`
+// is the encoding of the sampled roughness. None if no texel allows an estimate.
 std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,
                                          RoughnessConvention width);
 

@@ -8,7 +8,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kSmallestCell = 4, kMostCells = 1024;  // a side
+constexpr std::size_t kSmallestCell = 4, kMostCells = 1024;  // per side
 
 std::size_t parts(std::size_t length, std::size_t part) { return (length + part - 1) / part; }
 
@@ -16,7 +16,7 @@ std::size_t cell_of(std::size_t width, std::size_t height) {
   return std::max(kSmallestCell, parts(std::max(width, height), kMostCells));
 }
 
-// Between two neighbours of a row or column of `count`: the first, and the share of the second.
+// A position between two neighbours in a row or column of `count` values, with the share of the second.
 struct Place {
   Place(float position, std::size_t count) {
     const float held = std::clamp(position, 0.0f, static_cast<float>(count - 1));

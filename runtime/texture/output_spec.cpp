@@ -1,5 +1,5 @@
-// How a new file follows another: what is kept, what the change of pixels or format makes untrue, and what
-// each format can hold.
+// The description of a new file that follows another: what it keeps, what becomes invalid with new pixels or
+// a new format, and what each format can hold.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,50 +11,50 @@
 namespace remap {
 namespace {
 
-// Attributes that tell how the pixels were coded; they mean something else in another format.
+// Attributes of the pixel coding, which have another meaning in another format.
 constexpr std::array kCodingAttributes = {
     "Compression",          "CompressionQuality", "jpeg:subsampling", "tiff:Compression",
     "tiff:RowsPerStrip",    "tiff:ColorSpace",    "tiff:zipquality",  "tiff:PhotometricInterpretation",
     "png:compressionLevel", "oiio:BitsPerSample"};
-// Attributes that OpenImageIO derives from the pixels, which are about to change.
+// Attributes that OpenImageIO derives from the old pixels.
 constexpr std::array kPixelSummaries = {"oiio:SHA-1", "oiio:ConstantColor", "oiio:AverageColor"};
 
 OIIO::TypeDesc type_desc(PixelType type) { return OIIO::TypeDesc(std::string(pixel_type_name(type))); }
 
-// The type in which `format` holds values of `type` with the least loss; none for formats that are not
-// written. OpenImageIO would choose by itself, but takes 8 bits where it has 16.
+// The type in which `format` holds values of `type` with the least loss; none for unsupported formats.
+// OpenImageIO's own choice takes 8 bits even if the format has 16.
 std::optional<PixelType> stored_type(std::string_view format, PixelType type) {
   if (format == "openexr") {
     if (type == PixelType::kHalf || type == PixelType::kFloat || type == PixelType::kUint32) return type;
     return byte_count(type) == 1 ? PixelType::kHalf : PixelType::kFloat;
   }
   if (format == "tiff") return type == PixelType::kHalf ? PixelType::kFloat : type;
-  if (format == "hdr") return PixelType::kFloat;  // three values that share an exponent
+  if (format == "hdr") return PixelType::kFloat;  // three values with a common exponent
   if (format == "png") return type == PixelType::kUint8 ? type : PixelType::kUint16;
   if (format == "jpeg" || format == "targa" || format == "bmp") return PixelType::kUint8;
   return std::nullopt;
 }
 
 void choose_channels(OIIO::ImageSpec& spec, const std::vector<std::string>& names) {
-  spec.set_format(spec.channelformat(0));  // and drops the types of single channels
+  spec.set_format(spec.channelformat(0));  // also drops the types of single channels
   spec.nchannels = static_cast<int>(names.size());
   spec.channelnames = names;
   const auto alpha = std::find(names.begin(), names.end(), "A");
   spec.alpha_channel = alpha == names.end() ? -1 : static_cast<int>(alpha - names.begin());
-  if (spec.alpha_channel >= 0) spec.attribute(kUnassociatedAlpha, 1);  // it is data
+  if (spec.alpha_channel >= 0) spec.attribute(kUnassociatedAlpha, 1);  // data, not opacity
   spec.z_channel = -1;
-  // A profile belongs to a number of channels.
+  // A color profile is valid for one number of channels only.
   spec.erase_attribute("ICCProfile.*");
   spec.erase_attribute("tiff:PhotometricInterpretation");
 }
 
-// Empty, or why a file of this format cannot hold the channels of `spec`.
+// The reason why the format cannot hold the channels of `spec`; empty if it can.
 std::string channels_refused(const OIIO::ImageOutput& output, const OIIO::ImageSpec& spec) {
   if (output.supports("nchannels")) return "";
   const bool has_alpha = spec.alpha_channel >= 0;
   const int colors = spec.nchannels - (has_alpha ? 1 : 0);
   if ((colors == 1 || colors == 3) && (!has_alpha || output.supports("alpha"))) return "";
-  return "cannot hold the " + std::to_string(spec.nchannels) + " channels of the source; expected exr or tif";
+  return "cannot hold the " + std::to_string(spec.nchannels) + " channels of the source (use exr or tif)";
 }
 
 void leave_coding_behind(OIIO::ImageSpec& spec, const OIIO::ImageOutput& output) {
@@ -64,16 +64,16 @@ void leave_coding_behind(OIIO::ImageSpec& spec, const OIIO::ImageOutput& output)
   if (!output.supports("tiles") || !sides_fit) spec.tile_width = spec.tile_height = spec.tile_depth = 0;
 }
 
-// The writers of IPTC put the artist in here once more, and both would be read as two.
+// IPTC writers add the artist here again, and readers would then report two creators.
 void leave_creator_to_writer(OIIO::ImageSpec& spec) {
   if (spec.get_string_attribute("IPTC:Creator") == spec.get_string_attribute("Artist"))
     spec.erase_attribute("IPTC:Creator");
 }
 
 void suit_openexr(OIIO::ImageSpec& spec) {
-  // Rows are written from the top; the order in the file is no property of the picture.
+  // Rows are written from the top. The order in the file is not a property of the picture.
   spec.attribute("openexr:lineOrder", "increasingY");
-  // It is read as an attribute of its own, and written with the name of the compression only.
+  // OpenImageIO reads the level as an attribute, but writes it only with the name of the compression.
   const float level = spec.get_float_attribute("openexr:dwaCompressionLevel");
   const std::string compression = spec.get_string_attribute("Compression");
   if (level > 0.0f && compression.starts_with("dwa") && compression.find(':') == std::string::npos)
@@ -83,7 +83,7 @@ void suit_openexr(OIIO::ImageSpec& spec) {
 void suit_tiff(OIIO::ImageSpec& spec) {
   // OpenImageIO 2.4 cannot write this tag, and drops all of Exif with it.
   spec.erase_attribute("Exif:ImageHistory");
-  // It is written only where that is asked for, and then with a copy of the artist.
+  // IPTC data is written on request only, and then with a copy of the artist.
   const auto is_iptc = [](const OIIO::ParamValue& value) {
     return value.name().string().starts_with("IPTC:");
   };
@@ -99,7 +99,7 @@ void suit_jpeg(OIIO::ImageSpec& spec) {
   leave_creator_to_writer(spec);
 }
 
-// OpenImageIO appends its version to the name of the program each time that it writes.
+// OpenImageIO appends its version to the name of the program each time it writes a file.
 void suit_targa(OIIO::ImageSpec& spec) {
   const int version = OIIO::openimageio_version();
   const std::string own = " " + std::to_string(version / 100) + "." + std::to_string(version % 100);
@@ -107,12 +107,12 @@ void suit_targa(OIIO::ImageSpec& spec) {
   if (software.ends_with(own)) spec.attribute("Software", software.substr(0, software.size() - own.size()));
 }
 
-// Peculiarities of single formats.
+// Settings for single formats.
 void suit_format(OIIO::ImageSpec& spec, std::string_view format) {
-  // TIFF tags associated alpha as such and stores it as it is; the other formats would divide by it.
+  // TIFF tags associated alpha and stores it unchanged; the other formats would divide by it.
   if (format != "tiff" || spec.alpha_channel < 0) spec.attribute(kUnassociatedAlpha, 1);
-  // The writers of EXR and TIFF would put the time of this run: the same inputs would give other bytes each
-  // time. An empty one reads as none.
+  // EXR and TIFF writers add the time of the run, so equal inputs would not give equal files. An empty time
+  // reads as none.
   if (spec.find_attribute("DateTime") == nullptr && (format == "openexr" || format == "tiff"))
     spec.attribute("DateTime", "");
   if (format == "openexr") suit_openexr(spec);
@@ -127,7 +127,7 @@ void note_metadata(OIIO::ImageSpec& spec, std::string_view format, const Metadat
     spec.attribute(name, value);
     all += (all.empty() ? "" : "; ") + name + "=" + value;
   }
-  // These have no place for names of one's own; the tag for the writing program is the nearest.
+  // TIFF and JPEG have no custom attributes; the tag for the writing program is the nearest.
   if (!all.empty() && (format == "tiff" || format == "jpeg")) spec.attribute("Software", all);
 }
 
@@ -138,7 +138,7 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
                             const std::filesystem::path& path) {
   const std::string format = output.format_name();
   const auto fail = [&](const std::string& what) {
-    throw Error(ErrorKind::kOutput, path.string() + ": the format " + format + " " + what);
+    throw Error(ErrorKind::kOutput, path.string() + ": format " + format + " " + what);
   };
   OIIO::ImageSpec spec = model;
   for (const char* name : kPixelSummaries) spec.erase_attribute(name);
@@ -148,18 +148,18 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
   if (!output.supports("channelformats")) spec.channelformats.clear();
   const bool is_mixed = !spec.channelformats.empty() && !changes.type;
   const PixelType type = changes.type.value_or(pixel_type_from_name(spec.format.c_str()).value());
-  // Few programs read half in TIFF: only a file that has it keeps it.
+  // Few programs read half in TIFF, so only a file that already has half keeps it.
   const bool keeps_half = format == "tiff" && model_format == format && model.format == OIIO::TypeHalf;
   const std::optional<PixelType> stored =
       keeps_half && type == PixelType::kHalf ? type : stored_type(format, type);
-  if (!stored) fail("cannot be written; --format chooses another, e.g. exr, tif or png");
+  if (!stored) fail("is not supported for writing (use --format exr, tif or png)");
   if (changes.type && *stored != *changes.type)
-    fail("cannot hold " + std::string(pixel_type_name(type)) + " pixels; expected " +
-         std::string(pixel_type_name(*stored)));
+    fail("cannot hold " + std::string(pixel_type_name(type)) + " pixels (use " +
+         std::string(pixel_type_name(*stored)) + ")");
   if (!is_mixed && type_desc(*stored) != model.format) spec.erase_attribute("oiio:BitsPerSample");
   if (!is_mixed) spec.set_format(type_desc(*stored));
 
-  // A curve belongs to whole numbers; floats are linear.
+  // Integers may have a transfer curve; floats are linear.
   const bool loses_curve =
       !is_mixed && is_integer(pixel_type_from_name(model.format.c_str()).value()) && !is_integer(*stored);
   if (changes.transfer)

@@ -21,7 +21,7 @@ constexpr NamedValues<PixelType, 9> kTypes = {{{PixelType::kUint8, "uint8"},
                                                {PixelType::kFloat, "float"},
                                                {PixelType::kDouble, "double"}}};
 
-// The storage of a half, apart from uint16_t so that the templates below can tell them apart.
+// The storage of a half. The templates below must distinguish it from uint16_t.
 struct HalfBits {
   std::uint16_t bits;
 };
@@ -31,7 +31,7 @@ float to_float(Stored stored) noexcept {
   if constexpr (std::is_same_v<Stored, HalfBits>) {
     return half_to_float(stored.bits);
   } else if constexpr (std::is_integral_v<Stored>) {
-    // A float holds 24 bits: beyond them the division happens in double.
+    // A float holds 24 bits, so larger integers are divided in double.
     using Real = std::conditional_t<(sizeof(Stored) > 2), double, float>;
     return static_cast<float>(static_cast<Real>(stored) /
                               static_cast<Real>(std::numeric_limits<Stored>::max()));
@@ -45,7 +45,7 @@ Stored from_float(float value) noexcept {
   if constexpr (std::is_same_v<Stored, HalfBits>) {
     return {float_to_half(value)};
   } else if constexpr (std::is_integral_v<Stored>) {
-    // In double the product is exact, so that the sum below rounds to nearest and not to one beside it.
+    // The product is exact in double, so the sum below rounds to nearest.
     constexpr double kLargest = static_cast<double>(std::numeric_limits<Stored>::max());
     constexpr double kLowest = std::is_signed_v<Stored> ? -1.0 : 0.0;
     double clipped = value == value ? static_cast<double>(value) : 0.0;
@@ -122,8 +122,6 @@ std::optional<PixelType> pixel_type_from_name(std::string_view name) noexcept {
   return value_named(kTypes, name);
 }
 
-std::vector<std::string> pixel_type_names() { return names_of(kTypes); }
-
 void load_values(PixelType type, const std::byte* first, std::size_t stride, std::size_t count,
                  float* values) noexcept {
   with_storage(type, [&](auto stored) { load<decltype(stored)>(first, stride, count, values); });
@@ -135,11 +133,11 @@ std::size_t store_values(PixelType type, const float* values, std::size_t count,
                       [&](auto stored) { return store<decltype(stored)>(values, count, first, stride); });
 }
 
-// Without branches, so that compilers vectorise the loops above. The method is F. Giesen's ("Half to float
-// done quic", 2012, and "Float to half, round to nearest even"): exponents are moved by an integer addition,
-// denormals by a float subtraction or addition of a power of two that lines the mantissas up.
+// The code has no branches, so that compilers vectorise the loops above. The method is F. Giesen's ("Half to
+// float done quic", 2012, and "Float to half, round to nearest even"): an integer addition changes the
+// exponent; for denormals, a float addition or subtraction of a power of two aligns the mantissas.
 float half_to_float(std::uint16_t half) noexcept {
-  constexpr std::uint32_t kExponentShift = std::uint32_t{127 - 15} << 23;  // between the two biases
+  constexpr std::uint32_t kExponentShift = std::uint32_t{127 - 15} << 23;  // difference of the biases
   constexpr std::uint32_t kHalfExponent = std::uint32_t{0x7c00} << 13;
   const std::uint32_t magnitude = static_cast<std::uint32_t>(half & 0x7fff) << 13;
   const std::uint32_t exponent = magnitude & kHalfExponent;
@@ -164,7 +162,7 @@ std::uint16_t float_to_half(float value) noexcept {
   constexpr std::uint32_t kDenormalMagic = std::uint32_t{(127 - 15) + (23 - 10) + 1} << 23;
   const float lined_up = std::bit_cast<float>(magnitude) + std::bit_cast<float>(kDenormalMagic);
   const std::uint32_t denormal = std::bit_cast<std::uint32_t>(lined_up) - kDenormalMagic;
-  // Half of the dropped part less one, plus the last kept bit: ties go to even.
+  // Adds half of the dropped part minus one, plus the last kept bit, so that ties round to even.
   const std::uint32_t odd = (magnitude >> 13) & 1u;
   const std::uint32_t normal = (magnitude - (std::uint32_t{127 - 15} << 23) + 0xfffu + odd) >> 13;
   const std::uint32_t special = magnitude > kInfinity ? 0x7e00u : 0x7c00u;  // quiet NaN or infinity

@@ -1,4 +1,4 @@
-// Rows of an image at a larger size than it is stored in, made while it is read.
+// Enlarges an image while its rows are read.
 #pragma once
 
 #include <cstddef>
@@ -9,32 +9,32 @@
 
 namespace remap {
 
-// Interpolates linearly between the centres of the four nearest texels; beyond the outermost centres the edge
-// goes on. Values are interpolated as light where they follow a curve. Holds the stored rows of one band.
+// Interpolates bilinearly between texel centers and extends the edge beyond the outermost ones. Values with a
+// transfer curve are interpolated as linear light. Holds the stored rows of one band.
 class ResampledRows {
  public:
-  // Gives `count` stored rows from `first`; tiled files: as ImageReader::read_rows asks for them.
+  // Reads `count` stored rows from `first`; for tiled files with the rules of ImageReader::read_rows.
   using ReadStored = std::function<void(int first, int count, std::byte* texels)>;
 
-  // `stored`: how the file has its texels. `width`, `height`: at least those of the file. `transfers`: one a
-  // channel.
+  // `stored` is the layout in the file; `width` and `height` are at least those of the file; `transfers` has
+  // one curve per channel.
   ResampledRows(const ImageLayout& stored, int width, int height, std::vector<Transfer> transfers);
 
-  // Of the rows that come out: floats, with the values that the file would hold.
+  // The layout of the resampled rows: floats in the encoding of the file.
   const ImageLayout& layout() const noexcept { return layout_; }
   const ImageLayout& stored() const noexcept { return stored_; }
 
-  // Rows [first_row, first_row + row_count). Stored rows are read once where bands follow each other from the
-  // top.
+  // Makes rows [first_row, first_row + row_count). Each stored row is read once if bands follow each other
+  // from the top.
   void read(int first_row, int row_count, std::byte* texels, const ReadStored& read_stored);
 
  private:
-  // Between texels `first` and `second`, at `weight` of the second.
+  // A position between texels `first` and `second`; `weight` belongs to the second.
   struct Place {
     std::size_t first, second;
     float weight;
   };
-  // A stored row as floats, channel after channel.
+  // A stored row as floats, channel by channel.
   struct FloatRow {
     int number = -1;
     std::vector<float> values;
@@ -52,7 +52,7 @@ class ResampledRows {
   std::vector<std::byte> held_;  // stored rows [held_begin_, held_end_)
   int held_begin_ = 0;
   int held_end_ = 0;
-  FloatRow rows_[2];  // even and odd ones: neighbours are both there
+  FloatRow rows_[2];  // one even and one odd row: two neighbours
   std::vector<float> blended_;
 };
 

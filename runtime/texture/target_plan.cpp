@@ -16,11 +16,18 @@ namespace {
 
 using Content = TargetChannel::Content;
 
+constexpr NamedValues<Layout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
+                                              {Layout::kSeparate, "separate"},
+                                              {Layout::kOrm, "orm"},
+                                              {Layout::kArm, "arm"},
+                                              {Layout::kSpecGloss, "specgloss"}}};
+
 void require_known_extension(const std::string& extension) {
   static const std::array<std::string, 9> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
                                                          "jpeg", "tga", "bmp",  "hdr"};
   if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
-    throw Error(ErrorKind::kUsage, "--format: is " + extension + suggestion(extension, kExtensions));
+    throw Error(ErrorKind::kUsage,
+                "--format: unknown format '" + extension + "'" + suggestion(extension, kExtensions));
 }
 
 fs::path result_path(fs::path name, const TargetChoice& choice) {
@@ -30,8 +37,8 @@ fs::path result_path(fs::path name, const TargetChoice& choice) {
 
 void require_safe(const fs::path& output, const fs::path& input) {
   if (same_file(output, input))
-    throw Error(ErrorKind::kUsage,
-                output.string() + ": is the input " + input.string() + "; expected another folder");
+    throw Error(ErrorKind::kUsage, output.string() + ": would overwrite the input " + input.string() +
+                                       " (choose another folder)");
 }
 
 void require_free(const fs::path& output, bool force) {
@@ -39,24 +46,22 @@ void require_free(const fs::path& output, bool force) {
   const fs::file_status status = fs::symlink_status(output, ignored);
   if (!fs::exists(status)) return;
   if (fs::is_directory(output, ignored))
-    throw Error(ErrorKind::kOutput, output.string() + ": is a folder; expected a name that is free");
-  if (!force)
-    throw Error(ErrorKind::kOutput, output.string() + ": exists; expected a name that is free, or --force");
+    throw Error(ErrorKind::kOutput, output.string() + ": is a folder (choose another name)");
+  if (!force) throw Error(ErrorKind::kOutput, output.string() + ": already exists (--force overwrites)");
 }
 
 void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetChoice& choice) {
   std::error_code ignored;
   if (fs::exists(choice.folder, ignored) && !fs::is_directory(choice.folder, ignored))
-    throw Error(ErrorKind::kOutput, choice.folder.string() + ": is a file; expected a folder");
+    throw Error(ErrorKind::kOutput, choice.folder.string() + ": is a file, not a folder");
   std::vector<fs::path> results;
   for (const PlannedMap& map : plan.maps) results.push_back(map.path);
   for (const PlannedCopy& copy : plan.copies) results.push_back(copy.path);
   for (std::size_t i = 0; i < results.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k)
       if (results[i] == results[k])
-        throw Error(
-            ErrorKind::kUsage,
-            results[i].string() + ": would be the name of two results; expected inputs with two names");
+        throw Error(ErrorKind::kUsage,
+                    results[i].string() + ": two results have this name (rename an input)");
     for (const ImageReader& map : set.maps) require_safe(results[i], map.path());
     for (const PlannedCopy& copy : plan.copies) require_safe(results[i], copy.source);
     require_free(results[i], choice.force);
@@ -67,7 +72,7 @@ bool is_wanted(const TargetChoice& choice, Parameter parameter) {
   return std::find(choice.parameters.begin(), choice.parameters.end(), parameter) != choice.parameters.end();
 }
 
-// What becomes of a channel of a map.
+// The content of a result's channel that follows `place` of a map.
 TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const TargetChoice& choice) {
   std::optional<TargetChannel> content;
   std::optional<Parameter> held;
@@ -77,9 +82,9 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
     const ImageReader& reader = set.maps[place.map];
     if (held)
       throw Error(ErrorKind::kUsage, reader.path().string() + ": channel " +
-                                         reader.layout().channels[place.channel].name + " is both " +
+                                         reader.layout().channels[place.channel].name + " is used as both " +
                                          plain_name(*held) + " and " + plain_name(parameter) +
-                                         "; expected FILE:CHANNEL to tell them apart");
+                                         " (choose channels with FILE:CHANNEL)");
     held = parameter;
     const auto index = static_cast<std::size_t>(found - values.channels.begin());
     if (is_wanted(choice, parameter)) content = TargetChannel::of(parameter, is_color(parameter) ? index : 0);
@@ -100,7 +105,7 @@ std::string own_name(const std::string& name, bool is_grey, const TextureSet& se
                      const TargetChoice& choice) {
   std::string extension = choice.extension.empty() ? set.maps[set.first_map()].path().extension().string()
                                                    : "." + choice.extension;
-  if (is_grey && extension == ".hdr") extension = ".exr";  // it has three channels or none
+  if (is_grey && extension == ".hdr") extension = ".exr";  // Radiance files have three channels
   return choice.names.before + name + choice.names.after + extension;
 }
 
@@ -110,7 +115,7 @@ std::vector<TargetChannel>::const_iterator find_color(const std::vector<TargetCh
   });
 }
 
-// The map whose file a result's file follows: that of the parameter, or that from which it is made.
+// The parameter whose file a result follows: the same parameter, or a color that it is made from.
 const SetParameter* model_of(const TextureSet& set, Parameter parameter) {
   if (const SetParameter* own = set.map_of(parameter)) return own;
   for (const Parameter other : {Parameter::kDiffuse, Parameter::kBaseColor, Parameter::kSpecular})
@@ -118,19 +123,19 @@ const SetParameter* model_of(const TextureSet& set, Parameter parameter) {
   return nullptr;
 }
 
-// How the values of a color are stored: as in the map that it follows; in sRGB where it follows none and is
-// made of other parameters.
+// The curve of a color: that of the map that it follows; sRGB for a color that is made from other parameters
+// and follows no map.
 Transfer color_transfer(const TextureSet& set, Parameter parameter) {
   if (const SetParameter* model = model_of(set, parameter)) return model->transfer;
   return set.parameters.count(parameter) > 0 ? Transfer::kLinear : Transfer::kSrgb;
 }
 
-// The same for a file of this pixel type: curves are for whole numbers.
+// The same for a file of this pixel type: only integers have a curve.
 Transfer stored_transfer(const TextureSet& set, Parameter parameter, PixelType type) {
   return is_integer(type) ? color_transfer(set, parameter) : Transfer::kLinear;
 }
 
-// A map of its own, for what is a constant in the set or has another file there.
+// A new map, for a parameter that is a constant in the set or is in another file there.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
   const auto color = find_color(channels);
@@ -146,7 +151,7 @@ PlannedMap width_map(const TextureSet& set, const TargetChoice& choice) {
                  choice);
 }
 
-// Three channels, or that of the source where the parameter has one there and stays what it is.
+// Three channels, or one if the color is grey in the set and stays grey.
 std::vector<TargetChannel> color_channels(const TextureSet& set, Parameter parameter,
                                           const TargetChoice& choice) {
   const auto found = set.parameters.find(parameter);
@@ -176,7 +181,7 @@ TargetChannel carried_channel(const SetParameter& parameter) {
                             : TargetChannel::constant(parameter.constants.front());
 }
 
-// Metallic is made where the target has it.
+// A channel of a packed map: the converted metallic, a carried parameter, or the constant `otherwise`.
 TargetChannel packed_channel(const TextureSet& set, const std::string& name, float otherwise,
                              const TargetChoice& choice) {
   if (name == parameter_name(Parameter::kMetallic) && is_wanted(choice, Parameter::kMetallic))
@@ -196,15 +201,17 @@ bool has_name(const TextureSet& set, const ChannelPlace& place) {
                      [&](const CarriedParameter& carried) { return holds(carried.parameter); });
 }
 
-// New layouts hold what has a name; nothing of an input is dropped unsaid.
+// Layouts other than kAsInputs hold named channels only, so an unnamed channel is an error and is not
+// dropped.
 void require_nothing_lost(const TextureSet& set) {
   for (std::size_t map = 0; map < set.maps.size(); ++map) {
     const ImageLayout& layout = set.maps[map].layout();
     for (std::size_t c = 0; c < layout.channels.size(); ++c) {
       if (has_name(set, {map, c})) continue;
-      throw Error(ErrorKind::kUsage, set.maps[map].path().string() + ": channel " + layout.channels[c].name +
-                                         " would be lost; expected --occlusion or --metallic FILE:CHANNEL to "
-                                         "name it, or --layout as-inputs");
+      throw Error(ErrorKind::kUsage,
+                  set.maps[map].path().string() + ": channel " + layout.channels[c].name +
+                      " would be lost (name it with --occlusion or --metallic FILE:CHANNEL, "
+                      "or use --layout as-inputs)");
     }
   }
 }
@@ -219,7 +226,7 @@ std::vector<std::size_t> parts_of_file(const TextureSet& set, std::size_t first)
   return parts;
 }
 
-// Adds a copy where the file is neither written nor copied under that name already.
+// Adds a copy unless a file of this name is already written or copied.
 void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan) {
   const auto is_there = [&](const auto& result) { return result.path == path; };
   if (std::any_of(plan.maps.begin(), plan.maps.end(), is_there) ||
@@ -227,7 +234,7 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan) {
     return;
   std::error_code ignored;
   if (!fs::is_regular_file(source, ignored))
-    throw Error(ErrorKind::kInput, source.string() + ": is no file that can be read; expected one to copy");
+    throw Error(ErrorKind::kInput, source.string() + ": cannot be copied: not a readable file");
   plan.copies.push_back({source, path});
 }
 
@@ -238,7 +245,7 @@ PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoic
   return new_map(file_name(parameter, choice), kGrey, {TargetChannel::of(parameter)}, set, choice);
 }
 
-// The color of a file that holds nothing else, in one channel, where the result has three.
+// The color of a file with one grey channel and nothing else, if the result must have three channels.
 std::optional<Parameter> grey_alone(const PlannedMap& planned, const TargetChoice& choice) {
   if (choice.colors_stay_grey || planned.parts.size() != 1) return std::nullopt;
   const std::vector<TargetChannel>& channels = planned.parts.front().channels;
@@ -259,7 +266,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
       for (std::size_t c = 0; c < set.maps[map].layout().channels.size(); ++c)
         part.channels.push_back(content_of(set, {map, c}, choice));
       const bool is_changed = std::any_of(part.channels.begin(), part.channels.end(), is_converted);
-      if (!is_changed) part.changes.type = std::nullopt;  // what is not converted stays as it is
+      if (!is_changed) part.changes.type = std::nullopt;  // an unchanged part keeps its type
       holds_something = holds_something || is_changed;
       planned.parts.push_back(std::move(part));
     }
@@ -270,16 +277,16 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
   for (const Parameter parameter : choice.parameters) {
     if (set.map_of(parameter) != nullptr) continue;
     if (set.parameters.count(parameter) == 0)
-      throw Error(ErrorKind::kUsage, "--layout as-inputs: no input has a place for " +
+      throw Error(ErrorKind::kUsage, "--layout as-inputs: no input holds " +
                                          std::string(parameter_name(parameter)) +
-                                         "; expected separate, orm, arm or specgloss");
+                                         " (use separate, orm, arm or specgloss)");
     plan.maps.push_back(own_map(set, parameter, choice));
   }
   for (const CarriedParameter& carried : set.carried) {
     if (!carried.parameter.is_map())
       throw Error(ErrorKind::kUsage, "--" + carried.name +
-                                         ": is a number, which --layout as-inputs has no place for; "
-                                         "expected a map, or another layout");
+                                         ": a number has no place in --layout as-inputs (give a map, or use "
+                                         "another layout)");
     const fs::path& source = set.maps[carried.parameter.channels.front().map].path();
     const auto is_written = [&](const PlannedMap& map) {
       return same_file(set.maps[map.parts.front().model].path(), source);
@@ -315,16 +322,16 @@ std::vector<PlannedMap> specgloss_maps(const TextureSet& set, const TargetChoice
 }
 
 std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& choice) {
-  const std::string layout(layout_name(choice.layout));
+  const std::string layout(name_of(kLayouts, choice.layout));
   const bool is_specgloss = choice.layout == Layout::kSpecGloss;
   const bool is_metallic = is_wanted(choice, Parameter::kMetallic);
   if (is_specgloss ? is_metallic : is_wanted(choice, Parameter::kDiffuse))
-    throw Error(ErrorKind::kUsage, "--layout: is " + layout + ", which has no place for " +
-                                       (is_specgloss ? "metallic" : "diffuse beside specular") +
-                                       "; expected separate or " + (is_specgloss ? "orm" : "specgloss"));
+    throw Error(ErrorKind::kUsage, "--layout: " + layout + " cannot hold " +
+                                       (is_specgloss ? "metallic (use separate or orm)"
+                                                     : "diffuse and specular (use separate or specgloss)"));
   if (!is_wanted(choice, Parameter::kWidth) || (is_specgloss && !is_wanted(choice, Parameter::kSpecular)))
     throw Error(ErrorKind::kUsage,
-                "--only: leaves a channel of --layout " + layout + " empty; expected both");
+                "--only cannot be used with --layout " + layout + " (a channel would be empty)");
   if (is_specgloss) return specgloss_maps(set, choice);
   std::vector<PlannedMap> all = {
       new_map(file_name(Parameter::kWidth, choice), kColor,
@@ -336,19 +343,11 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
   return all;
 }
 
-constexpr NamedValues<Layout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
-                                              {Layout::kSeparate, "separate"},
-                                              {Layout::kOrm, "orm"},
-                                              {Layout::kArm, "arm"},
-                                              {Layout::kSpecGloss, "specgloss"}}};
-
 }  // namespace
 
 std::string set_file_name(const fs::path& file, const ResultNames& names) {
   return names.before + file.stem().string() + names.after + file.extension().string();
 }
-
-std::string_view layout_name(Layout layout) { return name_of(kLayouts, layout); }
 
 std::optional<Layout> layout_from_name(std::string_view name) { return value_named(kLayouts, name); }
 
@@ -360,7 +359,7 @@ std::string file_name(Parameter parameter, const TargetChoice& choice) {
     return "specular_glossiness";
   if ((choice.layout == Layout::kOrm || choice.layout == Layout::kArm) &&
       (is_width || parameter == Parameter::kMetallic))
-    return std::string(layout_name(choice.layout));
+    return std::string(name_of(kLayouts, choice.layout));
   return is_width ? choice.width_name : std::string(parameter_name(parameter));
 }
 

@@ -1,4 +1,4 @@
-// Which files a conversion makes, what their channels hold, and the refusals that keep other files safe.
+// Plans the files of a conversion and the content of their channels, and refuses to overwrite other files.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,9 @@
 
 namespace remap {
 
-// A result before it is opened.
+// One part of a planned file.
 struct PlannedPart {
-  std::size_t model = 0;  // the map of the set that it follows
+  std::size_t model = 0;  // index of the map of the set that the part follows
   ImageChanges changes;
   std::vector<TargetChannel> channels;
 };
@@ -22,10 +22,11 @@ struct PlannedMap {
   std::vector<PlannedPart> parts;
 };
 
-// A file of the material that holds nothing to convert, and goes along byte for byte.
+// A file of the material that is not converted but copied byte for byte.
 struct CopiedFile {
   std::filesystem::path source;
-  std::string name;  // of the copy in layouts that name their files, without extension; empty: its own
+  std::string
+      name;  // of the copy, without extension, in layouts that name their files; empty to keep its name
 };
 struct PlannedCopy {
   std::filesystem::path source;
@@ -37,28 +38,27 @@ struct TargetPlan {
   std::vector<PlannedCopy> copies;
 };
 
-// Which files the results are.
+// The arrangement of the results in files.
 enum class Layout {
-  kAsInputs,   // every map that holds something converted, under its name
-  kSeparate,   // a file each: roughness, the colors, and what is carried
-  kOrm,        // orm: occlusion, roughness, metallic; and the colors
-  kArm,        // the same as arm
-  kSpecGloss,  // specular_glossiness: specular, and glossiness in alpha; and diffuse
+  kAsInputs,   // each map with a converted channel keeps its name
+  kSeparate,   // one file each for roughness, colors and carried parameters
+  kOrm,        // orm: occlusion, roughness, metallic; and one file per color
+  kArm,        // like kOrm, named arm
+  kSpecGloss,  // specular_glossiness: specular, with glossiness in alpha; and diffuse
 };
-std::string_view layout_name(Layout layout);
 std::optional<Layout> layout_from_name(std::string_view name);
 std::vector<std::string> layout_names();
 
-// What stands before and behind the names of results that have no input: `wood_` specular `.1001`.
+// Text before and after the names of results without an input: `wood_` specular `.1001`.
 struct ResultNames {
   std::string before;
   std::string after;
 };
 
-// `wood_mask.1001.png` of mask.png.
+// Adds this text to a file name: mask.png becomes `wood_mask.1001.png`.
 std::string set_file_name(const std::filesystem::path& file, const ResultNames& names);
 
-// A map of what a conversion says of its result.
+// A map with a diagnosis of the conversion.
 struct MeasureMap {
   Parameter measure = Parameter::kResidual;
   std::string name;  // of the file
@@ -66,37 +66,38 @@ struct MeasureMap {
 
 struct TargetChoice {
   std::filesystem::path folder;
-  std::vector<Parameter> parameters = {Parameter::kWidth, Parameter::kSpecular};  // that are wanted
-  std::string width_name = "roughness";  // of its file where it has one of its own
-  bool colors_stay_grey = true;  // those that are grey in the set, where they have a file of their own
+  std::vector<Parameter> parameters = {Parameter::kWidth, Parameter::kSpecular};  // to write
+  std::string width_name = "roughness";  // name of a separate roughness file
+  bool colors_stay_grey = true;          // colors that are grey in the set stay grey in a separate file
   std::vector<MeasureMap> measures;
-  std::string extension;            // of all files; empty: as the inputs
+  std::string extension;            // of all files; empty for those of the inputs
   std::optional<PixelType> type;    // of all files
-  std::optional<std::string> mask;  // name of the file that marks texels out of domain
+  std::optional<std::string> mask;  // name of the file that marks texels outside the domain
   ResultNames names;
   Layout layout = Layout::kAsInputs;
   std::vector<CopiedFile> copies;
-  bool force = false;  // may replace files that exist
+  bool force = false;  // may overwrite existing files
   Metadata metadata;
 };
 
-// The file that holds a parameter in the layouts that name their files, and where a parameter has no input to
-// be named after; without what stands around it.
+// The name of the file that holds a parameter in layouts that name their files, or without an input of the
+// same name; without ResultNames and extension.
 std::string file_name(Parameter parameter, const TargetChoice& choice);
 
-// As inputs: every map of the set that holds something converted gives a file of its name, in which only that
-// is changed (a color that is grey there and none in the result becomes three channels); a constant gives a
-// map of its own (`roughness`, `specular`), and files of what is carried are copied. The other layouts name
-// their files themselves; what is carried and has no channel there has a file, and coverage is the alpha of
-// diffuse or base color. Parameters that the set does not have, since the converter makes them, have no
-// place in as inputs: kUsage. Throws kUsage where two results would have one name, where one is an input,
-// where one channel is two things, where a layout would lose a channel of an input or has no place for a
-// constant, and for an unknown extension; kInput where a file to copy is not there; kOutput where a result
-// exists and `force` is not set or where the folder is a file.
+// Plans the files of a conversion.
+//
+// kAsInputs: each map with a converted channel becomes a file of its name in which only converted channels
+// change; a grey color becomes three channels if the result is not grey. A constant becomes a separate map
+// (`roughness`, `specular`), and files of carried parameters are copied. A parameter that is not in the set
+// has no place: kUsage. The other layouts name their files. Carried parameters without a channel in the
+// layout have a separate file, and coverage becomes the alpha of diffuse or base color.
+//
+// Throws kUsage if two results have the same name, a result is an input, a channel has two meanings, the
+// layout would lose a channel or has no place for a constant, and for an unknown extension; kInput if a file
+// to copy does not exist; kOutput if a result exists and `force` is not set, or if the folder is a file.
 TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice);
 
-// Throws kOutput where the folder of the results is not there and cannot be made, and where one cannot be
-// opened.
+// Opens the planned files. Throws kOutput if the folder cannot be created or a file cannot be opened.
 std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& plan,
                                     const TargetChoice& choice);
 

@@ -16,21 +16,21 @@ namespace {
 
 using Content = TargetChannel::Content;
 
-// Rows that EXR compresses together are 1, 16 or 32 (256 for dwab): bands do not cut them.
+// EXR compresses 1, 16 or 32 rows together (256 for dwab). Bands do not split such groups.
 constexpr std::size_t kChunkRows = 32;
 
-// More than any image has, and less than a damaged file asks for.
+// No valid image needs more for a band, but a damaged file may.
 constexpr std::size_t kLargestBand = std::size_t{2} << 30;
 constexpr float kLossyGrey = 4.0f / 255.0f;
 
-// Rows [first_row, first_row + row_count) of every map, as the files hold them.
+// Rows [first_row, first_row + row_count) of every map, as stored.
 struct Band {
   int first_row = 0;
   int row_count = 0;
   std::vector<std::vector<std::byte>> maps;
 };
 
-bool same_storage(const ImageLayout& a, const ImageLayout& b) {
+bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) {
   return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
                     [](const Channel& x, const Channel& y) { return x.type == y.type; });
 }
@@ -41,7 +41,7 @@ BasicChannelView<Byte> view_of(Byte* texels, const ImageLayout& layout, std::siz
           static_cast<std::ptrdiff_t>(layout.texel_bytes), static_cast<std::ptrdiff_t>(layout.row_bytes())};
 }
 
-// A part of a file that is written in this pass.
+// A part of a file, with its writer.
 struct Target {
   ImageWriter* writer = nullptr;
   const TargetPart* part = nullptr;
@@ -53,7 +53,7 @@ bool converts(const std::vector<Target>& targets) {
   });
 }
 
-// The maps that the targets are made of.
+// The maps that the targets need.
 std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Target>& targets) {
   std::vector<bool> needed(set.maps.size());
   if (converts(targets)) {
@@ -70,8 +70,8 @@ std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Ta
   return maps;
 }
 
-// Planes that are written together: files of one part at once, files of several part after part, since a file
-// is written in its order.
+// Parts that are written together. All files of one part form one round; of files with several parts, each
+// part is a round, because parts must be written in order.
 struct Round {
   Round(const TextureSet& set, std::vector<Target> written, int number)
       : targets(std::move(written)),
@@ -81,8 +81,8 @@ struct Round {
 
   std::vector<Target> targets;
   int part;
-  bool is_converting;             // or copies only
-  std::vector<std::size_t> maps;  // that are read
+  bool is_converting;             // false if all channels are copies
+  std::vector<std::size_t> maps;  // to read
 };
 
 std::vector<Round> rounds_of(const TextureSet& set, std::vector<TargetMap>& targets) {
@@ -98,23 +98,24 @@ std::vector<Round> rounds_of(const TextureSet& set, std::vector<TargetMap>& targ
   return rounds;
 }
 
-// One level of a round.
+// One mip level of a round.
 class Pass {
  public:
   Pass(TextureSet& set, const Round& round, const MaterialConverter& converter, const PassOptions& options);
-  // `progress`: after each band, the rows that are done.
+  // Called after each band with the number of finished rows.
   using Progress = std::function<void(int)>;
-  // What smooth_metallic follows; before run().
+  // Finds the metallic around each texel, for smooth_metallic. Call it before run().
   void look_around(const Progress& progress);
   MapStatistics run(const Progress& progress);
 
  private:
-  // The map that `target` is a copy of but for the channels that are converted; -1 where it is none.
+  // Index of the input band that can be overwritten in place, because `target` copies its other channels; -1
+  // if none.
   int map_in_place(const Target& target) const;
   int rows_of_a_band() const;
   void stop_if_cancelled() const;
   void read(Band& band, int first_row);
-  // Calls `process` for each band in order while the next one is read.
+  // Calls `process` for each band in order, and reads the next band meanwhile.
   void for_each_band(const std::function<void(Band&)>& process, const Progress& progress);
   MapConversion sources_of(const Band& band) const;
   MapStatistics convert(Band& band);
@@ -131,10 +132,10 @@ class Pass {
   const MaterialConverter& converter_;
   const PassOptions& options_;
   std::launch launch_;
-  std::vector<int> in_place_;  // a map for each target, or -1
+  std::vector<int> in_place_;  // index of a map for each target, or -1
   int band_rows_;
-  std::vector<std::vector<std::byte>> converted_;  // of targets that are not in place
-  std::optional<MetallicField> around_;            // filled
+  std::vector<std::vector<std::byte>> converted_;  // bands of targets that are not in place
+  std::optional<MetallicField> around_;            // set by look_around()
   std::vector<float> around_band_;
 };
 
@@ -162,13 +163,12 @@ int Pass::map_in_place(const Target& target) const {
   const auto is_constant = [](const TargetChannel& c) { return c.content == Content::kConstant; };
   if (std::any_of(channels.begin(), channels.end(), is_constant)) return -1;
   const auto follows = [&](std::size_t map) {
-    if (!same_storage(set_.maps[map].layout(), target.writer->layout())) return false;
+    if (!same_pixel_types(set_.maps[map].layout(), target.writer->layout())) return false;
     for (std::size_t c = 0; c < channels.size(); ++c)
       if (channels[c].content == Content::kCopy && channels[c].from != ChannelPlace{map, c}) return false;
     return true;
   };
-  // A map that another target copies from is not written over: only a target of copies of its own, or one
-  // that overwrites what it read itself.
+  // A map that another target copies from must not be overwritten.
   const auto is_shared = [&](std::size_t map) {
     return std::any_of(round_.targets.begin(), round_.targets.end(), [&](const Target& other) {
       return other.part != target.part &&
@@ -198,11 +198,11 @@ int Pass::rows_of_a_band() const {
   for (const Target& target : round_.targets) add(target.writer->layout());
   const std::size_t unit_bytes = unit * std::max(source_bytes, row_bytes);
   if (unit_bytes > kLargestBand)
-    throw Error(ErrorKind::kInput, set_.maps[round_.maps.front()].path().string() + ": is " +
-                                       std::to_string(width_) + " texels wide, and " + std::to_string(unit) +
-                                       " rows of the set take " + std::to_string(unit_bytes >> 20) +
-                                       " MB; expected " + std::to_string(kLargestBand >> 20) +
-                                       " MB at most, or another tile size");
+    throw Error(ErrorKind::kInput, set_.maps[round_.maps.front()].path().string() + ": " +
+                                       std::to_string(unit) + " rows of " + std::to_string(width_) +
+                                       " texels take " + std::to_string(unit_bytes >> 20) +
+                                       " MB in this set (at most " + std::to_string(kLargestBand >> 20) +
+                                       " MB; use smaller tiles)");
   const std::size_t units = options_.band_bytes / unit_bytes;
   const std::size_t rows = unit * std::max<std::size_t>(units, 1);
   return static_cast<int>(std::min(rows, static_cast<std::size_t>(height_)));
@@ -302,7 +302,7 @@ SourceParameter Pass::source_of(Parameter name, const SetParameter& parameter, c
     source.channels.push_back(view_of(band.maps[place.map].data(), reader.layout(), place.channel));
     source.channel_names.push_back(reader.layout().channels[place.channel].name);
     source.name = reader.path().string();
-    // Color transforms of lossy files round grey to colors that are a step or two apart.
+    // Color transforms of lossy files turn grey into colors that differ by a step or two.
     if (!reader.layout().lossy_compression.empty()) source.grey_tolerance = kLossyGrey;
   }
   return source;
@@ -313,7 +313,7 @@ void Pass::add_target(const Target& target, const TargetChannel& channel, const 
   if (channel.content == Content::kMask) maps.mask = view;
   if (channel.content != Content::kParameter) return;
   TargetParameter& parameter = maps.targets[channel.parameter];
-  // Copies of one value follow one another; channels of a color have their places.
+  // Equal channels are appended; the channels of a color have fixed places.
   const auto source = set_.parameters.find(channel.parameter);
   const bool is_copy = !is_color(channel.parameter) ||
                        (source != set_.parameters.end() && source->second.channel_count() == 1 &&
@@ -378,7 +378,7 @@ MapStatistics Pass::convert(Band& band) {
   return statistics;
 }
 
-// Of the files of a round, which must be those of the maps that they are made of.
+// The number of mip levels of the files of a round. Throws if one of their maps has another number.
 int level_count(const TextureSet& set, const Round& round) {
   int levels = 0;
   for (const Target& target : round.targets)
@@ -386,9 +386,9 @@ int level_count(const TextureSet& set, const Round& round) {
   for (const std::size_t map : round.maps) {
     const ImageReader& reader = set.maps[map];
     if (levels > 1 && reader.level_count() != levels)
-      throw Error(ErrorKind::kInput, reader.path().string() + ": has " +
-                                         std::to_string(reader.level_count()) + " mip levels; expected " +
-                                         std::to_string(levels) + " as the other maps of the set have");
+      throw Error(ErrorKind::kInput, reader.path().string() + ": number of mip levels is " +
+                                         std::to_string(reader.level_count()) +
+                                         ", but other maps of the set have " + std::to_string(levels));
   }
   return levels;
 }
@@ -415,7 +415,7 @@ MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
       for (const std::size_t map : round.maps) set.maps[map].select_level(level);
       for (const Target& target : round.targets) target.writer->select(round.part, level);
       const double rows = set.maps[round.maps.front()].layout().height;
-      // A level takes a quarter of the time of the one before; the last one ends the round.
+      // A level takes a quarter of the time of the previous one; the last level ends the round.
       const double left = std::ldexp(1.0, -2 * level), own_share = level + 1 < levels ? 0.75 : 1.0;
       const bool looks_around = options.smooth_metallic && round.is_converting;
       const double passes = looks_around ? 2.0 : 1.0;
@@ -430,7 +430,7 @@ MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
       Pass pass(set, round, converter, options);
       if (looks_around) pass.look_around(after(0.0));
       const MapStatistics plane = pass.run(after(passes - 1.0));
-      // Texels are those of the whole picture, and count once however many files they go to.
+      // The texels of the full picture count once, however many files they go to.
       if (level == 0 && statistics.texel_count == 0) statistics = plane;
     }
   }

@@ -1,5 +1,5 @@
-// The pass over a texture set: bands of rows are read, converted and written, so that memory stays bounded
-// whatever the size of the maps.
+// Converts a texture set in bands of rows that are read, converted and written, so that memory stays bounded
+// for maps of any size.
 #pragma once
 
 #include <atomic>
@@ -14,14 +14,14 @@
 
 namespace remap {
 
-// What a channel of a result holds.
+// The content of a channel of a result.
 struct TargetChannel {
   enum class Content { kParameter, kCopy, kConstant, kMask };
   Content content = Content::kCopy;
-  Parameter parameter = Parameter::kWidth;  // that the converter makes
-  std::size_t index = 0;                    // of its channel
-  ChannelPlace from;                        // of a copy
-  float value = 0.0f;                       // of a constant
+  Parameter parameter = Parameter::kWidth;  // for kParameter
+  std::size_t index = 0;                    // channel of the parameter
+  ChannelPlace from;                        // for kCopy
+  float value = 0.0f;                       // for kConstant
 
   static TargetChannel of(Parameter made, std::size_t channel = 0) {
     TargetChannel target;
@@ -48,46 +48,46 @@ struct TargetChannel {
   }
 };
 
-// Whether a converter makes it, rather than a copy or a constant.
+// Whether a converter makes the channel, that is, it is neither a copy nor a constant.
 bool is_converted(const TargetChannel& channel) noexcept;
 
-// One part of a file that a pass makes.
+// One part of a result.
 struct TargetPart {
-  std::vector<TargetChannel> channels;          // as many as the part has
-  Transfer color_transfer = Transfer::kLinear;  // of the colors that the converter makes
+  std::vector<TargetChannel> channels;          // all channels of the part
+  Transfer color_transfer = Transfer::kLinear;  // of the converted colors
 };
 
-// One file that a pass makes.
+// One result file.
 struct TargetMap {
   ImageWriter writer;
   std::vector<TargetPart> parts;
 };
 
 struct PassOptions {
-  int thread_count = 1;  // of the conversion; more than 1 also reads ahead and writes behind
-  // Bytes that one band of the set may take; whole tiles come first. Two such bands are in memory, three
-  // where pixel types change.
+  int thread_count = 1;  // of the conversion; with more than 1, reading and writing overlap with it
+  // Largest size of a band of the set, unless whole tiles need more. Two bands are in memory, or three if
+  // pixel types change.
   std::size_t band_bytes = std::size_t{8} << 20;
-  std::optional<RoughnessConvention> target_convention;  // of the results; none: the model's own
+  std::optional<RoughnessConvention> target_convention;  // of the results; by default that of the model
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
   bool value_statistics = false;     // ranges and histograms
-  bool metallic_statistics = false;  // how far metallic can be trusted
-  // Where metallic is a guess on which the picture does not depend, it follows the metallic around it, as far
-  // as no picture shows that. Maps are read twice. For converters that can diagnose.
+  bool metallic_statistics = false;  // reliability of metallic
+  // Undetermined metallic follows the metallic around it as far as that has no visible effect. Maps are read
+  // twice. The converter must be able to diagnose.
   bool smooth_metallic = false;
   std::function<void(double share_done)> progress;
-  const std::atomic<bool>* cancelled = nullptr;  // looked at between bands
+  const std::atomic<bool>* cancelled = nullptr;  // checked between bands
 };
 
-// Converts `set` into `targets`, level by level where they are mip-mapped: a renderer that filters parameters
-// sees at every level what it saw of the source. Finishes the files and gives them their names. The values
-// equal MaterialConverter::convert applied texel by texel, whatever the thread count and the band size,
-// rounded to the pixel type of the file. Throws what the files and convert_maps throw; kInterrupted when
-// cancelled. After an exception no file has appeared (after a failing rename, those renamed before it have).
+// Converts `set` into `targets` and gives the finished files their names. Each mip level is converted by
+// itself, so that a renderer filters the same parameters as in the source. The values equal
+// MaterialConverter::convert for each texel, rounded to the pixel type of the file, for any thread count and
+// band size. Throws the errors of the files and of convert_maps, and kInterrupted if cancelled. After an
+// exception no file has appeared, except that after a failed rename the files renamed before it remain.
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
                                const MaterialConverter& converter, const PassOptions& options);
-// Of width and specular alone.
+// The same for roughness and specular alone.
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
                                const PassOptions& options);
 

@@ -36,10 +36,10 @@ std::vector<std::string> split_at_commas(std::string_view text) {
   return parts;
 }
 
-// Of an image that cannot be streamed.
+// The size from which a remark is made about an image that cannot be streamed.
 constexpr std::size_t kWholeImageWorthSaying = std::size_t{64} << 20;
 
-// None where one of them is no number.
+// None if one of the parts is not a number.
 std::optional<std::vector<float>> numbers(std::string_view text) {
   std::vector<float> values;
   for (const std::string& part : split_at_commas(text)) {
@@ -56,7 +56,7 @@ void require_usable(std::string_view option, std::string_view text, const std::v
                                   [](float value) { return std::isfinite(value) && value >= 0.0f; });
   if (usable && (values.size() == 1 || values.size() == 3)) return;
   throw Error(ErrorKind::kUsage,
-              std::string(option) + ": is " + std::string(text) + "; expected " + expected);
+              std::string(option) + ": invalid value '" + std::string(text) + "' (give " + expected + ")");
 }
 
 bool same_word(std::string_view a, std::string_view b) {
@@ -72,7 +72,7 @@ std::optional<std::size_t> find_channel(const ImageLayout& layout, std::string_v
   return static_cast<std::size_t>(found - layout.channels.begin());
 }
 
-// By its own name, or by that of its part before it: `base.R`.
+// Finds a channel by its name, or by the names of its part and itself: `base.R`.
 std::optional<std::size_t> find_channel(const ImageReader& reader, std::string_view name) {
   const std::string part = reader.part_name() + ".";
   if (const auto found = find_channel(reader.layout(), name)) return found;
@@ -81,7 +81,7 @@ std::optional<std::size_t> find_channel(const ImageReader& reader, std::string_v
   return find_channel(reader.layout(), name.substr(part.size()));
 }
 
-// R, G and B, or Y, or the only channel that is not alpha; empty where the file has none of them.
+// R, G and B, or Y, or the only channel except alpha; empty if the file has none of these.
 std::vector<std::size_t> color_channels(const ImageLayout& layout) {
   const auto red = find_channel(layout, "R"), green = find_channel(layout, "G"),
              blue = find_channel(layout, "B");
@@ -92,7 +92,7 @@ std::vector<std::size_t> color_channels(const ImageLayout& layout) {
   return {layout.alpha_channel == 0 && has_alpha ? std::size_t{1} : std::size_t{0}};
 }
 
-// Empty where the part does not have them all.
+// Empty if the part lacks one of them.
 std::vector<std::size_t> named_channels(const ImageReader& reader, const std::vector<std::string>& asked) {
   std::vector<std::size_t> channels;
   for (const std::string& name : asked) {
@@ -104,7 +104,7 @@ std::vector<std::size_t> named_channels(const ImageReader& reader, const std::ve
 }
 
 std::string window_text(const ImageLayout& layout) {
-  std::string text = std::to_string(layout.width) + " x " + std::to_string(layout.height);
+  std::string text = std::to_string(layout.width) + "x" + std::to_string(layout.height);
   if (layout.x != 0 || layout.y != 0)
     text += " at (" + std::to_string(layout.x) + ", " + std::to_string(layout.y) + ")";
   return text;
@@ -113,9 +113,8 @@ std::string window_text(const ImageLayout& layout) {
 void require_same_texels(const ImageReader& first, const ImageReader& other) {
   const ImageLayout &a = first.layout(), &b = other.layout();
   if (a.width == b.width && a.height == b.height && a.x == b.x && a.y == b.y) return;
-  throw Error(ErrorKind::kInput, other.path().string() + ": is " + window_text(b) +
-                                     "; expected the size of " + first.path().string() + ", " +
-                                     window_text(a) + ", or --resample");
+  throw Error(ErrorKind::kInput, other.path().string() + ": size " + window_text(b) + " does not match " +
+                                     first.path().string() + " (" + window_text(a) + "); use --resample");
 }
 
 // The parameters that are maps.
@@ -133,7 +132,7 @@ ImageReader& map_of(TextureSet& set, const SetParameter& parameter) {
   return set.maps[parameter.channels.front().map];
 }
 
-// Color that follows a curve is interpolated as light.
+// The curve of each channel of a map: colors are interpolated as linear light.
 std::vector<Transfer> transfers_of(const TextureSet& set, std::size_t map) {
   std::vector<Transfer> transfers(set.maps[map].layout().channels.size(), Transfer::kLinear);
   for (const auto& [parameter, values] : set.parameters)
@@ -156,7 +155,7 @@ void resample_to_largest(TextureSet& set) {
   }
 }
 
-// The indices of the parts of a file among the maps of the set, which opens it where it is not there.
+// The indices of the parts of a file among the maps of the set. Opens the file if it is not in the set yet.
 std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
   std::vector<std::size_t> parts;
   for (std::size_t i = 0; i < set.maps.size(); ++i)
@@ -176,12 +175,12 @@ std::vector<std::size_t> open_file(const fs::path& file, TextureSet& set) {
   for (const std::string& asked : name.channels)
     if (!find_channel(reader, asked))
       throw Error(ErrorKind::kUsage,
-                  name.file.string() + ": has no channel " + asked + suggestion(asked, known));
-  throw Error(ErrorKind::kInput, name.file.string() + ": has the channels " + listed(known) + "; expected " +
-                                     expected + ", or FILE:CHANNEL");
+                  name.file.string() + ": no channel '" + asked + "'" + suggestion(asked, known));
+  throw Error(ErrorKind::kInput, name.file.string() + ": has the channels " + listed(known) + " instead of " +
+                                     expected + " (choose with FILE:CHANNEL)");
 }
 
-// Those that are asked for by name, or that hold color, in the one part of the file that has them.
+// The named channels, or the color channels, in the only part of the file that has them.
 std::vector<ChannelPlace> find_channels(const MapName& name, const std::string& expected, TextureSet& set) {
   const std::vector<std::size_t> parts = open_file(name.file, set);
   std::vector<std::vector<ChannelPlace>> candidates;
@@ -196,13 +195,13 @@ std::vector<ChannelPlace> find_channels(const MapName& name, const std::string& 
   }
   if (candidates.size() == 1) return candidates.front();
   if (candidates.empty()) fail_missing(set.maps[parts.front()], name, expected);
-  throw Error(ErrorKind::kUsage, name.file.string() + ": has the parts " + listed(part_names) +
-                                     ", and several have such channels; expected FILE:PART.CHANNEL, or "
-                                     "FILE:PART.R,PART.G,PART.B");
+  throw Error(ErrorKind::kUsage, name.file.string() + ": several of its parts (" + listed(part_names) +
+                                     ") have such channels (choose with FILE:PART.CHANNEL or "
+                                     "FILE:PART.R,PART.G,PART.B)");
 }
 
-// Color in whole numbers follows the curve that its file names; a single channel is data, where it is not
-// the grey of a diffuse or base color, which is never anything else.
+// Integer color follows the curve that its file is tagged with. A single channel is data, except that grey
+// diffuse and base color are colors.
 Transfer guessed_transfer(const TextureSet& set, const SetParameter& parameter, bool grey_is_color) {
   const ChannelPlace first = parameter.channels.front();
   const ImageLayout& layout = set.maps[first.map].layout();
@@ -228,8 +227,8 @@ SetParameter open_parameter(const ParameterRequest& request, const std::string& 
 void require_factors(std::string_view option, const SetParameter& parameter) {
   if (parameter.factors.size() > 1 && parameter.factors.size() != parameter.channel_count())
     throw Error(ErrorKind::kUsage, std::string(option) + ": has " + std::to_string(parameter.factors.size()) +
-                                       " values; expected one, or one each for the " +
-                                       std::to_string(parameter.channel_count()) + " channels");
+                                       " values (give one, or one for each of the " +
+                                       std::to_string(parameter.channel_count()) + " channels)");
 }
 
 bool holds_parameter(const TextureSet& set, const ChannelPlace& place) {
@@ -264,7 +263,7 @@ std::string listed_options(const TextureSet& set) {
 
 std::variant<MapName, ConstantValues> parameter_source(std::string_view option, std::string_view text) {
   if (const auto values = numbers(text)) {
-    require_usable(option, text, *values, "a file, or one or three finite values from 0");
+    require_usable(option, text, *values, "a file, or one or three finite numbers from 0");
     return *values;
   }
   std::error_code none;
@@ -275,22 +274,21 @@ std::variant<MapName, ConstantValues> parameter_source(std::string_view option, 
   const std::vector<std::string> channels = split_at_commas(text.substr(colon + 1));
   const bool named = std::none_of(channels.begin(), channels.end(), [](auto& name) { return name.empty(); });
   if (!named || (channels.size() != 1 && channels.size() != 3))
-    throw Error(ErrorKind::kUsage, std::string(option) + ": is " + std::string(text) +
-                                       "; expected FILE:CHANNEL, or FILE:R,G,B with three channels");
+    throw Error(ErrorKind::kUsage, std::string(option) + ": invalid channels in '" + std::string(text) +
+                                       "' (use FILE:CHANNEL or FILE:R,G,B)");
   return MapName{fs::path(text.substr(0, colon)), channels};
 }
 
 std::vector<float> parse_factors(std::string_view option, std::string_view text) {
-  const std::string expected = "one or three finite factors from 0";
   const auto values = numbers(text);
-  require_usable(option, text, values.value_or(std::vector<float>{}), expected);
+  require_usable(option, text, values.value_or(std::vector<float>{}), "one or three finite factors from 0");
   return *values;
 }
 
 std::size_t TextureSet::first_map() const {
   for (const auto& [parameter, values] : parameters)
     if (values.is_map()) return values.channels.front().map;
-  throw Error(ErrorKind::kUsage, listed_options(*this) + ": are constants; expected a map");
+  throw Error(ErrorKind::kUsage, listed_options(*this) + ": all are numbers (give at least one map)");
 }
 
 TextureSet open_texture_set(const TextureSetRequest& request) {
@@ -301,19 +299,19 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
     SetParameter opened =
         open_parameter(asked, color ? "R, G and B, or one channel" : "one channel, Y, or R, G and B", set,
                        parameter == Parameter::kDiffuse || parameter == Parameter::kBaseColor);
-    if (!color && !asked.transfer) opened.transfer = Transfer::kLinear;  // data, whatever the file says
+    if (!color && !asked.transfer)
+      opened.transfer = Transfer::kLinear;  // data, even if the file is tagged as color
     if (!color && !opened.is_map() && opened.constants.size() != 1)
-      throw Error(ErrorKind::kUsage, parameter_option(parameter) + ": has three values; expected one");
+      throw Error(ErrorKind::kUsage, parameter_option(parameter) + ": has three values (give one)");
     require_factors(parameter_option(parameter) + "-factor", opened);
     set.parameters[parameter] = std::move(opened);
   }
-  if (set.maps.empty())
-    throw Error(ErrorKind::kUsage, listed_options(set) + ": are constants; expected a map");
+  (void)set.first_map();  // throws if no parameter is a map
   for (const CarriedRequest& carried : request.carried) {
     SetParameter parameter = open_parameter(carried.parameter, "one channel, Y, or R, G and B", set);
-    if (parameter.is_map()) parameter.channels.resize(1);  // copies of one value
+    if (parameter.is_map()) parameter.channels.resize(1);  // all are equal
     if (parameter.channel_count() != 1)
-      throw Error(ErrorKind::kUsage, "--" + carried.name + ": has three values; expected one");
+      throw Error(ErrorKind::kUsage, "--" + carried.name + ": has three values (give one)");
     set.carried.push_back({carried.name, parameter});
   }
   set.coverage = find_coverage(set);
@@ -327,20 +325,20 @@ std::vector<std::string> remarks(const TextureSet& set) {
   std::vector<std::string> messages;
   constexpr std::size_t kMegabyte = std::size_t{1} << 20;
   for (const ImageReader& map : set.maps) {
-    // OpenImageIO reads Targa as a whole and all else by rows or tiles.
+    // OpenImageIO reads Targa files whole, and other formats by rows or tiles.
     const std::size_t bytes = map.layout().row_bytes() * static_cast<std::size_t>(map.layout().height);
     if (map.layout().format == "targa" && bytes >= kWholeImageWorthSaying)
-      messages.push_back(map.path().string() + ": Targa is held in memory as a whole, " +
-                         std::to_string(bytes / kMegabyte) + " MB; other formats are not");
+      messages.push_back(map.path().string() + ": the whole Targa image is held in memory (" +
+                         std::to_string(bytes / kMegabyte) + " MB); other formats are streamed");
   }
   for (const ImageReader& map : set.maps)
     if (map.is_resampled())
-      messages.push_back(map.path().string() + ": is resampled to " + window_text(map.layout()));
+      messages.push_back(map.path().string() + ": resampled to " + window_text(map.layout()));
   for (const auto& [parameter, values] : set.parameters)
     if (values.transfer == Transfer::kSrgb && values.transfer_is_guessed)
       messages.push_back(set.maps[values.channels.front().map].path().string() + ": " +
                          std::string(parameter_name(parameter)) +
-                         " is read as color in sRGB; --color-space linear reads it as data");
+                         " is read as sRGB color (--color-space linear reads it as data)");
   return messages;
 }
 

@@ -59,12 +59,33 @@ build_preset() {
   cmake --preset "$preset" && cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
-# run_tests PRESET: shows what fails and ctest's summary; a passed test is a line in the log only.
+# run_tests PRESET [CTEST_OPTION...]: shows what fails, ctest's summary and why tests were skipped. Passed and skipped
+# tests are lines in the log only.
 run_tests() {
-  local -r passed='^ *(Start +[0-9]+:|[0-9]+/[0-9]+ +Test +#[0-9]+:.* Passed )'
+  local -r preset=$1 hidden='^ *(Start +[0-9]+:|[0-9]+/[0-9]+ +Test +#[0-9]+:.*( Passed |\*\*\*Skipped ))'
   local -a statuses
-  echo "Testing (preset $1)"
-  ctest --preset "$1" --parallel "$(nproc)" </dev/null 2>&1 | tee -a "$log" | grep -vE "$passed" && return 0
-  statuses=("${PIPESTATUS[@]}")
+  shift
+  echo "Testing (preset $preset${*:+, $*})"
+  ctest --preset "$preset" --parallel "$(nproc)" --no-label-summary "$@" </dev/null 2>&1 | tee -a "$log" |
+    grep -vE "$hidden" && statuses=(0) || statuses=("${PIPESTATUS[@]}")
+  skip_reasons "build/$preset/Testing/Temporary/LastTest.log" | tee -a "$log"
   return "${statuses[0]}"
+}
+
+# skip_reasons CTEST_LOG: why tests were skipped, each reason with the number of tests; nothing where none was.
+skip_reasons() {
+  sed -n 's/^skipped: //p' "$1" | sort | uniq -c | sort -rn | sed '1i Skipped (tests, reason):'
+}
+
+# count_tests LOG: "PASSED FAILED SKIPPED" of the last run of tests in a log. No summary is one failure.
+count_tests() {
+  local summary
+  summary=$(sed -n 's/.*tests passed, \([0-9]*\) tests failed out of \([0-9]*\)$/\1 \2/p' "$1" | tail -n 1)
+  local -r failed=${summary% *} total=${summary#* }
+  local -r skipped=$(grep -cE '^ *[0-9]+/[0-9]+ +Test +#[0-9]+:.*\*\*\*Skipped ' "$1")
+  if [[ -z $summary ]]; then
+    echo "0 1 0"
+  else
+    echo "$((total - failed - skipped)) $failed $skipped"
+  fi
 }

@@ -18,7 +18,8 @@ class Step final : public remap::Converter {
   Step(Pass pass, int number) : Converter(info(number)), pass_(pass) {}
 
   std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out) const override {
+                      float* roughness_out, std::span<float* const> specular_out,
+                      std::uint8_t*) const override {
     if (specular.size() == 3)
       return pass_(count, roughness, {specular[0], specular[1], specular[2]}, roughness_out,
                    {specular_out[0], specular_out[1], specular_out[2]});

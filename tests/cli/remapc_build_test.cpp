@@ -1,4 +1,5 @@
 // remapc build, chain, invert, fit --swap: fits from a manifest, and fits made of fits.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -47,7 +48,7 @@ void append(const std::string& path, const std::string& text) { std::ofstream(pa
 
 }  // namespace
 
-TEST_CASE("remapc build: makes what the manifest asks for, and nothing twice") {
+TEST_CASE("remapc build: makes the items of the manifest, and none twice") {
   const Session session;
   session.write("fits/manifest.json", manifest());
   CHECK(built_ids(session.remapc(build_of(session))) ==
@@ -60,55 +61,67 @@ TEST_CASE("remapc build: makes what the manifest asks for, and nothing twice") {
       "emit", "--all", "--check", "--fits", session.path("fits"), "-o", session.path("generated")};
   CHECK(session.remapc(emit).exit_code == 0);
   const std::string report = read_file(session.path("fits/README.md"));
-  CHECK(report.find("| **mitsuba/ward-duer** |") != std::string::npos);
-  CHECK(report.find("Published in nobody 2020. As printed.") != std::string::npos);
+  // The compared pair comes before the published one, whose heading carries the mark.
+  const std::size_t measured = report.find("| mitsuba/ward, mitsuba/ward-duer | [");
+  const std::size_t published = report.find("[a/b to mitsuba/ward](a_b_to_mitsuba_ward.json)");
+  CHECK(report.find("## Never compared **(!)**") < published);
+  CHECK(measured < published);
+  CHECK(published != std::string::npos);
+  CHECK(report.find("marks 3 of 5 converters") != std::string::npos);
+  const std::string figures = read_file(session.path("fits/converters.csv"));
+  CHECK(figures.starts_with("converter,kind,source,target,warning,image_error,"));
+  CHECK(std::count(figures.begin(), figures.end(), '\n') == 6);
+  CHECK(figures.find("\na_b_to_mitsuba_ward,parametric,a/b,mitsuba/ward,pictures never compared,,") !=
+        std::string::npos);
+  CHECK(figures.find("Published in nobody 2020. As printed.\n") != std::string::npos);
+  CHECK(figures.find("\"Composed of a_b_to_mitsuba_ward, then") != std::string::npos);  // quoted: has a comma
   CHECK(read_file(session.path("fits/pairs.svg")).find("<polyline") != std::string::npos);
   const ProcessResult card =
       session.remapc({"show", "mitsuba_ward_to_mitsuba_ward_duer", "--fits", session.path("fits")});
-  CHECK(card.output.find("There and back by mitsuba_ward_duer_to_mitsuba_ward\n  alpha   changes by") !=
+  CHECK(card.output.find("Round trip through mitsuba_ward_duer_to_mitsuba_ward\n  alpha   changes by") !=
         std::string::npos);
 
-  // A header that was edited is made again by itself.
+  // A header that was edited is remade alone.
   append(session.path("generated/mitsuba_ward_to_mitsuba_ward_duer.hpp"), "// mine\n");
   const ProcessResult check = session.remapc(build_of(session, {"--check"}));
   CHECK(check.exit_code == 1);
-  CHECK(check.output.find("is not the file that the last build made") != std::string::npos);
+  CHECK(check.output.find("was changed after the last build") != std::string::npos);
   const std::string fit = read_file(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json"));
   const ProcessResult again = session.remapc(build_of(session));
   CHECK(built_ids(again) == std::vector<std::string>{"mitsuba_ward_to_mitsuba_ward_duer"});
   CHECK_FALSE(nlohmann::json::parse(again.output)["built"][0]["fit"].get<bool>());
   CHECK(read_file(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json")) == fit);
 
-  // A fit that is gone is made again from its table, to the same bytes.
+  // A deleted fit is remade from its table, with the same bytes.
   std::filesystem::remove(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json"));
   CHECK(built_ids(session.remapc(build_of(session))).size() == 1);
   CHECK(read_file(session.path("fits/mitsuba_ward_to_mitsuba_ward_duer.json")) == fit);
 
-  // Another recipe of the sweeps: both pairs, and the chain that is made from one of them.
+  // Another recipe of the sweeps remakes both pairs, and the chain that uses one of them.
   session.write("fits/manifest.json", manifest(56));
   CHECK(built_ids(session.remapc(build_of(session))) ==
         std::vector<std::string>{"a_b_to_mitsuba_ward_duer", "mitsuba_ward_duer_to_mitsuba_ward",
                                  "mitsuba_ward_to_mitsuba_ward_duer"});
 }
 
-TEST_CASE("remapc build: a table that is not the one a fit was made of is told") {
+TEST_CASE("remapc build: a table that was changed after its fit is reported") {
   const Session session;
   session.write(
       "fits/manifest.json",
       R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [], "chains": []})");
   session.write("fits/tables/t.csv", made_table(14, 4));
   REQUIRE(session.remapc(session.fit("fits/tables/t.csv")).exit_code == 0);
-  CHECK(session.remapc(build_of(session, {"--check"})).output.find("is not the report of these fits") !=
+  CHECK(session.remapc(build_of(session, {"--check"})).output.find("out of date with the fits") !=
         std::string::npos);
   CHECK(built_ids(session.remapc(build_of(session))).empty());
   CHECK(session.remapc(build_of(session, {"--check"})).exit_code == 0);
   append(session.path("fits/tables/t.csv"), "0.5,0.5,0.4,0.4,0,ok\n");
   const ProcessResult check = session.remapc(build_of(session, {"--check"}));
   CHECK(check.exit_code == 1);
-  CHECK(check.output.find("t.csv is not the table that it was fitted to") != std::string::npos);
+  CHECK(check.output.find("t.csv was changed after the fit") != std::string::npos);
 }
 
-TEST_CASE("remapc build: what vanished from the manifest is told, and removed where that is asked for") {
+TEST_CASE("remapc build: items that left the manifest are reported, and removed on request") {
   const std::string id = "mitsuba_ward_to_a_b", published = "a_b_to_mitsuba_ward";
   const Session session;
   auto items = nlohmann::json::parse(manifest());
@@ -120,13 +133,13 @@ TEST_CASE("remapc build: what vanished from the manifest is told, and removed wh
   session.write("fits/manifest.json", items.dump());
   const ProcessResult check = session.remapc(build_of(session, {"--check"}));
   CHECK(check.exit_code == 1);
-  CHECK(check.output.find(id + ": is no item of the manifest; `remapc build --prune`") != std::string::npos);
+  CHECK(check.output.find(id + ": no longer in the manifest (`remapc build --prune`") != std::string::npos);
 
-  // Told each time, until they are gone; what was changed by hand stays.
+  // They are reported until they are removed; files that were changed by hand stay.
   for (int i = 0; i < 2; ++i) {
-    const auto told = nlohmann::json::parse(session.remapc(build_of(session)).output);
-    CHECK(told["vanished"].size() == 2);
-    CHECK(told["pruned"].empty());
+    const auto report = nlohmann::json::parse(session.remapc(build_of(session)).output);
+    CHECK(report["vanished"].size() == 2);
+    CHECK(report["pruned"].empty());
   }
   CHECK(read_file(session.path("fits/README.md")).find(id) != std::string::npos);
   append(session.path("generated/" + published + ".hpp"), "// mine\n");
@@ -137,10 +150,10 @@ TEST_CASE("remapc build: what vanished from the manifest is told, and removed wh
        {"fits/" + id + ".json", "fits/tables/" + id + ".csv", "generated/" + id + ".hpp"})
     CHECK_FALSE(std::filesystem::exists(session.path(file)));
   CHECK(read_file(session.path("fits/README.md")).find(id + ".json") == std::string::npos);
-  CHECK(read_file(session.path("generated/registry.hpp")).find(id + ".hpp") == std::string::npos);
+  CHECK(read_file(session.path("generated/converters.json")).find("\"" + id + "\"") == std::string::npos);
 }
 
-TEST_CASE("remapc build: a manifest that is wrong is refused with the place") {
+TEST_CASE("remapc build: a faulty manifest is refused with the place") {
   const Session session;
   const auto refused = [&](const std::string& from, const std::string& to, const std::string& message) {
     std::string text = manifest();
@@ -156,10 +169,11 @@ TEST_CASE("remapc build: a manifest that is wrong is refused with the place") {
   refused("\"id\": \"mitsuba_ward_to_a_b\"", "\"id\": \"a_b_to_mitsuba_ward\"", "twice");
   refused("\"id\": \"mitsuba_ward_to_a_b\"", "\"id\": \"int\"", "identifier");
   refused("\"steps\": [\"a_b_to_mitsuba_ward\", ", "\"steps\": [", "at least 2");
-  refused("\"mitsuba/ward-duer\"]", "\"mitsuba/ward-dur\"]", "which is no item before it");
+  refused("\"mitsuba/ward-duer\"]", "\"mitsuba/ward-dur\"]",
+          "unknown item mitsuba_ward_to_mitsuba_ward_duer");
 }
 
-TEST_CASE("remapc build: an interrupted build goes on where it was") {
+TEST_CASE("remapc build: an interrupted build continues where it stopped") {
   const Session session;
   session.write("fits/manifest.json", manifest(200));
   std::vector<std::string> words = build_of(session, {"--jobs", "1"});
@@ -202,7 +216,7 @@ TEST_CASE("remapc fit --swap and invert: two ways back that agree") {
   CHECK(eval.exit_code == 1);  // no such table
 }
 
-TEST_CASE("remapc chain: one fit, and what cannot be one") {
+TEST_CASE("remapc chain: composes one fit, and refuses steps that do not join") {
   const Session session;
   session.write("fits/manifest.json", manifest());
   REQUIRE(session.remapc(build_of(session)).exit_code == 0);
@@ -236,7 +250,7 @@ TEST_CASE("remapc chain: one fit, and what cannot be one") {
   CHECK(made.output.find("colored") != std::string::npos);
 }
 
-TEST_CASE("remapc build: pairs of real renderers, whose tables stay where the renderer is gone") {
+TEST_CASE("remapc build: tables of real renderers are reused without the renderer") {
   const Session session;
   session.write("fits/manifest.json",
                 R"({"format": "remap-manifest", "version": 1, "published": [], "inverses": [], "chains": [],
@@ -250,7 +264,7 @@ TEST_CASE("remapc build: pairs of real renderers, whose tables stay where the re
         std::vector<std::string>{"fake_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_fake_ggx"});
   const std::string table = read_file(session.path("fits/tables/fake_ggx_to_mitsuba_ggx.csv"));
 
-  // Without the worker: nothing to do; all anew from the tables that are there; no table, no way.
+  // Without the worker: nothing is out of date; --force reuses the tables; a changed table is an error.
   const std::vector<std::string> elsewhere = {"--worker", "fake=/nowhere/to-be-found"};
   CHECK(built_ids(session.remapc(build_of(session, elsewhere))).empty());
   std::vector<std::string> forced = elsewhere;

@@ -60,7 +60,7 @@ TEST_CASE("remapc import: models of libsvm become a fit that list, show and emit
   CHECK(session.remapc({"list", "--fits", session.path("fits")}).output.find("svr        errors unknown") !=
         std::string::npos);
   const ProcessResult shown = session.remapc({"show", "my_svr", "--fits", session.path("fits")});
-  CHECK(shown.output.find("held against no rows") != std::string::npos);
+  CHECK(shown.output.find("unknown (no rows held out)") != std::string::npos);
   CHECK(shown.output.find("2 Gaussians of alpha and specular") != std::string::npos);
   CHECK(shown.output.find("imported: libsvm model files") != std::string::npos);
 }
@@ -86,8 +86,8 @@ TEST_CASE("remapc import: what cannot be read or written is named") {
     return session.remapc({"import", session.path(file), "-o", session.path(folder)});
   };
   check_failure(import("no.json", "fits"), 1, "no.json: cannot be read: No such file");
-  check_failure(import("alpha.model", "fits"), 1, "is no JSON");
-  check_failure(import("d.json", "alpha.model"), 1, "alpha.model: cannot be made a folder");
+  check_failure(import("alpha.model", "fits"), 1, "invalid JSON");
+  check_failure(import("d.json", "alpha.model"), 1, "alpha.model: folder cannot be created");
   session.write("alpha.model", kModel + "1.5 1:0.25 \n");
   check_failure(import("d.json", "fits"), 1, "alpha.model:9: the file ends after 1");
   fs::remove(session.path("specular.model"));
@@ -110,7 +110,7 @@ TEST_CASE("remapc export: a parametric fit is a table over its width, an importe
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
   CHECK(result.output.empty());
-  CHECK(result.errors.find("linear lookup is off the fit by at most") != std::string::npos);
+  CHECK(result.errors.find("linear lookup deviates from the fit by at most") != std::string::npos);
   CHECK(read_file(table).starts_with("# format: remap-lookup\n# format_version: 1\n"));
   CHECK(data_lines(table)[0] == "source_alpha,target_alpha,target_f0_factor");
   CHECK(data_lines(table).size() == 6);
@@ -143,10 +143,11 @@ TEST_CASE("remapc export: what is unknown, too small or cannot be written is nam
   };
   check_failure(session.remapc({"export", "mitsuba_ward_to_mitsuba_az", "--fits", session.path("fits")}), 2,
                 "did you mean mitsuba_ward_to_mitsuba_as?");
-  check_failure(export_to("x.csv", {"--size", "1"}), 2, "--size: Value 1 not in range 2 to 1048576");
-  check_failure(export_to("x.csv", {"--size-specular", "-3"}), 2, "--size-specular: Value -3 not in range");
+  check_failure(export_to("x.csv", {"--size", "1"}), 2, "--size: invalid value '1' (allowed: 2 to 1048576)");
+  check_failure(export_to("x.csv", {"--size-specular", "-3"}), 2,
+                "--size-specular: invalid value '-3' (allowed: 2 to 1048576)");
   check_failure(export_to("x.csv", {"--only", "color"}), 2, "--only");
-  check_failure(export_to("t.csv/x.csv"), 1, "t.csv: cannot be made a folder");
+  check_failure(export_to("t.csv/x.csv"), 1, "t.csv: folder cannot be created");
   check_failure(export_to("fits"), 1, "fits: cannot be written");
   CHECK_FALSE(fs::exists(session.path("x.csv")));
   ProcessLimits limits;
@@ -163,6 +164,6 @@ TEST_CASE("remapc list: a folder without fits says so, and one that is none is a
   session.write("empty/readme.txt", "");
   const ProcessResult result = session.remapc({"list", "--fits", session.path("empty")});
   CHECK(result.exit_code == 0);
-  CHECK(result.errors.find("holds no fits") != std::string::npos);
-  check_failure(session.remapc({"list", "--fits", session.path("none")}), 1, "none: is no folder");
+  CHECK(result.errors.find("no fits (*.json) in this folder") != std::string::npos);
+  check_failure(session.remapc({"list", "--fits", session.path("none")}), 1, "none: not a folder");
 }

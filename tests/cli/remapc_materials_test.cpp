@@ -1,4 +1,4 @@
-// `remapc sweep` with stages and diffuse, and the studies of measured materials, as a person meets them.
+// Runs `remapc sweep` with stages and diffuse, `remapc sample`, and the studies of measured materials.
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -12,14 +12,14 @@ namespace {
 
 std::vector<std::string> study(const Session& session, const std::string& name,
                                const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"study", name, "-o", session.path(name), "--resolution", "32"};
+  std::vector<std::string> arguments = {name, "-o", session.path(name), "--resolution", "32"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
 
 }  // namespace
 
-TEST_CASE("remapc sweep: stages and diffuse make columns that check and fit take") {
+TEST_CASE("remapc sweep: stages and diffuse give columns that check and fit accept") {
   const Session session;
   for (const std::string stages : {"1", "2", "3"}) {
     auto arguments = session.sweep("t" + stages + ".csv");
@@ -51,40 +51,40 @@ TEST_CASE("remapc sweep: models with an index are swept in F0") {
   CHECK(table.find("3 specular 0 to 0.36\n") != std::string::npos);
 }
 
-TEST_CASE("remapc sweep: wrong stages, diffuse and conductors are exit code 2") {
+TEST_CASE("remapc sweep: invalid stages, diffuse and conductors give exit code 2") {
   const Session session;
   auto arguments = session.sweep("t.csv");
   arguments.insert(arguments.end(), {"--stages", "4"});
-  check_failure(session.remapc(arguments), 2, "--stages: Value 4 not in range 1 to 3");
+  check_failure(session.remapc(arguments), 2, "--stages: invalid value '4' (allowed: 1 to 3)");
   arguments = session.sweep("t.csv");
   arguments.insert(arguments.end(), {"--diffuse", "2"});
-  check_failure(session.remapc(arguments), 2, "diffuse 2; expected 0 to 1");
+  check_failure(session.remapc(arguments), 2, "diffuse 2 is out of range (0 to 1)");
   arguments = session.sweep("t.csv");
   arguments[2] = "mitsuba/as-conductor";
   check_failure(session.remapc(arguments), 2, "has no parameter for specular");
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("remap-study conductors: writes tables and says what was found") {
+TEST_CASE("remap-study conductors: writes tables and a summary") {
   const Session session;
-  const ProcessResult result = session.remapc(study(session, "conductors", {"--alphas", "0.2,0.4"}));
+  const ProcessResult result = session.study(study(session, "conductors", {"--alphas", "0.2,0.4"}));
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
   CHECK(result.output.find("figure 6: smooth") != std::string::npos);
   CHECK(result.output.find("figure 7: the ") != std::string::npos);
-  CHECK(result.output.find("Schlick from F0 against exact Fresnel") != std::string::npos);
+  CHECK(result.output.find("Schlick (from F0) against exact Fresnel") != std::string::npos);
   for (const std::string file : {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"})
     CHECK(fs::exists(session.path("conductors/" + file)));
   CHECK(session.remapc({"check", session.path("conductors/as_to_ward.csv")}).output.find("contradiction") ==
         std::string::npos);
-  const ProcessResult json = session.remapc(study(session, "conductors", {"--alphas", "0.2", "--json"}));
+  const ProcessResult json = session.study(study(session, "conductors", {"--alphas", "0.2", "--json"}));
   CHECK(json.output.find("\"slope\": ") != std::string::npos);
   CHECK(json.output.find("null") == std::string::npos);
 }
 
 TEST_CASE("remap-study dielectrics: compares one, two and three stages") {
   const Session session;
-  const ProcessResult result = session.remapc(study(session, "dielectrics", {"--alphas", "0.3", "--json"}));
+  const ProcessResult result = session.study(study(session, "dielectrics", {"--alphas", "0.3", "--json"}));
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
   CHECK(result.output.find("\"stages\": 3") != std::string::npos);
@@ -96,22 +96,23 @@ TEST_CASE("remap-study dielectrics: compares one, two and three stages") {
     CHECK(fs::exists(session.path("dielectrics/" + file)));
 }
 
-TEST_CASE("remapc study: wrong usage is exit code 2, help has an example") {
+TEST_CASE("remap-study: wrong usage gives exit code 2, help has an example") {
   const Session session;
-  check_failure(session.remapc({"study"}), 2, "command: is missing");
-  check_failure(session.remapc({"study", "conductor"}), 2, "conductors");
-  check_failure(session.remapc(study(session, "conductors", {"--alphas", "0.4,0.2"})), 2,
-                "--alphas: expected rising widths from 0.01 to 1");
-  check_failure(session.remapc(study(session, "dielectrics", {"--diffuse", "-1"})), 2,
-                "--diffuse: expected 0 to 1");
+  const auto fails = [&](const std::vector<std::string>& arguments, const std::string& message) {
+    check_failure(session.study(arguments), 2, message, "remap-study");
+  };
+  fails({}, "no command given (try --help)");
+  fails({"conductor"}, "conductors");
+  fails(study(session, "conductors", {"--alphas", "0.4,0.2"}),
+        "--alphas: values must increase and lie between 0.01 and 1");
+  fails(study(session, "dielectrics", {"--diffuse", "-1"}), "--diffuse: -1 is out of range (0 to 1)");
   CHECK(session.file_count() == 0);
   for (const std::string name : {"conductors", "dielectrics"})
-    CHECK(session.remapc({"study", name, "--help"}).output.find("Example:\n  remap-study " + name) !=
+    CHECK(session.study({name, "--help"}).output.find("Example:\n  remap-study " + name) !=
           std::string::npos);
 }
 
-TEST_CASE(
-    "remapc sample: a table of named columns, which check reads and fit learns from the other way round") {
+TEST_CASE("remapc sample: a table of named columns that check reads and fit --swap inverts") {
   const Session session;
   const std::vector<std::string> sample = {"sample",       "--source",    "mitsuba/ggx-metallic",
                                            "--target",     "mitsuba/ggx", "--vary",
@@ -126,14 +127,14 @@ TEST_CASE(
   CHECK(result.output.find("\"base_color_g1\"") != std::string::npos);
   CHECK(session.remapc({"check", session.path("t.csv")}).exit_code == 0);
   check_failure(session.remapc({"fit", session.path("t.csv")}), 2,
-                "is exact and needs no fit; expected --swap");
-  check_failure(session.remapc(sample), 1, "exists; --force replaces it");
+                "is exact by equation (2) and needs no fit (use --swap");
+  check_failure(session.remapc(sample), 1, "already exists (--force overwrites)");
   check_failure(session.remapc({"sample", "--source", "mitsuba/ggx", "--target", "mitsuba/ggx", "--range",
                                 "alpha=0.5", "-o", session.path("u.csv")}),
-                2, "expected NAME=MIN,MAX");
+                2, "(write NAME=MIN,MAX");
 }
 
-TEST_CASE("remapc sweep: parameters are cast and fixed from the command line") {
+TEST_CASE("remapc sweep: roles and fixed values of parameters are given on the command line") {
   const Session session;
   const auto sweep = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments = {"sweep",
@@ -161,10 +162,10 @@ TEST_CASE("remapc sweep: parameters are cast and fixed from the command line") {
         std::string::npos);
   check_failure(sweep({"--source-set", "metalic=1"}), 2, "did you mean metallic?");
   check_failure(sweep({"--source-set", "metallic=1,0,0"}), 2, "has 3 values; expected one");
-  check_failure(sweep({"--target-set", "diffuse"}), 2, "has no =");
+  check_failure(sweep({"--target-set", "diffuse"}), 2, "'=' missing (write NAME=VALUE or NAME=R,G,B)");
 }
 
-TEST_CASE("remapc preview: pictures and figures of a committed fit") {
+TEST_CASE("remapc preview: writes pictures and figures of a committed fit") {
   const Session session;
   const ProcessResult result =
       session.remapc({"preview", "mitsuba_ward_to_mitsuba_ggx", "--fits", REMAP_SOURCE_DIR "/fits", "--alpha",

@@ -22,6 +22,11 @@ class Session {
     arguments.insert(arguments.begin(), REMAPC_PROGRAM);
     return run(arguments, limits);
   }
+  // Runs remap-study.
+  ProcessResult study(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), REMAP_STUDY);
+    return run(arguments);
+  }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   void write(const std::string& name, const std::string& content) const {
     write_file(folder_.path() / name, content);
@@ -73,11 +78,12 @@ inline std::string made_table(int widths, int speculars) {
   return text;
 }
 
-inline void check_failure(const ProcessResult& result, int exit_code, const std::string& message) {
+inline void check_failure(const ProcessResult& result, int exit_code, const std::string& message,
+                          const std::string& program = "remapc") {
   INFO(result.errors);
   CHECK(result.exit_code == exit_code);
   CHECK(result.last_error().find(message) != std::string::npos);
-  CHECK(result.last_error().starts_with("remapc: "));
+  CHECK(result.last_error().starts_with(program + ": "));
   CHECK(result.output.find("Segmentation") == std::string::npos);
 }
 

@@ -1,5 +1,4 @@
-// remapc warp with materials and strokes of which little can be made: a message, or a warning and the best of
-// it.
+// remapc warp with poor materials and strokes: an error, or a warning and the best possible result.
 #include <cmath>
 #include <limits>
 
@@ -19,7 +18,7 @@ WarpTexel torn_texel(const Latent& at) {
   if (at.u > 0.99) texel[1] = std::numeric_limits<float>::quiet_NaN();
   return texel;
 }
-// Lambertian: what a diffuse map alone stands for.
+// A Lambertian material, as a diffuse map alone represents it.
 WarpTexel albedo_texel(const Latent& at) {
   const auto u = static_cast<float>(at.u), v = static_cast<float>(at.v);
   return {0.1f + 0.4f * u, 0.1f + 0.3f * v * v, 0.05f + 0.1f * u * v, 0, 0, 0, 1};
@@ -63,15 +62,15 @@ TEST_CASE("remapc warp: materials of one appearance are refused") {
   write_materials(session);
   SECTION("a black source") {
     write_set(session, "wood", 0.1, black_texel);
-    check_refused(session, mask_words(session), "wood: all texels look alike");
+    check_refused(session, mask_words(session), "wood: all texels look the same");
   }
   SECTION("a template of one color") {
     write_set(session, "stone", 0.37, one_color_texel);
-    check_refused(session, mask_words(session), "stone: all texels look alike");
+    check_refused(session, mask_words(session), "stone: all texels look the same");
   }
 }
 
-TEST_CASE("remapc warp: strokes that say nothing more are refused") {
+TEST_CASE("remapc warp: strokes without information are refused") {
   const Session session;
   write_materials(session);
   check_refused(session, {"--box", "0,0,20,20", "0,0,20,20", "--box", "5,5,10,10", "40,40,60,60"},
@@ -81,10 +80,10 @@ TEST_CASE("remapc warp: strokes that say nothing more are refused") {
     texel.fill(std::numeric_limits<float>::quiet_NaN());
     return texel;
   });
-  check_refused(session, mask_words(session), "wood: has no texel with finite values");
+  check_refused(session, mask_words(session), "wood: contains no texel with finite values");
 }
 
-TEST_CASE("remapc warp: one stroke, or two, leave directions open and say so") {
+TEST_CASE("remapc warp: one or two strokes do not determine all directions, with a warning") {
   const Session session;
   write_materials(session);
   for (const std::size_t pairs : {std::size_t{1}, std::size_t{2}}) {
@@ -92,16 +91,17 @@ TEST_CASE("remapc warp: one stroke, or two, leave directions open and say so") {
     CHECK(json["diagnostics"]["fixed_directions"] == pairs - 1);
     const std::string warnings = json["warnings"].dump();
     CAPTURE(warnings);
-    CHECK(warnings.find("strokes do not fix direction 2 of 2") != std::string::npos);
-    CHECK((warnings.find("strokes do not fix direction 1 of 2") != std::string::npos) == (pairs == 1));
+    CHECK(warnings.find("strokes do not determine direction 2 of 2") != std::string::npos);
+    CHECK((warnings.find("strokes do not determine direction 1 of 2") != std::string::npos) == (pairs == 1));
   }
 }
 
-TEST_CASE("remapc warp: a region that is marked twice, with two partners, is a contradiction") {
+TEST_CASE("remapc warp: a region marked twice with different partners gives a warning") {
   const Session session;
   write_materials(session);
   std::vector<std::string> words = mask_words(session);
-  // The first corner once more, for the template's opposite one. Other texels, lest one lie within the other.
+  // Marks the first corner again, as the partner of the template's opposite corner, by other texels, because
+  // strokes within other strokes are refused.
   write_image(session.path("again.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8),
               [](int x, int y, int) {
                 const Latent at = latent(x, y, 0.1);
@@ -119,7 +119,7 @@ TEST_CASE("remapc warp: a region that is marked twice, with two partners, is a c
   CHECK(warnings.find("strokes contradict each other") != std::string::npos);
 }
 
-TEST_CASE("remapc warp: texels that are not finite are counted, and the others are as they would be") {
+TEST_CASE("remapc warp: texels that are not finite are counted and do not affect the others") {
   const Session session;
   write_materials(session);
   write_set(session, "wood", 0.1, torn_texel);
@@ -135,7 +135,7 @@ TEST_CASE("remapc warp: texels that are not finite are counted, and the others a
   CHECK(error_of(read_warp(session), source_texel) < 0.25);
 }
 
-TEST_CASE("remapc warp: a diffuse map alone is a source, told apart by its color") {
+TEST_CASE("remapc warp: a diffuse map alone is a source, distinguished by its color") {
   const Session session;
   write_materials(session);
   write_set(session, "wood", 0.1, albedo_texel);
@@ -143,7 +143,7 @@ TEST_CASE("remapc warp: a diffuse map alone is a source, told apart by its color
   const ProcessResult result = session.remapc(warp_words(session, mask_words(session)));
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
-  CHECK(result.errors.find("the source is diffuse alone") != std::string::npos);
+  CHECK(result.errors.find("the source has a diffuse map only") != std::string::npos);
   const WarpMapFit fit = read_warp(session);
   CHECK(is_of_diffuse_alone(fit));
   CHECK(error_of(fit, albedo_texel) < 0.25);
@@ -154,12 +154,12 @@ TEST_CASE("remapc warp: a diffuse map alone is a source, told apart by its color
   keep_diffuse_alone(session, "wood");
   const std::string warnings = report_of(session, mask_words(session))["warnings"].dump();
   CAPTURE(warnings);
-  CHECK(warnings.find("the source varies in 1 way and the template in 2") != std::string::npos);
+  CHECK(warnings.find("the source varies in 1 dimension and the template in 2") != std::string::npos);
 }
 
 TEST_CASE("remapc warp: a template of a diffuse map alone is refused") {
   const Session session;
   write_materials(session);
   keep_diffuse_alone(session, "stone");
-  check_refused(session, mask_words(session), "stone: has 0 texture sets");
+  check_refused(session, mask_words(session), "stone: found 0 texture sets");
 }

@@ -1,4 +1,4 @@
-// remapc warp with strokes in one image, a color for each pair.
+// remapc warp with strokes painted in one image, one color for each pair.
 #include <array>
 
 #include <nlohmann/json.hpp>
@@ -10,18 +10,18 @@ using namespace remap::warp_cli;
 
 namespace {
 
-using Color = std::array<float, 4>;  // with alpha
+using Color = std::array<float, 4>;  // RGBA
 constexpr Color kBlack = {0, 0, 0, 1}, kWhite = {1, 1, 1, 1}, kClear = {0, 0, 0, 0}, kRed = {1, 0, 0, 1},
                 kGreen = {0, 0.8f, 0, 1}, kBlue = {0, 0, 1, 1}, kYellow = {1, 1, 0, 1};
 
 struct Paint {
   std::array<Color, 4> corners = {kRed, kGreen, kBlue, kYellow};
   Color background = kBlack;
-  bool smooth = false;  // blended rims, as of a brush with anti-aliasing
+  bool smooth = false;  // blended edges, like those of an antialiased brush
   int size = kSize;
 };
 
-// What the brush leaves in a texel: the mean over 16 places.
+// The value of a texel: the mean over 16 positions.
 float painted(const Paint& paint, double phase, int x, int y, int channel) {
   const int steps = paint.smooth ? 4 : 1;
   float sum = 0.0f;
@@ -53,7 +53,7 @@ ProcessResult run_painted(const Session& session, const Paint& from, const Paint
 
 }  // namespace
 
-TEST_CASE("remapc warp: two paintings with a color for each region do as eight masks do") {
+TEST_CASE("remapc warp: two paintings with a color for each region give the same result as eight masks") {
   const Session session;
   write_materials(session);
   const auto [background, smooth, extension] =
@@ -72,7 +72,7 @@ TEST_CASE("remapc warp: two paintings with a color for each region do as eight m
   const auto json = nlohmann::json::parse(result.output)["diagnostics"];
   CAPTURE(json.dump());
   CHECK(json["strokes"].size() == 4);
-  if (!smooth)  // by their first texels
+  if (!smooth)  // in the order of their first texels
     CHECK(json["strokes"] ==
           nlohmann::json({"stroke #ffff00", "stroke #0000ff", "stroke #00cc00", "stroke #ff0000"}));
   CHECK(json["fixed_directions"] == 2);
@@ -80,7 +80,7 @@ TEST_CASE("remapc warp: two paintings with a color for each region do as eight m
   CHECK(error_of(read_warp(session), source_texel) < 0.25);
 }
 
-TEST_CASE("remapc warp: backgrounds of two paintings may differ, and their colors a little") {
+TEST_CASE("remapc warp: two paintings may have different backgrounds and slightly different colors") {
   const Session session;
   write_materials(session);
   Paint from, to;
@@ -94,8 +94,7 @@ TEST_CASE("remapc warp: backgrounds of two paintings may differ, and their color
   CHECK(error_of(read_warp(session), source_texel) < 0.25);
 }
 
-TEST_CASE(
-    "remapc warp: paintings that do not go together are refused with the color, and no file is written") {
+TEST_CASE("remapc warp: paintings that do not match are refused with the color, and no file is written") {
   const Session session;
   write_materials(session);
   const auto refused = [&](const Paint& from, const Paint& to, const std::string& message) {
@@ -109,24 +108,24 @@ TEST_CASE(
   Paint paint = good;
   paint.corners[3] = {1, 0, 1, 1};
   refused(paint, good,
-          "to.png: has no stroke of #ff00ff, which " + session.path("from.png") +
-              " has; the nearest is #ff0000; expected every color in both images");
-  refused(good, paint, "to.png: has no stroke of #ffff00");
+          "to.png: has no stroke with color #ff00ff of " + session.path("from.png") +
+              " (the nearest is #ff0000; every color must be in both images)");
+  refused(good, paint, "to.png: has no stroke with color #ffff00");
   paint.corners[3] = kRed;
-  refused(paint, good, "from.png: has no stroke of #ffff00, which " + session.path("to.png") + " has");
+  refused(paint, good, "from.png: has no stroke with color #ffff00 of " + session.path("to.png"));
   paint = good;
   paint.size = 32;
-  refused(good, paint, "to.png: is 32 x 32; expected 96 x 96");
+  refused(good, paint, "to.png: size 32x32 does not match the maps of ");
   paint = good;
   paint.corners.fill(kBlack);
-  refused(paint, good, "from.png: has no stroke: all of it is background");
+  refused(paint, good, "from.png: contains no stroke");
   write_image(session.path("photo.png"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
   const ProcessResult photo = session.remapc(
       warp_words(session, {"--strokes", session.path("photo.png"), session.path("photo.png")}));
   CHECK(photo.exit_code == 1);
   CAPTURE(photo.errors);
   CHECK(photo.errors.find("photo.png: ") != std::string::npos);
-  CHECK(photo.errors.find("expected strokes of a few flat colors") != std::string::npos);
+  CHECK(photo.errors.find("paint strokes in a few flat colors") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(session.path("stony.json")));
 }
 
@@ -134,7 +133,7 @@ TEST_CASE("remapc warp: messages name painted strokes by their color") {
   const Session session;
   write_materials(session);
   Paint to;
-  std::swap(to.corners[0], to.corners[3]);  // what is dark in one is bright in the other, and back
+  std::swap(to.corners[0], to.corners[3]);  // regions that are dark in one image are bright in the other
   std::swap(to.corners[1], to.corners[0]);
   const ProcessResult result = run_painted(session, {}, to);
   INFO(result.errors);

@@ -1,5 +1,5 @@
-// remapc warp on tables: scattering profiles in a list and in a map, measured BRDFs; and exact copies of
-// maps. What the files say is read back by OpenImageIO.
+// remapc warp on tables: scattering profiles in lists and maps, and measured BRDFs; and exact copies of maps.
+// OpenImageIO reads the files back.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -18,10 +18,10 @@ constexpr int kEdge = 24;
 constexpr int kRadii = 40;
 constexpr double kStep = 0.1;
 
-// Two parameters of a wax, which vary along rows and columns.
+// The two parameters of a wax, which vary along rows and columns.
 double share(int place) { return static_cast<double>(place) / (kEdge - 1); }
 
-// albedo exp(-r / length) / (2 pi length^2).
+// Returns albedo * exp(-r / length) / (2 pi length^2).
 double profile(double albedo, double length, int radius) {
   return albedo * std::exp(-kStep * (radius + 1) / length) / (2.0 * std::numbers::pi * length * length);
 }
@@ -41,7 +41,7 @@ std::vector<std::string> radius_names(const std::string& colors) {
   return names;
 }
 
-// A profile a row, one channel, and the map of their numbers.
+// Writes a list with one grey profile per row, and the map of their numbers.
 template <typename Profile>
 void write_list(const Session& session, const std::string& folder, const Profile& value) {
   std::string text;
@@ -64,7 +64,7 @@ void write_map(const Session& session, const std::string& folder, const Profile&
               [&](int x, int y, int c) { return static_cast<float>(value(x, y, c % kRadii)); });
 }
 
-// The four corners, which mean each other.
+// Boxes at the four corners, which correspond to each other.
 std::vector<std::string> corners() {
   std::vector<std::string> words;
   for (const char* box : {"0,0,6,6", "18,0,24,6", "0,18,6,24", "18,18,24,24"})
@@ -81,7 +81,8 @@ ProcessResult warp(const Session& session, const std::string& source, const std:
   return session.remapc(words);
 }
 
-// RMS distance of the places that texels come from to their own, which are right: shares of the edge.
+// RMS distance between the positions that texels are copied from and their own positions, which are correct,
+// relative to the width of the map.
 double place_error(const TestImage& places) {
   const int column = places.channel("X"), row = places.channel("Y");
   double sum = 0.0;
@@ -94,7 +95,7 @@ double place_error(const TestImage& places) {
 
 }  // namespace
 
-TEST_CASE("remapc warp: profiles of a list take those of another list") {
+TEST_CASE("remapc warp: profiles of a list are replaced by those of another list") {
   const Session session;
   write_list(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
@@ -111,13 +112,13 @@ TEST_CASE("remapc warp: profiles of a list take those of another list") {
   for (int y = 0; y < kEdge; ++y)
     for (int x = 0; x < kEdge; ++x)
       CHECK(index.at(x, y, 0) == places.at(x, y, row) * kEdge + places.at(x, y, column));
-  CHECK(place_error(places) < 0.15);  // unrelated places: .58
+  CHECK(place_error(places) < 0.15);  // unrelated positions: 0.58
   CHECK(read_file(session.path("copied/profiles.csv")) == read_file(session.path("yellow/profiles.csv")));
-  // The copy is a set itself.
+  // The copy is a valid set.
   CHECK(warp(session, "copied", "blue", {"--copy", session.path("back")}).exit_code == 0);
 }
 
-TEST_CASE("remapc warp: a map of profiles takes those of a list, and the other way") {
+TEST_CASE("remapc warp: a map of profiles is replaced by profiles of a list, and the reverse") {
   const Session session;
   write_map(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
@@ -138,7 +139,7 @@ TEST_CASE("remapc warp: a map of profiles takes those of a list, and the other w
   CHECK(profiles.at(5, 7, first) == static_cast<float>(blue_wax(x, y, 0)));
 }
 
-TEST_CASE("remapc warp: tables that cannot be used are refused by name") {
+TEST_CASE("remapc warp: invalid tables are refused with their name") {
   const Session session;
   write_list(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
@@ -150,15 +151,16 @@ TEST_CASE("remapc warp: tables that cannot be used are refused by name") {
     CHECK(result.errors.find(message) != std::string::npos);
   };
   const std::vector<std::string> copy = {"--copy", session.path("copied")};
-  refused("yellow", {"-o", session.path("x.json")}, 2, "is a table, of which there is no fit");
-  refused("yellow", {"--copy", session.path("copied"), "--distance", "relative"}, 2, "expected plain");
+  refused("yellow", {"-o", session.path("x.json")}, 2,
+          "a table cannot be fitted (use --copy FOLDER instead of --output)");
+  refused("yellow", {"--copy", session.path("copied"), "--distance", "relative"}, 2, "choose plain");
   session.write("nameless/profiles.csv", "a,b\n1,2\n");
-  refused("nameless", copy, 1, "has no columns R@<radius>");
+  refused("nameless", copy, 1, "requires columns R@<radius>");
   session.write("negative/profiles.csv", "Y@1,Y@2\n1,2\n1,-2\n");
-  refused("negative", copy, 1, "profiles.csv:3:3: is -2; expected a finite number from 0");
+  refused("negative", copy, 1, "profiles.csv:3:3: '-2' is not a finite number of at least 0");
   session.write("mapless/profiles.csv", "Y@1,Y@2\n1,2\n1,0\n");
-  refused("mapless", copy, 1, "but no map of its entries");
+  refused("mapless", copy, 1, "profiles.csv requires a map of its entries");
   session.write("measured/brdfs.txt", "gold.binary\n");
-  refused("measured", copy, 1, "gold.binary: is no BRDF of the MERL database");
+  refused("measured", copy, 1, "gold.binary: is not a BRDF of the MERL database");
   CHECK_FALSE(std::filesystem::exists(session.path("copied")));
 }

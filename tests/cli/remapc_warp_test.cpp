@@ -1,4 +1,4 @@
-// remapc warp on texture sets whose right answer is known.
+// remapc warp on texture sets with a known result.
 #include <nlohmann/json.hpp>
 
 #include "cli/warp_materials.hpp"
@@ -6,7 +6,7 @@
 using namespace remap;
 using namespace remap::warp_cli;
 
-TEST_CASE("remapc warp: strokes at the corners of a pattern give every texel the reflectance that is meant") {
+TEST_CASE("remapc warp: strokes at the corners of a pattern give every texel its correct reflectance") {
   const Session session;
   write_materials(session);
   std::vector<std::string> words = mask_words(session);
@@ -27,7 +27,8 @@ TEST_CASE("remapc warp: strokes at the corners of a pattern give every texel the
   CHECK(card.output.find("warp") != std::string::npos);
 }
 
-TEST_CASE("remapc warp: a fit becomes a header, alone and with the registry of its folder") {
+TEST_CASE(
+    "remapc warp: a fit becomes a header, alone and with its folder; the data of converters has none of it") {
   const Session session;
   write_materials(session);
   std::vector<std::string> words = mask_words(session);
@@ -43,7 +44,7 @@ TEST_CASE("remapc warp: a fit becomes a header, alone and with the registry of i
   CHECK(std::holds_alternative<CopiedNodes>(fit.warp.table.entries));
   const std::string card = session.remapc({"show", session.path("stony.json")}).output;
   CHECK(card.find("256 nodes each, nearest copied") != std::string::npos);
-  CHECK(card.find("spread from an exact copy") != std::string::npos);
+  CHECK(card.find("difference to an exact copy") != std::string::npos);
 
   REQUIRE(session.remapc({"emit", session.path("stony.json"), "-o", session.path("alone")}).exit_code == 0);
   const std::string header = read_file(session.path("alone/stony.hpp"));
@@ -61,8 +62,7 @@ TEST_CASE("remapc warp: a fit becomes a header, alone and with the registry of i
   CHECK(run_with({"emit", "--all", "--check"}).exit_code == 1);
   CHECK(run_with({"emit", "--all"}).exit_code == 0);
   CHECK(read_file(session.path("generated/stony.hpp")) == header);
-  CHECK(read_file(session.path("generated/registry.hpp")).find("MaterialConverterEntry, 1>") !=
-        std::string::npos);
+  CHECK(read_file(session.path("generated/converters.json")).find("stony") == std::string::npos);
   CHECK(run_with({"build"}).exit_code == 0);
   CHECK(run_with({"build", "--check"}).exit_code == 0);
   CHECK(read_file(session.path("fits/README.md")).find("[stony](stony.json)") != std::string::npos);
@@ -70,12 +70,12 @@ TEST_CASE("remapc warp: a fit becomes a header, alone and with the registry of i
   session.write("generated/stony.hpp", "");
   const ProcessResult stale = run_with({"build", "--check"});
   CHECK(stale.exit_code == 1);
-  CHECK((stale.output + stale.errors).find("stony.hpp is not what its fit gives") != std::string::npos);
+  CHECK((stale.output + stale.errors).find("stony.hpp is out of date with its fit") != std::string::npos);
   CHECK(session.remapc({"list", "--fits", session.path("fits")}).output.find("from an exact copy") !=
         std::string::npos);
 }
 
-TEST_CASE("remapc warp: what cannot be a stroke is refused, and no file is written") {
+TEST_CASE("remapc warp: invalid strokes are refused, and no file is written") {
   const Session session;
   write_materials(session);
   const auto mask = [&](const char* name, int size, float value) {
@@ -91,20 +91,20 @@ TEST_CASE("remapc warp: what cannot be a stroke is refused, and no file is writt
     CHECK_FALSE(std::filesystem::exists(session.path("stony.json")));
   };
   const std::string good = session.path("stone_0.png");
-  refused({"--stroke", mask("small.png", 8, 1.0f), good}, 1, "is 8 x 8; expected 96 x 96");
+  refused({"--stroke", mask("small.png", 8, 1.0f), good}, 1, "size 8x8 does not match the maps of ");
   refused({"--stroke", mask("black.png", kSize, 0.0f), good}, 1, "marks no texel");
-  refused({"--stroke", mask("white.png", kSize, 1.0f), good}, 1, "is it inverted?");
+  refused({"--stroke", mask("white.png", kSize, 1.0f), good}, 1, "check whether it is inverted");
   refused({"--stroke", session.path("none.png"), good}, 1, "none.png");
   refused({}, 2, "no stroke");
-  refused({"--box", "0,0,500,10", "0,0,9,9"}, 2, "--box: is 0,0,500,10; expected x0,y0,x1,y1 within 96 x 96");
-  refused({"--box", "5,5,5,9", "0,0,9,9"}, 2, "--box: is 5,5,5,9");
+  refused({"--box", "0,0,500,10", "0,0,9,9"}, 2, "--box: '0,0,500,10' is not a box within 96x96 texels");
+  refused({"--box", "5,5,5,9", "0,0,9,9"}, 2, "--box: '5,5,5,9' is not a box");
   const ProcessResult lost = session.remapc({"warp", session.path("nothing"), session.path("stone"), "--box",
                                              "0,0,9,9", "0,0,9,9", "-o", session.path("stony.json")});
   CHECK(lost.exit_code != 0);
   CHECK(lost.errors.find("nothing") != std::string::npos);
 }
 
-TEST_CASE("remapc warp: strokes that share most of a region are warned of") {
+TEST_CASE("remapc warp: strokes that share most of a region give a warning") {
   const Session session;
   write_materials(session);
   const ProcessResult result =
@@ -129,7 +129,7 @@ TEST_CASE("remapc warp: --report writes one HTML file with its pictures, or one 
        at = html.find("data:image/png;base64,iVBORw0KGgo", at + 1))
     ++pictures;
   CHECK(pictures == 9);
-  CHECK(html.find("http") == std::string::npos);  // nothing from elsewhere
+  CHECK(html.find("http") == std::string::npos);  // no external resources
   CHECK(html.find("<h1>Warp stony</h1>") != std::string::npos);
   CHECK(html.find("<td>folds</td><td>0 %</td>") != std::string::npos);
   CHECK(html.ends_with("</html>\n"));
@@ -141,17 +141,18 @@ TEST_CASE("remapc warp: --report writes one HTML file with its pictures, or one 
   CHECK(sheet.spec.nchannels == 3);
 }
 
-TEST_CASE("remapc warp: a report has warnings in it, and is refused under another name before the work") {
+TEST_CASE("remapc warp: a report contains the warnings; other file names are refused before the work") {
   const Session session;
   write_materials(session);
   const std::vector<std::string> few = {"--box", "0,0,20,20", "0,0,20,20", "--report"};
   std::vector<std::string> words = few;
   words.push_back(session.path("report.html"));
   REQUIRE(session.remapc(warp_words(session, words)).exit_code == 0);
-  CHECK(read_file(session.path("report.html")).find("class=\"warning\">strokes do not fix direction 1") !=
-        std::string::npos);
+  CHECK(
+      read_file(session.path("report.html")).find("class=\"warning\">strokes do not determine direction 1") !=
+      std::string::npos);
   std::filesystem::remove(session.path("stony.json"));
   words.back() = session.path("report.pdf");
-  check_failure(session.remapc(warp_words(session, words)), 2, "expected a name that ends in .html or .png");
+  check_failure(session.remapc(warp_words(session, words)), 2, "must end with .html or .png");
   CHECK_FALSE(std::filesystem::exists(session.path("stony.json")));
 }

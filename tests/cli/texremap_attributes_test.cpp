@@ -1,5 +1,6 @@
-// Everything that OpenImageIO reports of a file, before and after a conversion: each attribute by name, type
-// and value, windows, tiles, channels and their types, and the texels of channels that take no part.
+// Compares everything that OpenImageIO reports of a file before and after a conversion: the name, type and
+// value of each attribute, windows, tiles, channels and their types, and the texels of channels that are not
+// converted.
 #include <algorithm>
 #include <cstring>
 
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What may differ. A name ends in `*` where it is a beginning; no extension: of every format.
+// A permitted difference. A name with `*` at its end is a prefix; an empty extension means every format.
 struct Exception {
   std::string extension;
   std::string name;
@@ -31,12 +32,12 @@ const std::vector<Exception> kExceptions = {
     {"jpg", "jpeg:subsampling", "colors are written for every texel: converted maps are data"},
     {"tx", "Software", "a TIFF by another name"}};
 
-// Of textures with mip levels.
+// Permitted for textures with mip levels.
 const std::vector<Exception> kTextureExceptions = {
     {"", "oiio:SHA-1", "sums over the texels that are no longer there"},
     {"", "oiio:AverageColor", "as above"}};
 
-// Only in files that OpenImageIO cannot write itself.
+// Permitted only for files that OpenImageIO cannot write itself.
 const std::vector<Exception> kForeignExceptions = {
     {"jpg", "Exif:PixelXDimension", "the same number, in the type that OpenImageIO writes"},
     {"jpg", "Exif:PixelYDimension", "as above"},
@@ -50,7 +51,7 @@ const std::vector<Exception> kForeignExceptions = {
 
 struct Comparison {
   std::vector<Exception> exceptions;
-  std::vector<bool> used;  // those that some file needed
+  std::vector<bool> used;  // exceptions that some file needed
 };
 
 Comparison comparison(const std::vector<Exception>& more = {}) {
@@ -66,7 +67,7 @@ bool covers(const Exception& exception, const std::string& extension, const std:
   return name.starts_with(exception.name.substr(0, exception.name.size() - 1));
 }
 
-// The differences without a reason, a line each. Exceptions that were needed are marked.
+// The differences without an exception, one per line. Marks the exceptions that were needed.
 std::string unexplained(const std::vector<SpecDifference>& all, const std::string& extension,
                         Comparison& comparison) {
   const std::vector<Exception>& exceptions = comparison.exceptions;
@@ -83,7 +84,7 @@ std::string unexplained(const std::vector<SpecDifference>& all, const std::strin
   return lines;
 }
 
-// How many channels but `converted` (-1: none is) have other bytes.
+// The number of changed channels except `converted`; -1 excepts none.
 int changed_channels(const StoredPlane& before, const StoredPlane& after, int converted) {
   if (before.bytes.size() != after.bytes.size()) return before.spec.nchannels;
   const std::size_t texel = before.spec.pixel_bytes(true);
@@ -99,7 +100,7 @@ int changed_channels(const StoredPlane& before, const StoredPlane& after, int co
   return changed;
 }
 
-// Converts channel `converted` of the first part and compares all that there is.
+// Converts channel `converted` of the first part and compares everything.
 void check_file(const fs::path& file, int converted, bool is_lossless, Comparison& comparison) {
   const Session session;
   INFO(file);
@@ -129,7 +130,7 @@ void check_file(const fs::path& file, int converted, bool is_lossless, Compariso
   }
 }
 
-// Every exception for these formats was needed by one of the files.
+// Checks that some file needed each exception for these formats.
 void check_used(const Comparison& comparison, const std::vector<std::string>& extensions) {
   for (std::size_t i = 0; i < comparison.used.size(); ++i) {
     const Exception& exception = comparison.exceptions[i];
@@ -156,19 +157,19 @@ void check_images(const std::vector<AttributeImage>& images) {
 
 }  // namespace
 
-TEST_CASE("texremap attributes: all that an EXR says is kept, however it is stored") {
+TEST_CASE("texremap attributes: an EXR keeps all attributes in every kind of storage") {
   check_images(exr_storage_images());
 }
-TEST_CASE("texremap attributes: all that an EXR says is kept, whatever its windows, layers and parts") {
+TEST_CASE("texremap attributes: an EXR keeps all attributes with any windows, layers and parts") {
   check_images(exr_structure_images());
 }
-TEST_CASE("texremap attributes: all that a TIFF says is kept") { check_images(tiff_images()); }
-TEST_CASE("texremap attributes: all that a PNG says is kept") { check_images(png_images()); }
-TEST_CASE("texremap attributes: all that JPEG, Targa, BMP and Radiance files say is kept") {
+TEST_CASE("texremap attributes: a TIFF keeps all attributes") { check_images(tiff_images()); }
+TEST_CASE("texremap attributes: a PNG keeps all attributes") { check_images(png_images()); }
+TEST_CASE("texremap attributes: JPEG, Targa, BMP and Radiance files keep all attributes") {
   check_images(small_format_images());
 }
 
-TEST_CASE("texremap attributes: all that a texture says of its levels is kept") {
+TEST_CASE("texremap attributes: a mip-mapped texture keeps the attributes of its levels") {
   const TemporaryFolder folder;
   const fs::path plain = folder.path() / "plain.exr";
   write_image(plain, test_spec(40, 32, {"R", "G", "B"}, OIIO::TypeHalf), noise);
@@ -186,7 +187,7 @@ TEST_CASE("texremap attributes: all that a texture says of its levels is kept") 
   check_used(all, {"tif", "tx"});
 }
 
-TEST_CASE("texremap attributes: what files of other programs say is kept, but for what cannot be written") {
+TEST_CASE("texremap attributes: files of other programs keep all attributes that can be written") {
   const fs::path folder = shared_data("textures");
   if (folder.empty()) return;
   Comparison all = comparison(kForeignExceptions);
@@ -204,7 +205,7 @@ TEST_CASE("texremap attributes: what files of other programs say is kept, but fo
   }
 }
 
-TEST_CASE("texremap attributes: a map without a date is not given that of the run") {
+TEST_CASE("texremap attributes: a map without a date does not get the date of the run") {
   const Session session;
   session.write_pair("exr", 16);
   for (const char* name :
@@ -220,7 +221,7 @@ TEST_CASE("texremap attributes: a map without a date is not given that of the ru
     CHECK(read_image(session.path(name + extension)).spec.find_attribute("DateTime") == nullptr);
 }
 
-TEST_CASE("texremap attributes: the comparison sees what is lost, added, and of another type or value") {
+TEST_CASE("texremap attributes: the comparison detects lost, added and changed attributes") {
   OIIO::ImageSpec before = test_spec(8, 8, {"R", "G"}, OIIO::TypeHalf), after = before;
   CHECK(differences(before, after).empty());
   before.attribute("lost", 1);
@@ -239,7 +240,7 @@ TEST_CASE("texremap attributes: the comparison sees what is lost, added, and of 
                                           "channels", "roles of channels"});
 }
 
-TEST_CASE("texremap attributes: a PNG without a color space is given none") {
+TEST_CASE("texremap attributes: a PNG without a color space gets none") {
   const Session session;
   const bool is_said = GENERATE(true, false);
   OIIO::ImageSpec spec = test_spec(16, 16, {"R", "G", "B"}, OIIO::TypeUInt8);
@@ -250,7 +251,7 @@ TEST_CASE("texremap attributes: a PNG without a color space is given none") {
                          session.path("orm.png") + ":G", "--specular", "0.4", "--only", "roughness", "-o",
                          session.path("out")})
               .exit_code == 0);
-  // OpenImageIO says sRGB of both: the name of the chunk tells.
+  // OpenImageIO reports sRGB for both, so the test looks for the chunk.
   for (const char* file : {"orm.png", "out/orm.png"})
     CHECK((read_file(session.path(file)).find("sRGB") != std::string::npos) == is_said);
 }

@@ -1,4 +1,4 @@
-// Files of a material that are not converted and go along with it, byte for byte.
+// Files of a material that are copied byte for byte, without conversion.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -18,7 +18,7 @@ void write_map(const Session& session, const std::string& name, const std::vecto
   write_image(session.path(name), test_spec(size, size, channels, OIIO::TypeUInt8), noise);
 }
 
-// A whole material: what is converted, and what is not.
+// A whole material: maps to convert and maps to copy.
 void write_set(const Session& session, const std::string& folder) {
   write_map(session, folder + "/wood_Roughness.png", {"Y"});
   write_map(session, folder + "/wood_Specular.png", {"R", "G", "B"});
@@ -39,7 +39,7 @@ bool same_bytes(const Session& session, const std::string& a, const std::string&
 
 }  // namespace
 
-TEST_CASE("texremap copies: base color of any size goes along under its own name") {
+TEST_CASE("texremap copies: base color of any size is copied under its name") {
   const Session session;
   write_set(session, "in");
   const ProcessResult result =
@@ -65,7 +65,7 @@ TEST_CASE("texremap copies: layouts that name their files name the copies, too")
   CHECK(same_bytes(session, "in/wood_BaseColor.png", "out/" + name + ".png"));
 }
 
-TEST_CASE("texremap copies: specular-glossiness has files beside it for what it has no channel for") {
+TEST_CASE("texremap copies: specgloss writes separate files for parameters without a channel") {
   const Session session;
   write_set(session, "in");
   require_success(convert(
@@ -80,7 +80,7 @@ TEST_CASE("texremap copies: specular-glossiness has files beside it for what it 
   CHECK(metallic.at(3, 5, 0) == as_stored(0.5f, OIIO::TypeUInt8));
 }
 
-TEST_CASE("texremap copies: a tree with all its maps, resumed, and never over an input") {
+TEST_CASE("texremap copies: a tree with all maps is copied, resumed, and never overwrites an input") {
   const Session session;
   write_set(session, "in/a");
   write_set(session, "in/b/c");
@@ -117,7 +117,7 @@ TEST_CASE("texremap copies: a tree with all its maps, resumed, and never over an
   CHECK(read_file(session.path("in/a/wood_Normal.png")) == before);
 }
 
-TEST_CASE("texremap copies: what a layout packs is not copied as well") {
+TEST_CASE("texremap copies: a packed map is not copied as well") {
   const Session session;
   write_set(session, "in");
   require_success(convert(session, {session.path("in"), "--copy-others", "--layout", "orm"}));
@@ -126,7 +126,7 @@ TEST_CASE("texremap copies: what a layout packs is not copied as well") {
   CHECK_FALSE(fs::exists(session.path("out/wood_AmbientOcclusion.png")));
 }
 
-TEST_CASE("texremap copies: tiles take the tiles of what goes along") {
+TEST_CASE("texremap copies: each tile copies the same tile of other maps") {
   const Session session;
   for (const std::string tile : {"1001", "1002"}) {
     write_map(session, "r." + tile + ".png", {"Y"});
@@ -141,7 +141,7 @@ TEST_CASE("texremap copies: tiles take the tiles of what goes along") {
         read_image(session.path("ao.1002.png")).at(2, 3, 0));
 }
 
-TEST_CASE("texremap copies: wrong words") {
+TEST_CASE("texremap copies: invalid options are refused") {
   const Session session;
   write_set(session, "in");
   const std::string roughness = session.path("in/wood_Roughness.png");
@@ -152,10 +152,12 @@ TEST_CASE("texremap copies: wrong words") {
     CHECK(session.file_count() == 0);
   };
   refused({"--roughness", roughness, "--specular", "0.04", "--diffuse", session.path("none.png")}, 1,
-          "none.png: is no file");
+          "none.png: cannot be copied: not a readable file");
   refused({"--roughness", roughness, "--specular", "0.04", "--metallic", "0.5"}, 2,
-          "--metallic: is a number, which --layout as-inputs has no place for");
-  refused({"--roughness", roughness, "--specular", "0.04", "--copy-others"}, 2, "--copy-others: is for");
-  refused({session.path("in"), "--diffuse", roughness}, 2, "expected --copy-others");
-  refused({session.path("in"), "--occlusion", roughness, "--layout", "orm"}, 2, "--occlusion: is the map");
+          "--metallic: a number has no place in --layout as-inputs");
+  refused({"--roughness", roughness, "--specular", "0.04", "--copy-others"}, 2,
+          "--copy-others requires a folder");
+  refused({session.path("in"), "--diffuse", roughness}, 2,
+          "--diffuse cannot be used with a folder (use --copy-others)");
+  refused({session.path("in"), "--occlusion", roughness, "--layout", "orm"}, 2, "--occlusion: the map");
 }

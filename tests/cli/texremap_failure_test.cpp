@@ -1,4 +1,4 @@
-// texremap when the system fails it: full disks, limits, signals. Results appear whole or not at all.
+// texremap under failures of the system: full disks, limits, signals. Results appear complete or not at all.
 #include <chrono>
 #include <csignal>
 #include <sys/mount.h>
@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_tree.hpp"
+#include "support/skip.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -19,7 +20,7 @@ void write_pair_of(const Session& session, const std::string& extension, int siz
   session.write_pair(extension, size, extension == "exr" ? OIIO::TypeHalf : OIIO::TypeUInt8);
 }
 
-// A file system of its own in a folder, where the test may mount one.
+// A small file system mounted on a folder, if the test has the permission.
 class SmallDisk {
  public:
   SmallDisk(const std::string& folder, const char* size) : folder_(folder) {
@@ -46,7 +47,7 @@ void write_sets(const Tree& tree, const std::string& extension, int large) {
                set[0] == 'b' ? large : kTreeMapSize);
 }
 
-// The large one failed, and nothing of it is there, not even under another name.
+// Checks that the large set failed and left no file, not even under another name.
 void check_others_whole(const Tree& tree, const ProcessResult& result, const std::string& extension) {
   INFO(result.errors);
   CHECK(result.exit_code == 1);
@@ -71,13 +72,13 @@ ProcessLimits ordinary_user() {
   return limits;
 }
 
-// Whether the modes of files hold for programs that the tests start; says so where not.
+// Whether the modes of files hold for programs that the tests start. Else skips.
 bool permissions_hold(const Session& session) {
   const std::string file = session.path("unreadable");
   write_file(file, "");
   fs::permissions(file, fs::perms::none);
   if (run({"/bin/cat", file}, ordinary_user()).exit_code != 0) return true;
-  WARN("skipped: root reads and writes every file, and cannot be kept from it here");
+  skip("permissions", "root reads and writes every file, and cannot be kept from it here");
   return false;
 }
 
@@ -104,7 +105,7 @@ TEST_CASE("texremap: a file-size limit is a failure for every format and leaves 
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
   write_pair_of(session, extension, 256);
-  for (const rlim_t limit : {rlim_t{500}, rlim_t{20'000}}) {  // the message must fit, too
+  for (const rlim_t limit : {rlim_t{500}, rlim_t{20'000}}) {  // the message must fit within the limit, too
     const std::string threads = limit == 500 ? "1" : "2";
     const ProcessResult result =
         session.convert("r." + extension, "s." + extension, {"--quiet", "--threads", threads}, {limit});
@@ -116,7 +117,7 @@ TEST_CASE("texremap: a file-size limit is a failure for every format and leaves 
   }
 }
 
-TEST_CASE("texremap: the last byte that does not fit is noticed") {
+TEST_CASE("texremap: a missing last byte is noticed") {
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
   write_pair_of(session, extension, 64);
@@ -131,13 +132,10 @@ TEST_CASE("texremap: the last byte that does not fit is noticed") {
   CHECK(session.convert(roughness, specular, {"--force"}, {size}).exit_code == 0);
 }
 
-TEST_CASE("texremap: a full disk is a failure that says so and leaves the old results") {
+TEST_CASE("texremap: a full disk is reported and keeps the old results") {
   const Session session;
   const SmallDisk disk(session.path("out"), "size=200k");
-  if (!disk.is_mounted()) {
-    WARN("skipped: a file system cannot be mounted here");
-    return;
-  }
+  if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
   write_pair_of(session, "exr", 64);
   REQUIRE(session.convert("r.exr", "s.exr").exit_code == 0);
   const std::string before = read_file(session.path("out/r.exr"));
@@ -149,7 +147,7 @@ TEST_CASE("texremap: a full disk is a failure that says so and leaves the old re
   CHECK(read_file(session.path("out/r.exr")) == before);
 }
 
-TEST_CASE("texremap: terminated in mid-run, it takes its files away") {
+TEST_CASE("texremap: a terminated run removes its files") {
   const Session session;
   session.write_pair("exr", 1600);
   const std::string roughness = read_file(session.path("r.exr")), specular = read_file(session.path("s.exr"));
@@ -164,7 +162,7 @@ TEST_CASE("texremap: terminated in mid-run, it takes its files away") {
   CHECK(read_file(session.path("s.exr")) == specular);
 }
 
-TEST_CASE("texremap: killed in mid-run, no file has its final name") {
+TEST_CASE("texremap: a killed run leaves no file under its final name") {
   const Session session;
   session.write_pair("exr", 1600);
   const std::string roughness = read_file(session.path("r.exr")), specular = read_file(session.path("s.exr"));
@@ -175,12 +173,12 @@ TEST_CASE("texremap: killed in mid-run, no file has its final name") {
   CHECK(read_file(session.path("s.exr")) == specular);
 }
 
-TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and the others are whole") {
+TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and the others are complete") {
   const Tree tree;
   const std::string extension = GENERATE("exr", "png", "tif", "tga", "jpg");
   write_sets(tree, extension, 256);
   ProcessLimits limits;
-  limits.file_bytes = 20'000;  // the JSON must fit, too
+  limits.file_bytes = 20'000;  // the JSON must fit within the limit, too
   for (const char* threads : {"1", "2"}) {
     check_others_whole(tree, tree.convert_tree({"--json", "--force", "--threads", threads}, limits),
                        extension);
@@ -188,21 +186,18 @@ TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and 
   }
 }
 
-TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the others are whole") {
+TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the others are complete") {
   const Tree tree;
   const SmallDisk disk(tree.path("out"), "size=100k");
-  if (!disk.is_mounted()) {
-    WARN("skipped: a file system cannot be mounted here");
-    return;
-  }
+  if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
   write_sets(tree, "exr", 512);
-  // One at a time: the others would find the disk full while the large one fills it.
+  // One set at a time: other sets would find the disk full while the large one fills it.
   const ProcessResult result = tree.convert_tree({"--json", "--threads", "1"});
   check_others_whole(tree, result, "exr");
   CHECK_THAT(result.errors, Contains("No space left on device"));
 }
 
-TEST_CASE("texremap: a full disk from the first byte on leaves no file") {
+TEST_CASE("texremap: a disk that is full from the start gets no file") {
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga", "bmp", "hdr");
   const bool is_hdr = extension == "hdr";
@@ -214,14 +209,14 @@ TEST_CASE("texremap: a full disk from the first byte on leaves no file") {
   std::vector<std::string> words = session.conversion("", "s." + extension);
   words[6] = "0.3";
   words.insert(words.end(), {"--only", "specular"});
-  // Standard error is a file here: what was said does not fit either.
+  // Standard error is a file here, so the message does not fit either.
   const ProcessResult result = session.texremap(words, limits);
   CHECK(result.exit_code == 1);
   CHECK(result.signal == 0);
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("texremap: a folder that may not be written to is named, and nothing is left in it") {
+TEST_CASE("texremap: an unwritable folder is named, and nothing is left in it") {
   const Tree tree;
   if (!permissions_hold(tree)) return;
   write_sets(tree, "png", kTreeMapSize);
@@ -239,7 +234,7 @@ TEST_CASE("texremap: a folder that may not be written to is named, and nothing i
   fs::permissions(tree.path("out"), fs::perms::owner_all);
 }
 
-TEST_CASE("texremap: files and folders that may not be read are named, and the others are converted") {
+TEST_CASE("texremap: unreadable files and folders are named, and the others are converted") {
   const Tree tree;
   if (!permissions_hold(tree)) return;
   write_sets(tree, "png", kTreeMapSize);
@@ -255,7 +250,7 @@ TEST_CASE("texremap: files and folders that may not be read are named, and the o
   CHECK(tree.results() == std::vector<std::string>{"a_rough.png", "a_spec.png", "c_rough.png", "c_spec.png"});
 }
 
-TEST_CASE("texremap: a link that leads to itself is no input, and no output is written through one") {
+TEST_CASE("texremap: a link to itself is refused as input, and no output is written through a link") {
   const Session session;
   session.write_pair("png", 16, OIIO::TypeUInt8);
   fs::create_symlink("loop.png", session.path("loop.png"));
@@ -266,8 +261,8 @@ TEST_CASE("texremap: a link that leads to itself is no input, and no output is w
   fs::create_symlink(session.path("elsewhere.png"), session.path("out/s.png"));
   const ProcessResult out = session.convert("r.png", "s.png");
   CHECK(out.exit_code == 1);
-  CHECK_THAT(out.last_error(), Contains("out/s.png: exists"));
-  // --force replaces the link, not what it leads to.
+  CHECK_THAT(out.last_error(), Contains("out/s.png: already exists"));
+  // --force replaces the link, not its target.
   CHECK(session.convert("r.png", "s.png", {"--force"}).exit_code == 0);
   CHECK_FALSE(fs::exists(session.path("elsewhere.png")));
   CHECK_FALSE(fs::is_symlink(session.path("out/s.png")));

@@ -1,11 +1,12 @@
-// What texremap writes, read by OpenImageIO: converted channels against the converter, everything else as it
-// was.
+// Reads the results of texremap with OpenImageIO: converted channels must equal the converter, everything
+// else the input.
 #include <cstring>
 
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
 #include "support/shared_data.hpp"
+#include "support/skip.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -58,7 +59,7 @@ void check_converted(const TestImage& roughness, const TestImage& specular, cons
   }
 }
 
-// Channels from the fourth on, bit for bit.
+// Compares the channels from the fourth on, bit for bit.
 void check_passed_through(const TestImage& in, const TestImage& out) {
   REQUIRE(in.bytes.size() == out.bytes.size());
   const std::size_t texel = in.spec.pixel_bytes(true), colors = in.spec.pixel_bytes(0, 3, true);
@@ -82,7 +83,7 @@ void check_same_kind(const OIIO::ImageSpec& in, const OIIO::ImageSpec& out) {
 
 }  // namespace
 
-TEST_CASE("texremap: every format keeps its kind and everything that is not converted") {
+TEST_CASE("texremap: every format keeps its storage and all unconverted channels") {
   for (const Case& format : cases()) {
     const Session session;
     const std::string r = "r." + format.extension, s = "s." + format.extension;
@@ -104,7 +105,7 @@ TEST_CASE("texremap: every format keeps its kind and everything that is not conv
   }
 }
 
-TEST_CASE("texremap: what was done is written into the metadata") {
+TEST_CASE("texremap: metadata records the conversion") {
   const Session session;
   session.write_pair("exr");
   REQUIRE(session.convert("r.exr", "s.exr", {"--format", GENERATE("exr", "png")}).exit_code == 0);
@@ -117,7 +118,7 @@ TEST_CASE("texremap: what was done is written into the metadata") {
   }
 }
 
-TEST_CASE("texremap: where a format has no metadata of one's own, the tag Software tells") {
+TEST_CASE("texremap: the tag Software records the conversion in formats without custom metadata") {
   const Session session;
   session.write_pair("exr");
   const std::string extension = GENERATE("tif", "jpg");
@@ -160,7 +161,7 @@ TEST_CASE("texremap: the windows of an EXR are kept") {
   check_converted(read_image(session.path("r.exr")), in, read_image(session.path("out/r.exr")), out);
 }
 
-TEST_CASE("texremap: channels of different pixel types keep them") {
+TEST_CASE("texremap: channels of different pixel types keep their types") {
   const Session session;
   write_image(session.path("r.exr"), test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeFloat), noise);
   OIIO::ImageSpec spec = test_spec(kWidth, kHeight, {"R", "G", "B", "id"}, OIIO::TypeFloat);
@@ -186,7 +187,7 @@ TEST_CASE("texremap: associated alpha in a TIFF is neither multiplied nor relabe
   check_converted(read_image(session.path("r.tif")), in, read_image(session.path("out/r.tif")), out);
 }
 
-TEST_CASE("texremap: another format takes the least lossy type that it has") {
+TEST_CASE("texremap: another format uses its least lossy type") {
   const Session session;
   const std::string extension = GENERATE("png", "tif", "exr");
   session.write_pair("exr", 64, OIIO::TypeHalf);
@@ -213,7 +214,7 @@ TEST_CASE("texremap: --type chooses the pixel type, and clipped values are count
                   read_image(session.path("out/r.tif")), out);
 }
 
-TEST_CASE("texremap: channels that a format has no place for are refused") {
+TEST_CASE("texremap: channels that a format cannot hold are refused") {
   const Session session;
   session.write_pair("exr");
   write_image(session.path("s.exr"), test_spec(64, 64, kWithMask, OIIO::TypeHalf), noise);
@@ -247,7 +248,8 @@ TEST_CASE("texremap: a JPEG stays one, with a warning") {
   REQUIRE(result.exit_code == 0);
   CHECK_THAT(result.errors, Contains("jpeg compression changes values") && Contains("read as color in sRGB"));
   const TestImage in = read_image(session.path("r.jpg")), out = read_image(session.path("out/r.jpg"));
-  // Quality 100 rounds the coefficients of 8 x 8 cosines to whole numbers: a few steps of 1/255 at most.
+  // Quality 100 rounds the coefficients of 8 x 8 cosines to integers, an error of a few steps of 1/255 at
+  // most.
   for (int x = 0; x < 64; ++x)
     CHECK(out.at(x, 3, 0) == Approx(converted_texel(in.at(x, 3, 0), {})[0]).margin(4.0 / 255.0));
 }
@@ -282,10 +284,7 @@ TEST_CASE("texremap: idiff finds the passed-through alpha unchanged") {
   write_image(session.path("s.png"), test_spec(kWidth, kHeight, kWithAlpha, OIIO::TypeUInt16), noise);
   REQUIRE(session.convert("r.png", "s.png").exit_code == 0);
   const std::string tool = REMAP_OIIOTOOL;
-  if (!fs::exists(tool)) {
-    WARN("skipped: oiiotool is not installed");
-    return;
-  }
+  if (!fs::exists(tool)) return skip("oiiotool", "not installed");
   const auto diff = [&](const std::string& channel) {
     return run({tool, "-iconfig", "oiio:UnassociatedAlpha", "1", session.path("s.png"), "--ch", channel,
                 session.path("out/s.png"), "--ch", channel, "--diff"});
@@ -294,7 +293,7 @@ TEST_CASE("texremap: idiff finds the passed-through alpha unchanged") {
   CHECK(diff("R").exit_code != 0);
 }
 
-TEST_CASE("texremap formats: a large Targa is held in memory as a whole, and that is said") {
+TEST_CASE("texremap formats: a large Targa is held in memory, with a remark") {
   const Session session;
   for (const int height : {16, 3000}) {
     const std::string name = "s" + std::to_string(height) + ".tga";
@@ -305,7 +304,7 @@ TEST_CASE("texremap formats: a large Targa is held in memory as a whole, and tha
         session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness", "0.3",
                           "--specular", session.path(name), "--only", "specular", "-o", session.path("out")});
     REQUIRE(result.exit_code == 0);
-    CHECK((result.errors.find("Targa is held in memory as a whole, 68 MB") != std::string::npos) ==
+    CHECK((result.errors.find("the whole Targa image is held in memory (68 MB)") != std::string::npos) ==
           (height == 3000));
   }
 }

@@ -1,5 +1,4 @@
-// Inputs of texremap as people have them: packed channels, glossiness, numbers, factors, color in sRGB,
-// values that no material has.
+// Inputs of texremap: packed channels, glossiness, numbers, factors, sRGB color, invalid values.
 #include <cmath>
 #include <cstring>
 
@@ -7,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
+#include "convert/shipped_converters.hpp"
 #include "support/shared_data.hpp"
 
 using namespace remap;
@@ -50,7 +50,7 @@ bool same_channel(const TestImage& a, const TestImage& b, int channel) {
 
 }  // namespace
 
-TEST_CASE("texremap inputs: one channel of a packed map is converted, the others stay bit for bit") {
+TEST_CASE("texremap inputs: one channel of a packed map is converted, the others keep every bit") {
   const Session session;
   write_image(session.path("orm.png"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
   require_success(convert(session, {"--roughness", session.path("orm.png") + ":G", "--specular", "0.4",
@@ -84,7 +84,7 @@ TEST_CASE("texremap inputs: the ORM map of BoomBox keeps occlusion and metallic"
 TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data throughout") {
   const Session session;
   const std::string name = "sg." + std::string(GENERATE("png", "tga", "tif", "exr"));
-  // Alpha far below the colors, and 0: multiplication by it would be seen, and division by it even more.
+  // Alpha far below the colors, and 0, so that a multiplication or division by it would show.
   write_image(session.path(name), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeUInt8),
               [](int x, int y, int c) {
                 return c < 3 ? noise(x, y, c) : x < 5 ? 0.0f : 0.3f * noise(x, y, c);
@@ -105,7 +105,7 @@ TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data t
     }
 }
 
-TEST_CASE("texremap inputs: a constant roughness becomes a map beside the specular one") {
+TEST_CASE("texremap inputs: a constant roughness becomes a map of the size of the specular map") {
   const Session session;
   session.write_pair("exr", kSize);
   require_success(convert(
@@ -138,7 +138,7 @@ TEST_CASE("texremap inputs: numbers alone are converted and printed") {
         Approx(std::sqrt(static_cast<double>(expected[0]))).epsilon(1e-6));
 }
 
-TEST_CASE("texremap inputs: factors are baked in once") {
+TEST_CASE("texremap inputs: factors are applied once") {
   const Session session;
   session.write_pair("exr", kSize);
   std::vector<std::string> words = maps(session, "r.exr", "s.exr");
@@ -155,7 +155,7 @@ TEST_CASE("texremap inputs: factors are baked in once") {
   }
 }
 
-TEST_CASE("texremap inputs: color in sRGB is converted as light and written in sRGB again") {
+TEST_CASE("texremap inputs: sRGB color is converted as linear light and written as sRGB") {
   const Session session;
   OIIO::ImageSpec spec = test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8);
   spec.attribute("oiio:ColorSpace", "sRGB");
@@ -184,7 +184,7 @@ TEST_CASE("texremap inputs: color in sRGB is converted as light and written in s
   }
 }
 
-TEST_CASE("texremap inputs: bad texels are kept, clamped, or the end") {
+TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
   const Session session;
   session.write_pair("exr", kSize);
   write_image(session.path("s.exr"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat),
@@ -211,9 +211,8 @@ TEST_CASE("texremap inputs: bad texels are kept, clamped, or the end") {
   fs::remove_all(session.path("out"));
   const ProcessResult failed = convert(session, words);
   CHECK(failed.exit_code == 1);
-  CHECK_THAT(
-      failed.last_error(),
-      Contains("s.exr: G of texel (6, 4) is nan; expected finite values from 0, or --bad-texels clamp"));
+  CHECK_THAT(failed.last_error(),
+             Contains("s.exr: G of texel (6, 4) is nan (--bad-texels clamp replaces such values)"));
   CHECK(session.file_count() == 0);
 }
 
@@ -238,7 +237,7 @@ TEST_CASE("texremap inputs: the mask marks the texels that were counted") {
   CHECK(nlohmann::json::parse(result.output)["out_of_domain"] == marked);
 }
 
-TEST_CASE("texremap inputs: a map that was converted is not converted again") {
+TEST_CASE("texremap inputs: a converted map is not converted again") {
   const Session session;
   const std::string extension = GENERATE("exr", "tif");
   session.write_pair(extension, kSize);
@@ -249,9 +248,9 @@ TEST_CASE("texremap inputs: a map that was converted is not converted again") {
   const ProcessResult refused = convert(session, again);
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.last_error(),
-             Contains("was converted to mitsuba/as already; expected a map of mitsuba/ward"));
+             Contains("already converted to mitsuba/as, but the source is mitsuba/ward"));
   CHECK_FALSE(fs::exists(session.path("again")));
-  // Onwards from what it is now.
+  // Converting from the current model is allowed.
   std::vector<std::string> onwards = again;
   onwards.insert(onwards.begin(), {"convert", "--from", "mitsuba/as", "--to", "mitsuba/ggx"});
   CHECK(session.texremap(onwards).exit_code == 0);
@@ -259,7 +258,7 @@ TEST_CASE("texremap inputs: a map that was converted is not converted again") {
   CHECK(convert(session, again).exit_code == 0);
 }
 
-TEST_CASE("texremap inputs: what does not fit together is wrong usage") {
+TEST_CASE("texremap inputs: contradicting options are refused") {
   const Session session;
   session.write_pair("exr", kSize);
   const auto refused = [&](std::vector<std::string> words, const std::string& message) {
@@ -270,19 +269,19 @@ TEST_CASE("texremap inputs: what does not fit together is wrong usage") {
     CHECK_FALSE(fs::exists(session.path("out")));
   };
   const std::string r = session.path("r.exr"), s = session.path("s.exr"), out = session.path("out");
-  refused({"--specular", s, "-o", out},
-          "--roughness: is missing; expected a map or a number, or --glossiness");
-  refused({"--roughness", r, "--specular", s}, "--output: is missing");
+  refused({"--specular", s, "-o", out}, "--roughness is required (a map or a number; or use --glossiness)");
+  refused({"--roughness", r, "--specular", s}, "--output is required");
   refused({"--roughness", "0.1,0.2,0.3", "--specular", s, "-o", out},
-          "--roughness: has three values; expected one");
-  refused({"--roughness", r, "--specular", s + ":R,G", "-o", out}, "expected FILE:CHANNEL");
+          "--roughness: has three values (give one)");
+  refused({"--roughness", r, "--specular", s + ":R,G", "-o", out}, "(use FILE:CHANNEL or FILE:R,G,B)");
   refused({"--roughness", r, "--specular", s, "-o", out, "--roughness-encoding", "rouhgness"},
           "did you mean roughness?");
   refused({"--roughness", r, "--specular", s, "-o", out, "--color-space", "srbg"}, "did you mean srgb?");
-  refused({"--roughness", r, "--specular", s, "-o", out, "--bad-texels", "drop"}, "--bad-texels: is drop");
+  refused({"--roughness", r, "--specular", s, "-o", out, "--bad-texels", "drop"},
+          "--bad-texels: unknown treatment 'drop' (choose keep, clamp, fail)");
   refused({"--roughness", r, "--specular", s, "-o", out, "--only", "specualr"}, "did you mean specular?");
   refused({"--glossiness", r, "--specular", s, "-o", out, "--roughness-encoding", "alpha"},
-          "does not go with");
+          "--roughness-encoding cannot be used with --glossiness");
 }
 
 TEST_CASE("texremap inputs: grey in a JPEG may be a step from grey") {

@@ -1,4 +1,4 @@
-// Results in other files than the inputs: packed, taken apart, and back.
+// Layouts: results packed into one file, split into several, and packed again.
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
@@ -51,7 +51,7 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again") {
   CHECK(channel(session, named("apart/roughness"), 0) == expected);
   CHECK(read_image(session.path(named("apart/roughness"))).spec.format == type);
 
-  // Together again, converted onwards; then as inputs, which keeps the layout.
+  // Packed again and converted to another model; then as-inputs, which keeps the layout.
   const std::string layout = GENERATE("orm", "arm");
   require_success(convert(session, "mitsuba/as", "mitsuba/ggx",
                           {"--roughness", session.path(named("apart/roughness")), "--occlusion",
@@ -93,7 +93,7 @@ TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every 
     }
 }
 
-TEST_CASE("texremap layouts: nothing is lost or made up unsaid") {
+TEST_CASE("texremap layouts: lost channels are an error, and missing maps give a warning") {
   const Session session;
   write_image(session.path("in.png"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
   const auto refused = [&](const std::vector<std::string>& words, const std::string& message) {
@@ -105,18 +105,19 @@ TEST_CASE("texremap layouts: nothing is lost or made up unsaid") {
   const std::string path = session.path("in.png");
   refused({"--roughness", path + ":G", "--specular", "0.4", "--layout", "separate"},
           "channel R would be lost");
-  refused({"--roughness", path + ":G", "--specular", "0.4", "--layout", "omr"}, "did you mean orm?");
+  refused({"--roughness", path + ":G", "--specular", "0.4", "--layout", "omr"},
+          "--layout: unknown layout 'omr' (did you mean orm?)");
   std::vector<std::string> words = packed(session, "in.png");
   words.insert(words.end(), {"--layout", "orm", "--only", "specular"});
-  refused(words, "--only: leaves a channel of --layout orm empty");
+  refused(words, "--only cannot be used with --layout orm");
 
   write_image(session.path("r.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
   const ProcessResult result =
       convert(session, "mitsuba/ward", "mitsuba/as",
               {"--roughness", session.path("r.png"), "--specular", "0.4", "--layout", "orm"}, "out");
   require_success(result);
-  CHECK_THAT(result.errors, Contains("has no occlusion map; occlusion is 1") &&
-                                Contains("has no metallic map; metallic is 0"));
+  CHECK_THAT(result.errors, Contains("no occlusion map; occlusion is set to 1") &&
+                                Contains("no metallic map; metallic is set to 0"));
   CHECK(channel(session, "out/orm.png", 0) == std::vector<float>(kSize * kSize, 1.0f));
   CHECK(channel(session, "out/orm.png", 2) == std::vector<float>(kSize * kSize, 0.0f));
 }

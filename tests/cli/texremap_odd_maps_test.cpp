@@ -1,4 +1,4 @@
-// Maps of odd sizes, with too few and too many channels, and with names that meet.
+// Maps of unusual sizes, with too few or too many channels, and with equal names.
 #include <fstream>
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ std::string little_endian(int value) {
   return {static_cast<char>(value & 255), static_cast<char>(value >> 8 & 255)};
 }
 
-// The head of an image without texels, in the formats whose readers take one.
+// The header of an image without texels, in the formats whose readers accept it.
 std::string head_of(const std::string& extension, int width, int height) {
   if (extension == "hdr")
     return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
@@ -47,8 +47,8 @@ TEST_CASE("texremap odd maps: an image without texels is refused") {
     const ProcessResult result = session.texremap(words(session, name));
     CHECK(result.signal == 0);
     CHECK(result.exit_code == 1);
-    CHECK_THAT(result.last_error(), Contains(name + ": has " + std::to_string(width) + " x " +
-                                             std::to_string(height) + " texels; expected at least one"));
+    CHECK_THAT(result.last_error(), Contains(name + ": image is empty (" + std::to_string(width) + "x" +
+                                             std::to_string(height) + ")"));
     CHECK_FALSE(fs::exists(session.path("out")));
   }
 }
@@ -69,7 +69,7 @@ TEST_CASE("texremap odd maps: one texel, and strips, in every format") {
     REQUIRE(out.spec.height == height);
     const int x = width - 1, y = height - 1;  // the last texel
     const auto expected = converted_texel(0.3f, {in.at(x, y, 0), in.at(x, y, 1), in.at(x, y, 2)});
-    // Exact, but for a step of JPEG and for the shared exponent of Radiance: 8 bits of the largest channel.
+    // Exact, except for a step of JPEG and the shared exponent of Radiance (8 bits of the largest channel).
     const double step = extension == "jpg" ? 6.0 / 255.0 : extension == "hdr" ? 1.0 / 128.0 : 0.0;
     for (int c = 0; c < 3; ++c)
       CHECK(static_cast<double>(out.at(x, y, c)) ==
@@ -91,9 +91,9 @@ TEST_CASE("texremap odd maps: one to five channels where three are expected") {
     write_image(session.path(name), test_spec(16, 16, channels, type_in(extension)), noise);
     const ProcessResult result = session.texremap(words(session, name));
     INFO(result.errors);
-    if (count == 2 && extension != "png") {  // which means grey and alpha by it
+    if (count == 2 && extension != "png") {  // a PNG with two channels is grey with alpha
       CHECK(result.exit_code == 1);
-      CHECK_THAT(result.last_error(), Contains(name + ": has the channels R, G; expected R, G and B"));
+      CHECK_THAT(result.last_error(), Contains(name + ": has the channels R, G instead of R, G and B"));
       continue;
     }
     REQUIRE(result.exit_code == 0);
@@ -109,7 +109,7 @@ TEST_CASE("texremap odd maps: one to five channels where three are expected") {
   }
 }
 
-TEST_CASE("texremap odd maps: two results of one name are refused before anything is written") {
+TEST_CASE("texremap odd maps: two results with one name are refused before anything is written") {
   const Session session;
   fs::create_directories(session.path("a"));
   for (const char* name : {"map.png", "a/map.png", "map.tif", "specular.png"})
@@ -121,11 +121,11 @@ TEST_CASE("texremap odd maps: two results of one name are refused before anythin
     all.insert(all.end(), more.begin(), more.end());
     const ProcessResult result = session.texremap(all);
     CHECK(result.exit_code == 2);
-    CHECK_THAT(result.last_error(), Contains(": would be the name of two results; expected"));
+    CHECK_THAT(result.last_error(), Contains(": two results have this name"));
     CHECK_FALSE(fs::exists(session.path("out")));
   };
   refused("map.png", session.path("a/map.png"), {});
   refused("map.png", session.path("map.tif"), {"--format", "exr"});
-  refused("specular.png", "0.4", {});  // the map of the number has that name
+  refused("specular.png", "0.4", {});  // the map made from the number has this name
   refused("map.png", "0.4", {"--mask", "map.png"});
 }

@@ -1,4 +1,4 @@
-// Texture sets that people have, converted as they would: BoomBox, brass, a chess king and six tiles.
+// Converts real texture sets: BoomBox, brass, a chess king and six tiles.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kSpecular = 0.04f;
 
-// What the converter makes of each of the 256 values of a map of roughness, the square root of alpha.
+// The converted value for each of the 256 values of a roughness map (square root of alpha).
 std::array<float, 256> converted_roughness() {
   std::array<float, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -27,7 +27,7 @@ std::array<float, 256> converted_roughness() {
   return table;
 }
 
-// The largest difference between channel `channel` of `out` and the conversion of that of `in`, and the mean.
+// The largest and mean difference between channel `channel` of `out` and the converted channel of `in`.
 std::pair<double, double> difference(const TestImage& in, const TestImage& out, std::size_t channel) {
   REQUIRE(in.bytes.size() == out.bytes.size());
   const std::array<float, 256> expected = converted_roughness();
@@ -49,7 +49,7 @@ bool same_channel(const TestImage& in, const TestImage& out, std::size_t channel
   return true;
 }
 
-constexpr double kHalfStep = 0.501 / 255.0;  // 8 bits round by half a step; floats add a little
+constexpr double kHalfStep = 0.501 / 255.0;  // 8 bits round by half a step, and floats add a small error
 
 std::vector<std::string> words(const std::vector<std::string>& maps) {
   std::vector<std::string> all = {"convert",    "--from", "mitsuba/ward", "--to",      "mitsuba/as",
@@ -79,12 +79,12 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king") {
   for (const auto& set : sets) CHECK(set["texels"] == 2048 * 2048);
   CHECK(tree.results() == std::vector<std::string>{"BoomBox_occlusionRoughnessMetallic.png",
                                                    "brass_roughness.jpg", "king_black_roughness.jpg"});
-  // The king's metallic map goes with both kings and makes no set of its own.
-  CHECK_THAT(result.errors, Contains("left out: king_shared: no map of roughness or glossiness"));
+  // The metallic map of the king belongs to both kings and is not a set.
+  CHECK_THAT(result.errors, Contains("skipped: king_shared: no roughness or glossiness map found"));
   for (const char* name : {"brass", "king_black"})
     CHECK_THAT(result.errors,
-               Contains(std::string(name) + "_roughness.jpg: jpeg compression changes values; --format png"));
-  CHECK(count_of(result.errors, "compression changes values") == 2);  // not of a PNG
+               Contains(std::string(name) + "_roughness.jpg: jpeg compression changes values (--format png"));
+  CHECK(count_of(result.errors, "compression changes values") == 2);  // not for the PNG
 
   const auto in = [&](const char* name) { return read_image(folder / name); };
   const auto out = [&](const char* name) { return read_image(tree.path(std::string("out/") + name)); };
@@ -93,8 +93,8 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king") {
   CHECK(same_channel(packed, packed_out, 0));
   CHECK(same_channel(packed, packed_out, 2));
   CHECK(difference(packed, packed_out, 1).first <= kHalfStep);
-  // JPEG at quality 100 rounds 64 coefficients of 8 x 8 cosines by half a step: together at most 4 steps, and
-  // of random sign.
+  // JPEG at quality 100 rounds 64 coefficients of 8 x 8 cosines by half a step with random sign, together at
+  // most 4 steps.
   for (const char* name : {"brass_roughness.jpg", "king_black_roughness.jpg"}) {
     const auto [largest, mean] = difference(in(name), out(name), 0);
     CHECK(largest <= kHalfStep + 4.0 / 255.0);
@@ -102,7 +102,7 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king") {
   }
 }
 
-TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps what JPEG would not") {
+TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps the precision that JPEG loses") {
   const fs::path map = shared_data("textures/king_black_roughness.jpg");
   if (map.empty()) return;
   const Tree tree;
@@ -133,7 +133,7 @@ TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile") {
   REQUIRE(sets.size() == 1);
   CHECK(sets[0]["texels"] == 6 * 512 * 512);
   CHECK(sets[0]["tiles"] == std::vector<std::string>{"1001", "1002", "1003", "1011", "1012", "1013"});
-  CHECK(count_of(result.errors, " texels in ") == 1 + 1);  // of the set, and of the run
+  CHECK(count_of(result.errors, " texels in ") == 1 + 1);  // for the set, and for the run
   for (const auto& entry : fs::directory_iterator(tiles)) {
     INFO(entry.path());
     const TestImage in = read_image(entry.path()),
@@ -158,7 +158,8 @@ TEST_CASE("texremap real sets: a tile that one map lacks is named, the others ar
   const ProcessResult result = tree.texremap(all);
   INFO(result.errors);
   CHECK(result.exit_code == 1);
-  CHECK_THAT(result.errors, Contains("specular/grid.1012.png: is missing; expected every tile of the set"));
+  CHECK_THAT(result.errors,
+             Contains("specular/grid.1012.png: not found, but other maps of the set have this tile"));
   const auto sets = nlohmann::json::parse(result.output)["sets"];
   REQUIRE(sets.size() == 1);
   CHECK(sets[0]["tiles"] == std::vector<std::string>{"1001", "1002", "1003", "1011", "1013"});

@@ -1,4 +1,4 @@
-// Maps of several sizes. OpenImageIO's own resampling says what the values between texels are.
+// Maps of several sizes. The reference for values between texels is the resampling of OpenImageIO.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ ProcessResult convert(const Session& session, std::vector<std::string> words, co
   return session.texremap(words);
 }
 
-// `name` of the session at another size, linearly between texels, as floats.
+// Writes the image `name` of the session at another size, interpolated linearly, as floats.
 void write_resampled(const Session& session, const std::string& name, int width, int height,
                      const std::string& result) {
   const OIIO::ImageBuf source(session.path(name));
@@ -36,7 +36,7 @@ float largest_difference(const TestImage& a, const TestImage& b) {
 
 }  // namespace
 
-TEST_CASE("texremap --resample: the smaller map has the values that OpenImageIO finds between its texels") {
+TEST_CASE("texremap --resample: the smaller map is interpolated as OpenImageIO does") {
   const Session session;
   const bool tiled = GENERATE(false, true);
   const auto [small, large] = GENERATE(std::pair{16, 64}, std::pair{40, 100}, std::pair{1, 70});
@@ -50,7 +50,7 @@ TEST_CASE("texremap --resample: the smaller map has the values that OpenImageIO 
                                         session.path("s.exr"), "--resample", "--threads", "1"},
                                        "out");
   require_success(result);
-  CHECK_THAT(result.errors, Contains("s.exr: is resampled to " + std::to_string(large) + " x "));
+  CHECK_THAT(result.errors, Contains("s.exr: resampled to " + std::to_string(large) + "x"));
   require_success(convert(session,
                           {"--roughness", session.path("r.exr"), "--specular", session.path("s_large.exr")},
                           "expected"));
@@ -60,7 +60,7 @@ TEST_CASE("texremap --resample: the smaller map has the values that OpenImageIO 
   REQUIRE(out.spec.height == large - 7);
   CHECK(out.spec.tile_width == small_spec.tile_width);
   CHECK(largest_difference(out, expected) < 2e-6f);  // both interpolate in single precision
-  CHECK(read_file(session.path("out/r.exr")).size() > 0);
+  CHECK(read_image(session.path("out/r.exr")).values == read_image(session.path("expected/r.exr")).values);
 }
 
 TEST_CASE("texremap --resample: bands of tall maps meet without a seam") {
@@ -77,12 +77,12 @@ TEST_CASE("texremap --resample: bands of tall maps meet without a seam") {
   REQUIRE(out.spec.height == 3000);
   for (int y = 1; y < 3000; ++y) {
     INFO("row " << y);
-    REQUIRE(out.at(5, y, 0) >= out.at(5, y - 1, 0));  // a ramp stays one
+    REQUIRE(out.at(5, y, 0) >= out.at(5, y - 1, 0));  // a ramp stays monotonic
     REQUIRE(out.at(5, y, 0) - out.at(5, y - 1, 0) < 2e-3f);
   }
 }
 
-TEST_CASE("texremap --resample: color in sRGB is interpolated as light") {
+TEST_CASE("texremap --resample: sRGB color is interpolated as linear light") {
   const Session session;
   write_image(session.path("s.png"), test_spec(2, 1, {"R", "G", "B"}, OIIO::TypeUInt8),
               [](int x, int, int) { return x == 0 ? 0.0f : 1.0f; });
@@ -93,13 +93,13 @@ TEST_CASE("texremap --resample: color in sRGB is interpolated as light") {
                            "--color-space", "srgb", "--resample"},
                           "out"));
   const TestImage out = read_image(session.path("out/s.png"));
-  // A quarter of the way from black to white, in light.
+  // A quarter of the way from black to white, in linear light.
   const float linear = converted_texel(as_stored(0.3f, OIIO::TypeUInt8), {0.25f, 0.25f, 0.25f})[1];
   const double stored = 1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055;
   CHECK(out.at(1, 0, 0) == as_stored(static_cast<float>(stored), OIIO::TypeUInt8));
 }
 
-TEST_CASE("texremap --resample: packed channels beside the roughness are brought along") {
+TEST_CASE("texremap --resample: all channels of a packed roughness map are resampled") {
   const Session session;
   write_image(session.path("orm.png"), test_spec(20, 20, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
   write_image(session.path("s.png"), test_spec(40, 40, {"Y"}, OIIO::TypeUInt8), noise);
@@ -115,7 +115,7 @@ TEST_CASE("texremap --resample: packed channels beside the roughness are brought
       REQUIRE(std::fabs(out.at(x, y, 0) - expected.at(x, y, 0)) <= 0.501f / 255.0f);
 }
 
-TEST_CASE("texremap --resample: what cannot be, and sizes that differ without it") {
+TEST_CASE("texremap --resample: cropped maps, and different sizes without the option, are refused") {
   const Session session;
   session.write_pair("exr", 32);
   write_image(session.path("large.exr"), test_spec(64, 64, {"Y"}, OIIO::TypeHalf), noise);
@@ -125,9 +125,9 @@ TEST_CASE("texremap --resample: what cannot be, and sizes that differ without it
   const ProcessResult refused = session.convert("large.exr", "s.exr");
   CHECK(refused.exit_code == 1);
   CHECK_THAT(refused.last_error(),
-             Contains("s.exr: is 32 x 32; expected the size of") && Contains("64 x 64, or --resample"));
+             Contains("s.exr: size 32x32 does not match ") && Contains("(64x64); use --resample"));
   const ProcessResult window = session.convert("large.exr", "cropped.exr", {"--resample"});
   CHECK(window.exit_code == 1);
-  CHECK_THAT(window.last_error(), Contains("data window that is not its display window"));
+  CHECK_THAT(window.last_error(), Contains("data window differs from its display window"));
   CHECK(session.file_count() == 0);
 }

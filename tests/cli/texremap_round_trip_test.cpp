@@ -1,5 +1,5 @@
-// Materials that people have, to the specular workflow and back: what returns to one step of 8 bits, and
-// whether the report has a reason for what does not.
+// Converts real materials to the specular workflow and back. Texels must return to one step of 8 bits, or the
+// report must have a reason.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,19 +19,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The words for a metallic material, as `convert` takes them.
+// The arguments of `convert` for a metallic material.
 struct Material {
   std::string name, base_color, metallic, roughness, occlusion;
 };
 
-// Which texels come back, and whether a map of the report says why the others do not.
+// Counts of texels that return, and of others with and without a reason in the maps of the report.
 struct RoundTrip {
   std::size_t texels = 0, returned = 0;
-  std::size_t unlisted = 0;     // did not return, and no doubt says why
-  std::size_t unexplained = 0;  // did not return, and is another specular material
+  std::size_t unlisted = 0;     // did not return, without a doubt as reason
+  std::size_t unexplained = 0;  // did not return, and is a different specular material
   int largest_roughness = 0;
-  double most =
-      1.0;  // share that returns where each stored texel becomes what is best for all that it stands for
+  double most = 1.0;  // returned share if each stored texel becomes the best answer for all its sources
 };
 
 int byte(const TestImage& image, std::size_t texel, std::size_t channel) {
@@ -46,11 +45,11 @@ double in_srgb(double value) {
   return 255.0 * (value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055);
 }
 
-// Rounding of base color and of metallic may add up.
+// The rounding errors of base color and metallic may add up.
 constexpr double kMostSteps = 1.5;
 
 bool is_seen(double a, double b) {
-  constexpr double kDarkDifference = 0.5 / 255.0;  // linear: half a step of what displays show of white
+  constexpr double kDarkDifference = 0.5 / 255.0;  // linear: half a step of a display, relative to white
   return std::abs(a - b) > kMostSteps && std::abs(linear(a) - linear(b)) > kDarkDifference;
 }
 
@@ -75,7 +74,7 @@ bool is_same(const Answer& a, const Answer& b) {
   return std::equal(a.begin(), a.end(), b.begin(), [](int x, int y) { return std::abs(x - y) <= 1; });
 }
 
-// Of these texels, as many as one answer can serve.
+// The largest number of these texels that one answer fits.
 std::size_t most_served(const std::map<Answer, std::size_t>& counts) {
   std::size_t most = 0;
   for (const auto& entry : counts)
@@ -90,7 +89,7 @@ std::size_t most_served(const std::map<Answer, std::size_t>& counts) {
   return most;
 }
 
-// No method that sees the stored maps alone does better: texels that are stored as one become one.
+// The upper bound for any method that sees the stored maps only: equal stored texels get equal results.
 double most_that_return(const std::vector<Answer>& given, const TestImage& diffuse,
                         const TestImage& specular) {
   const auto bytes = [](const TestImage& image) { return image.bytes.size() / image.values.size(); };
@@ -111,7 +110,7 @@ double most_that_return(const std::vector<Answer>& given, const TestImage& diffu
 
 std::string words_of(const std::string& file, const char* channel) { return file + channel; }
 
-// `type`: of the specular maps between.
+// `type` is the pixel type of the specular maps between.
 RoundTrip round_trip(const Material& material, const std::vector<std::string>& models,
                      const std::string& type) {
   const Session session;
@@ -160,10 +159,10 @@ RoundTrip round_trip(const Material& material, const std::vector<std::string>& m
     const bool is_back = difference <= 1 && color <= 1;
     result.returned += is_back;
     if (is_back) continue;
-    // Metallic within the share of [0, 1] in which it could lie is listed, too.
+    // Metallic within the interval of the map metallic_width counts as listed, too.
     const bool could_be = static_cast<float>(difference) <= 255.0f * width.values[i] + 1.0f;
     result.unlisted += doubts.values[i] == 0.0f && !could_be;
-    // The reason: both materials are the same specular one, to a step of 8 bits or too dark to tell.
+    // The reason: both materials have the same specular form, to a step of 8 bits, or are too dark.
     const auto stored = [&](const TestImage& image, int metallic) {
       return specular_bytes({byte(image, i, 0), byte(image, i, 1), byte(image, i, 2)}, metallic,
                             models[0] == "gltf");
@@ -201,9 +200,10 @@ TEST_CASE("texremap round trips: BoomBox and a chess king return from the specul
          {std::vector<std::string>{"gltf", "gltf-specgloss"}, {"metallic", "specular"}})
       for (const char* type : {"uint8", "uint16"}) {
         if (type == std::string("uint16") && models[0] == "gltf")
-          continue;  // as the other pair, for the time
+          continue;  // equal to the other pair; skipped to save time
         const RoundTrip result = round_trip(*given, models, type);
-        // 99.9 %, the goal, where what is stored can tell so many: 8 bits of BoomBox cannot.
+        // The goal is 99.9 %, unless the stored maps cannot distinguish so many texels, as the 8 bits of
+        // BoomBox.
         CHECK(result.returned >= result.texels * (result.most > 0.999 ? 999 : 996) / 1000);
         CHECK(result.unlisted == 0);
         CHECK(result.unexplained <= (given == &box ? result.texels / 5000 : 0));

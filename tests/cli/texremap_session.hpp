@@ -1,4 +1,4 @@
-// texremap in a folder of its own, with images to convert.
+// Runs texremap in a temporary folder with images to convert.
 #pragma once
 
 #include <Imath/half.h>
@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "convert/converter.hpp"
+#include "convert/shipped_converters.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
@@ -26,7 +27,7 @@ class Session {
     arguments.insert(arguments.begin(), REMAP_TEXREMAP);
     return run(arguments, limits);
   }
-  // The words of a conversion of two files of this folder to its folder `out`.
+  // The arguments for converting two files of this folder into its folder `out`.
   std::vector<std::string> conversion(const std::string& roughness, const std::string& specular) const {
     return {"convert",       "--from",     "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
             path(roughness), "--specular", path(specular), "-o",   path("out")};
@@ -37,12 +38,12 @@ class Session {
     words.insert(words.end(), more.begin(), more.end());
     return texremap(words, limits);
   }
-  // r.<extension> and s.<extension> of noise.
+  // Writes r.<extension> and s.<extension> with noise.
   void write_pair(const std::string& extension, int size = 64, OIIO::TypeDesc type = OIIO::TypeHalf) const {
     write_image(path("r." + extension), test_spec(size, size, {"Y"}, type), noise);
     write_image(path("s." + extension), test_spec(size, size, {"R", "G", "B"}, type), noise);
   }
-  // Files in `out` that are not hidden, and all of them.
+  // The number of files in `out`, without and with hidden ones.
   std::size_t result_count() const { return count(false); }
   std::size_t file_count() const { return count(true); }
 
@@ -62,7 +63,7 @@ inline void require_success(const ProcessResult& result) {
   REQUIRE(result.exit_code == 0);
 }
 
-// Ward to Ashikhmin-Shirley for one texel: the roughness, then the specular channels.
+// Converts one texel from Ward to Ashikhmin-Shirley: the roughness, then the specular channels.
 inline std::array<float, 4> converted_texel(float roughness, const std::array<float, 3>& specular) {
   std::array<float, 4> result{};
   const std::array<const float*, 3> in = {&specular[0], &specular[1], &specular[2]};
@@ -71,7 +72,7 @@ inline std::array<float, 4> converted_texel(float roughness, const std::array<fl
   return result;
 }
 
-// What a file of this pixel type makes of `value`.
+// `value` as a file of this pixel type stores it.
 inline float as_stored(float value, OIIO::TypeDesc type) {
   const auto whole = [value](double largest) {
     const double clipped = std::isnan(value) ? 0.0 : std::min(std::max(static_cast<double>(value), 0.0), 1.0);

@@ -1,4 +1,4 @@
-// Folders of texture sets, tiles and frames: what is found, what is written, what happens when one fails.
+// Folders of texture sets, tiles and frames: the sets found, the files written, and failures of single sets.
 #include "cli/texremap_tree.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using Names = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("texremap tree: sets of every habit are converted, each by the meaning of its names") {
+TEST_CASE("texremap tree: sets of every habit are converted by the meaning of their names") {
   const Tree tree;
   tree.map("in/hero_Roughness.png", kGrey);
   tree.map("in/hero_Specular.png", kColor);
@@ -55,9 +55,9 @@ TEST_CASE("texremap tree: sets of every habit are converted, each by the meaning
     CHECK(set["texels"] == kSize * kSize);
   }
   CHECK_THAT(result.errors, Contains("6 sets converted by mitsuba_ward_to_mitsuba_as, 0 failed"));
-  CHECK_THAT(result.errors, Contains("roughness maps are read as alpha, as mitsuba/ward has it"));
+  CHECK_THAT(result.errors, Contains("roughness maps are read as alpha, the parameter of mitsuba/ward"));
 
-  // The set of specular and glossiness by hand: glossiness stays glossiness.
+  // Expected values of the specular-glossiness set: glossiness stays glossiness.
   const std::string name = "gltf/chair_specularGlossiness.png";
   const TestImage in = read_image(tree.path("in/" + name)), out = read_image(tree.path("out/" + name));
   for (int x = 0; x < kSize; ++x) {
@@ -69,7 +69,7 @@ TEST_CASE("texremap tree: sets of every habit are converted, each by the meaning
   }
 }
 
-TEST_CASE("texremap tree: one that fails does not stop the others, and the exit code tells") {
+TEST_CASE("texremap tree: a failed set does not stop the others and makes the exit code 1") {
   const Tree tree;
   tree.map("in/a_rough.png", kGrey);
   tree.map("in/a_spec.png", kGrey);
@@ -88,16 +88,16 @@ TEST_CASE("texremap tree: one that fails does not stop the others, and the exit 
   const auto json = nlohmann::json::parse(result.output);
   REQUIRE(json["sets"].size() == 3);
   CHECK(json["sets"][0]["state"] == "converted");
-  CHECK_THAT(json["sets"][1]["failure"].get<std::string>(), Contains("48 x 48; expected the size of"));
+  CHECK_THAT(json["sets"][1]["failure"].get<std::string>(), Contains("size 48x48 does not match "));
   CHECK_THAT(json["sets"][2]["failure"].get<std::string>(), Contains("e_rough.png"));
-  CHECK_THAT(result.errors, Contains("/in/c: has no specular map; expected one, or --specular VALUE"));
-  CHECK_THAT(result.errors, Contains("2 maps for the width of the highlight: d_Roughness.exr (roughness), "
-                                     "d_rough.png (roughness); expected one"));
-  CHECK_THAT(result.errors, Contains("left out: ") && Contains("f: no map of roughness or glossiness"));
+  CHECK_THAT(result.errors, Contains("/in/c: no specular map found (or use --specular VALUE"));
+  CHECK_THAT(result.errors, Contains("2 roughness maps found: d_Roughness.exr (roughness), d_rough.png "
+                                     "(roughness); keep one"));
+  CHECK_THAT(result.errors, Contains("skipped: ") && Contains("f: no roughness or glossiness map found"));
   CHECK_THAT(result.last_error(), Contains("4 of 6 sets failed"));
 }
 
-TEST_CASE("texremap tree: results inside the tree are not found again, and kept") {
+TEST_CASE("texremap tree: results inside the tree are neither read nor overwritten") {
   const Tree tree;
   tree.map("in/a_rough.png", kGrey);
   tree.map("in/a_spec.png", kGrey);
@@ -109,19 +109,18 @@ TEST_CASE("texremap tree: results inside the tree are not found again, and kept"
   REQUIRE(convert().exit_code == 0);
   const ProcessResult again = convert();
   CHECK(again.exit_code == 1);
-  CHECK_THAT(again.errors, Contains("a_rough.png: exists; expected a name that is free, or --force"));
+  CHECK_THAT(again.errors, Contains("a_rough.png: already exists (--force overwrites)"));
   CHECK_THAT(again.last_error(), Contains("1 of 1 sets failed"));
 }
 
-TEST_CASE("texremap tree: names of one's own") {
+TEST_CASE("texremap tree: --names adds file-name habits") {
   const Tree tree;
   tree.map("in/a_zzz.png", kGrey);
   write_file(tree.path("names.json"),
              R"({"habits": [{"name": "ours", "rules": [{"words": ["zzz"], "role": "roughness"}]}]})");
   const ProcessResult unknown = tree.convert_tree({"--specular", "0.04"});
   CHECK(unknown.exit_code == 2);
-  CHECK_THAT(unknown.last_error(),
-             Contains("has no texture set that is known by its names; expected --recursive"));
+  CHECK_THAT(unknown.last_error(), Contains("no texture set found by file names (use --recursive"));
   REQUIRE(tree.convert_tree({"--specular", "0.04", "--names", tree.path("names.json")}).exit_code == 0);
   CHECK(tree.results() == Names{"a_specular.png", "a_zzz.png"});
 }
@@ -140,7 +139,7 @@ TEST_CASE("texremap tree: the tiles of a set are one set") {
   CHECK(json["sets"][0]["tiles"] == Names{"1001", "1002"});
   CHECK(json["sets"][0]["texels"] == 2 * kSize * kSize);
   CHECK_THAT(found.errors,
-             Contains("hero, tile 1011: has no specular map; expected a tile hero_Specular.<UDIM>.exr"));
+             Contains("hero, tile 1011: no specular map found (hero_Specular.<UDIM>.exr lacks this tile)"));
   CHECK(tree.results().size() == 4);
 
   // The same by a pattern; the constant serves every tile.
@@ -157,11 +156,12 @@ TEST_CASE("texremap tree: the tiles of a set are one set") {
                      tree.path("in/hero_Roughness.%(UDIM)d.exr"), "--specular",
                      tree.path("in/hero_Specular.%(UDIM)d.exr"), "-o", tree.path("missing")});
   CHECK(missing.exit_code == 1);
-  CHECK_THAT(missing.errors, Contains("hero_Specular.1011.exr: is missing; expected every tile of the set"));
+  CHECK_THAT(missing.errors,
+             Contains("hero_Specular.1011.exr: not found, but other maps of the set have this tile"));
   CHECK(fs::exists(tree.path("missing/hero_Specular.1002.exr")));
 }
 
-TEST_CASE("texremap tree: six tiles as a UDIM set has them") {
+TEST_CASE("texremap tree: six tiles of a real UDIM set") {
   const fs::path tiles = shared_data("textures/grid_udim");
   if (tiles.empty()) return;
   const Tree tree;
@@ -193,7 +193,7 @@ TEST_CASE("texremap tree: the number of threads changes no bit") {
   CHECK(tree.results().size() == 14);
 }
 
-TEST_CASE("texremap tree: options that do not go together are wrong usage") {
+TEST_CASE("texremap tree: contradicting options are refused") {
   const Tree tree;
   tree.map("in/a_rough.png", kGrey);
   const auto refused = [&](const std::vector<std::string>& more, const std::string& message) {
@@ -202,15 +202,15 @@ TEST_CASE("texremap tree: options that do not go together are wrong usage") {
     CHECK_THAT(result.last_error(), Contains(message));
     CHECK_FALSE(fs::exists(tree.path("out")));
   };
-  refused({"--roughness", tree.path("in/a_rough.png")}, "its sets are found by their names");
-  refused({"--specular", tree.path("in/a_rough.png")}, "expected numbers beside a folder of sets");
+  refused({"--roughness", tree.path("in/a_rough.png")}, "--roughness cannot be used with a folder");
+  refused({"--specular", tree.path("in/a_rough.png")}, "cannot be used with a folder (give numbers)");
   const ProcessResult result = tree.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as",
                                               "--recursive", "--roughness", "0.4", "--specular", "0.04"});
   CHECK(result.exit_code == 2);
-  CHECK_THAT(result.last_error(), Contains("--recursive: is for a folder of sets; expected DIR"));
+  CHECK_THAT(result.last_error(), Contains("--recursive requires a folder of sets (give DIR)"));
 }
 
-TEST_CASE("texremap tree: --resume makes what is missing, what changed, and nothing else") {
+TEST_CASE("texremap tree: --resume makes only missing and changed sets") {
   const Tree tree;
   const std::string extension = GENERATE("exr", "png", "tif");
   const auto named = [&](const std::string& name) { return name + "." + extension; };
@@ -231,7 +231,7 @@ TEST_CASE("texremap tree: --resume makes what is missing, what changed, and noth
   CHECK(states({}) == "dddd");
   fs::remove(tree.path(named("out/b_spec")));
   CHECK(states({}) == "dcdd");
-  // Another input, another option, a file that is not ours.
+  // A changed input, another option, and a foreign file.
   tree.map(named("in/c_rough"), kColor);
   CHECK(states({}) == "ddfd");
   write_image(tree.path(named("in/c_rough")), test_spec(kSize, kSize, kGrey, OIIO::TypeUInt8),
@@ -244,8 +244,7 @@ TEST_CASE("texremap tree: --resume makes what is missing, what changed, and noth
   CHECK(read_file(tree.path(named("out/d_spec"))) == "precious");
 }
 
-TEST_CASE(
-    "texremap tree: killed at any moment, it leaves whole files, and --resume ends as an unbroken run") {
+TEST_CASE("texremap tree: a killed run leaves complete files, and --resume ends like an unbroken run") {
   const Tree tree;
   for (int i = 0; i < 12; ++i) {
     const std::string name = "in/" + std::to_string(i);
@@ -256,7 +255,7 @@ TEST_CASE(
   fs::rename(tree.path("out"), tree.path("unbroken"));
   const auto check_files = [&] {
     for (const std::string& name : tree.results()) {
-      if (fs::path(name).filename().string().front() == '.') continue;  // unfinished, and named so
+      if (fs::path(name).filename().string().front() == '.') continue;  // unfinished
       CHECK(read_file(tree.path("out/" + name)) == read_file(tree.path("unbroken/" + name)));
     }
   };
@@ -275,7 +274,7 @@ TEST_CASE(
   CHECK(whole == 24);
 }
 
-TEST_CASE("texremap tree: names with spaces, Unicode and line breaks; links that go round") {
+TEST_CASE("texremap tree: names with spaces, Unicode and line breaks; circular links") {
   const Tree tree;
   const std::string odd = "in/sp ace/\xc3\xbc \n\xe6\x9c\xa8";
   tree.map(odd + "_rough.png", kGrey);
@@ -286,7 +285,7 @@ TEST_CASE("texremap tree: names with spaces, Unicode and line breaks; links that
   REQUIRE(result.exit_code == 0);
   CHECK(nlohmann::json::parse(result.output)["sets"].size() == 1);
   CHECK(tree.results() == Names{odd.substr(3) + "_rough.png", odd.substr(3) + "_spec.png"});
-  // A message is a line, whatever a name holds.
+  // A message is one line even if a name has a line break.
   for (std::size_t begin = 0; begin < result.errors.size();) {
     CHECK(result.errors.compare(begin, 10, "texremap: ") == 0);
     begin = result.errors.find('\n', begin) + 1;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSize = 512, kShrink = 4;
 
-// Means of blocks of texels, as they are stored.
+// Means of blocks of texels, in stored values.
 void write_small(const fs::path& from, const std::string& to) {
   const TestImage image = read_image(from);
   REQUIRE(image.spec.width == kSize * kShrink);
@@ -90,8 +90,9 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions") {
     CHECK(found["fold_share"] < way.folds);
     CHECK(found["stroke_distance"] < 0.5);
     CHECK(found["template_used"] > way.used);
-    // Gold of the king varies in a way that BoomBox, of few flat colors, has no place for: that is said.
-    const bool warned = report["warnings"].dump().find("is turned inside out") != std::string::npos;
+    // The gold of the king varies in a way that BoomBox, with few flat colors, cannot represent: a warning
+    // says so.
+    const bool warned = report["warnings"].dump().find("is folded by the warp") != std::string::npos;
     CHECK(warned == (found["fold_share"] > 0.005));
     const ProcessResult maps =
         run({REMAP_TEXREMAP, "convert", session.path(way.source), "--fit", fit, "--from-workflow", "metallic",

@@ -1,4 +1,4 @@
-// Sweeps of renderers that they have never seen: unknown names, scales, light and laws of specular.
+// Sweeps of renderers with unknown names, scales, light and laws of specular.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ SpecularResponse probe(const Renderer& renderer, const std::string& model,
 
 double squared(double level) { return level * level; }
 
-// Three.js has such a term: neither proportional nor affine (a quadratic with a linear part).
+// A quadratic with a linear part, as in three.js: neither proportional nor affine.
 double mixed(double level) { return 0.3 * level + 0.7 * level * level; }
 
 }  // namespace
@@ -35,7 +35,7 @@ TEST_CASE("sweep: a renderer with other names, scales and light is matched as if
         sweep(renderers, sweep_options("mitsuba/ward", "disguised/metal", "natural", samples, 96));
     CHECK(std::stod(comment(table, "irradiance_scale")) == Approx(light).epsilon(1e-6));
     CHECK(comment(table, "diffuse_scale") == "1");
-    // Its width is ward's alpha / 0.8, its specular ward's * 4.
+    // The disguise divides Ward's alpha by 0.8 and multiplies its specular by 4.
     for (const TableRow& row : table.rows) {
       CHECK(row.status == (row.specular1 < 1.0 ? RowStatus::kOk : row.status));
       CHECK(row.specular2 == Approx(row.specular1 * 4.0).epsilon(1e-6));
@@ -55,7 +55,7 @@ TEST_CASE("sweep: light is matched in the other direction too") {
   }
 }
 
-TEST_CASE("sweep: without irradiance matching the light's factor stays in specular and diffuse") {
+TEST_CASE("sweep: without irradiance matching, the light's factor remains in specular and diffuse") {
   auto options = sweep_options("mitsuba/ward", "disguised/metal", "natural", {{0.3, 0.2}, {0.3, 0.9}}, 96);
   options.match_irradiance = false;
   const Table table = sweep(BothRenderers(0.5), options);
@@ -76,8 +76,7 @@ TEST_CASE("sweep: one and three stages match unknown light, width, specular and 
       const Table table = sweep(BothRenderers(light), options);
       REQUIRE(table.has_diffuse);
       for (const TableRow& row : table.rows) {
-        // Interpolation of pictures between the nodes of the bank is good to 1e-6, the search to its
-        // tolerances.
+        // Interpolation between the nodes of the bank is exact to 1e-6, the search to its tolerances.
         CHECK(row.specular2 == Approx(row.specular1 * 4.0).epsilon(1e-4));
         CHECK(row.alpha2 == Approx(row.alpha1 / 0.8).epsilon(1e-4));
         CHECK(row.diffuse2 == Approx(0.35).epsilon(1e-4));
@@ -97,7 +96,7 @@ TEST_CASE("sweep: diffuse is matched apart from specular") {
   CHECK(match.error < 1e-5);
 }
 
-TEST_CASE("probe: scale and Schlick are told apart by pictures") {
+TEST_CASE("probe: pictures distinguish a scale from Schlick's Fresnel") {
   const auto renderer = make_builtin_renderer();
   CHECK(probe(*renderer, "mitsuba/ward").law == SpecularLaw::kProportional);
   CHECK(probe(*renderer, "mitsuba/ggx").law == SpecularLaw::kAffine);
@@ -108,7 +107,7 @@ TEST_CASE("probe: the laws of the built-in models with indices and knees") {
   const auto renderer = make_builtin_renderer();
   for (const std::string name : {"as", "ggx", "beckmann"}) {
     CHECK(probe(*renderer, "mitsuba/" + name + "-ior").law == SpecularLaw::kIor);
-    // Exact Fresnel changes its shape with the index: no linear coordinate.
+    // The shape of exact Fresnel depends on the index, so no coordinate is linear.
     CHECK(probe(*renderer, "mitsuba/" + name + "-dielectric").law == SpecularLaw::kOther);
   }
   const SpecularResponse trimmed = probe(*renderer, "mitsuba/ward-conserving");
@@ -137,13 +136,13 @@ TEST_CASE("probe: a knee is found to the precision of pictures, wherever it lies
   }
 }
 
-TEST_CASE("probe: what follows no known law is called other, with its deviation from affine") {
+TEST_CASE("probe: an unknown law is called other, with its deviation from affine") {
   for (const auto law : {squared, mixed}) {
     const SpecularResponse response = probe(LawRenderer("mitsuba/ward", {0.0, 1.0}, law), "disguised/law");
     CHECK(response.law == SpecularLaw::kOther);
     CHECK(response.residual > 0.1);
   }
-  // Rises, stays, rises again: no knee.
+  // The law rises, is flat, and rises again, so it has no knee.
   const LawRenderer stairs("mitsuba/ward", {0.0, 1.0},
                            [](double level) { return level < 0.4 ? level : std::max(0.4, level - 0.3); });
   CHECK(probe(stairs, "disguised/law").law == SpecularLaw::kOther);
@@ -203,7 +202,7 @@ TEST_CASE("sweep: a target that clamps ends at its knee, a source that clamps is
   }
 }
 
-TEST_CASE("sweep: a target of no known law is matched") {
+TEST_CASE("sweep: a target without a known law is matched") {
   const auto inverse = [](double specular) {  // of mixed()
     return (-0.3 + std::sqrt(0.09 + 2.8 * specular)) / 1.4;
   };
@@ -212,14 +211,14 @@ TEST_CASE("sweep: a target of no known law is matched") {
   const Table table = sweep(renderer, sweep_options("mitsuba/ward", "disguised/law", "natural", samples, 48));
   CHECK(comment(table, "target_specular_law") == "other");
   for (const TableRow& row : table.rows) {
-    // Central differences of float pictures, and the tolerances of the search.
+    // The margin covers central differences of float pictures and the tolerances of the search.
     CHECK(row.alpha2 == Approx(row.alpha1).epsilon(1e-4));
     CHECK(row.specular2 == Approx(inverse(row.specular1)).epsilon(1e-4));
     CHECK(row.status == RowStatus::kOk);
   }
 }
 
-TEST_CASE("sweep: a target of no known law that cannot match is where affine matching puts it") {
+TEST_CASE("sweep: a target without a known law that cannot match gets the result of affine matching") {
   const LawRenderer renderer("mitsuba/ggx-plain", {0.0, 1.0}, squared);
   const std::vector<SamplePoint> samples = {{0.15, 0.5}, {0.3, 0.3}};
   const Table table = sweep(renderer, sweep_options("mitsuba/ward", "disguised/law", "natural", samples, 64));

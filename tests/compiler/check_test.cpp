@@ -1,4 +1,4 @@
-// The lint of tables: each kind of finding on a table that has just that fault.
+// Checks of tables: each kind of finding, on a table with only that fault.
 #include "table/check.hpp"
 
 #include <cmath>
@@ -12,7 +12,7 @@ using namespace remapc;
 
 namespace {
 
-// A sound table: 10 widths x 5 speculars, lines as a file would have them.
+// A table without faults: 10 widths x 5 speculars, with the line numbers of a file.
 Table sound_table() {
   Table table;
   table.name = "t.csv";
@@ -33,7 +33,7 @@ std::vector<Finding> of_kind(const Table& table, const std::string& kind) {
 
 }  // namespace
 
-TEST_CASE("check: a sound table has no findings") { CHECK(check_table(sound_table()).empty()); }
+TEST_CASE("check: a table without faults has no findings") { CHECK(check_table(sound_table()).empty()); }
 
 TEST_CASE("check: the published table can be fitted") {
   const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
@@ -42,7 +42,7 @@ TEST_CASE("check: the published table can be fitted") {
   CHECK_NOTHROW(require_fittable(table));
 }
 
-TEST_CASE("check: a row that stands twice is a warning, one that contradicts an error") {
+TEST_CASE("check: a repeated row is a warning, a contradicting one an error") {
   Table table = sound_table();
   TableRow copy = table.rows[7];
   copy.line = 99;
@@ -59,7 +59,7 @@ TEST_CASE("check: a row that stands twice is a warning, one that contradicts an 
   CHECK_THROWS_WITH(require_fittable(table), Catch::StartsWith("t.csv:99: contradiction"));
 }
 
-TEST_CASE("check: a gap in the widths is named by its ends") {
+TEST_CASE("check: a gap in the widths is reported with its ends") {
   Table table = sound_table();
   std::erase_if(table.rows, [](const TableRow& row) { return row.alpha1 > 0.35 && row.alpha1 < 0.75; });
   const auto gaps = of_kind(table, "gap");
@@ -77,7 +77,7 @@ TEST_CASE("check: a roughness curve that falls cannot be fitted") {
   CHECK(found[0].message.find("0.7") != std::string::npos);
 }
 
-TEST_CASE("check: jumps as in figures 6, 8 and 10 are named by row") {
+TEST_CASE("check: jumps as in figures 6, 8 and 10 are reported with their row") {
   Table table = sound_table();
   table.rows[12].specular2 *= 1.2;  // third of the five speculars at the third width
   const auto found = of_kind(table, "jump");
@@ -90,7 +90,7 @@ TEST_CASE("check: jumps as in figures 6, 8 and 10 are named by row") {
   CHECK_FALSE(of_kind(roughness, "jump").empty());
 }
 
-TEST_CASE("check: clamped rows and values that stick are reported as saturation") {
+TEST_CASE("check: clamped rows and constant values are reported as saturation") {
   Table table = sound_table();
   for (TableRow& row : table.rows) {
     if (row.specular1 > 0.5) row.specular2 = 0.3;
@@ -101,7 +101,7 @@ TEST_CASE("check: clamped rows and values that stick are reported as saturation"
   CHECK(found.back().message.find("5 of 50 rows are clamped") != std::string::npos);
 }
 
-TEST_CASE("check: values that cannot be are errors, beyond physical ranges warnings") {
+TEST_CASE("check: invalid values are errors, unphysical ones warnings") {
   for (const double bad : {-0.1, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
     Table table = sound_table();
     table.rows[3].specular2 = bad;
@@ -119,7 +119,7 @@ TEST_CASE("check: values that cannot be are errors, beyond physical ranges warni
   CHECK(of_kind(bright, "range")[0].severity == Severity::kWarning);
 }
 
-TEST_CASE("check: diffuse out of range is named") {
+TEST_CASE("check: diffuse out of range is reported") {
   Table table = sound_table();
   table.has_diffuse = true;
   table.rows[3].diffuse2 = -0.1;

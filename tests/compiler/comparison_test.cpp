@@ -1,4 +1,4 @@
-// The choice among regressions: what it picks, that it depends on nothing else, and how it takes bad tables.
+// The choice among regressions: what it chooses, that it is deterministic, and what it does with bad tables.
 #include "fit/comparison.hpp"
 
 #include <cmath>
@@ -42,7 +42,7 @@ remap::MappedTexel paper_surface(double alpha, double specular) {
   return remap::evaluate_mapping(kPaper, alpha, specular);
 }
 
-// A bump in specular that no sum of low powers follows.
+// A bump in specular that sums of low powers cannot follow.
 remap::MappedTexel bumpy_surface(double alpha, double specular) {
   const double bump = std::exp(-40.0 * ((alpha - 0.5) * (alpha - 0.5) + (specular - 0.5) * (specular - 0.5)));
   return {0.9 * alpha + 0.01 * bump, 0.8 * specular + 0.03 * bump};
@@ -83,20 +83,20 @@ TEST_CASE("comparison: the simplest within one standard error of the best in bot
   CHECK(choice({candidate(9, 1e-3, 1e-3), candidate(20, 9e-4, 9e-4), candidate(400, 8.5e-4, 8.5e-4)}) == 0);
   CHECK(choice({candidate(9, 2e-3, 1e-3), candidate(20, 9e-4, 9e-4), candidate(400, 8.5e-4, 8.5e-4)}) == 1);
   CHECK(choice({candidate(9, 1e-3, 2e-3), candidate(20, 9e-4, 2e-3), candidate(400, 8.5e-4, 8.5e-4)}) == 2);
-  // A standard error of 1e-3 makes all the same.
+  // With a standard error of 1e-3, all candidates are equally good.
   CHECK(choice({candidate(9, 2e-3, 1e-3, 2e-3), candidate(400, 8.5e-4, 8.5e-4, 2e-3)}) == 0);
 }
 
-TEST_CASE("comparison: where none is best in both outputs, the least of the worse errors decides") {
+TEST_CASE("comparison: if none is best in both outputs, the smallest worse error decides") {
   CHECK(choice({candidate(9, 1e-3, 1e-2), candidate(20, 3e-3, 1e-3), candidate(400, 9e-3, 9e-4)}) == 1);
 }
 
-TEST_CASE("comparison: one that does not take part is neither chosen nor a measure") {
+TEST_CASE("comparison: an excluded candidate is neither chosen nor a reference") {
   CHECK(choice({candidate(9, 1e-3, 1e-3), candidate(400, 1e-6, 1e-6)}, {true, false}) == 0);
   CHECK(choice({candidate(9, 1e-3, 1e-3)}, {false}) == 1);
 }
 
-TEST_CASE("comparison: auto takes the form of the paper for a table made from it") {
+TEST_CASE("comparison: auto chooses the form of the paper for a table made from it") {
   const remap::Fit fit = fit_of(table_of(paper_surface), quick_options());
   REQUIRE(fit.method.count("form") == 1);
   CHECK(fit.method.at("form") == "paper");
@@ -107,7 +107,7 @@ TEST_CASE("comparison: auto takes the form of the paper for a table made from it
   for (const Candidate& one : fit.candidates) CHECK(one.edge_alpha_rms > 0.0);
 }
 
-TEST_CASE("comparison: auto takes something richer where the table needs it") {
+TEST_CASE("comparison: auto chooses a richer form if the table needs it") {
   const remap::Fit fit = fit_of(table_of(bumpy_surface, 18, 8), quick_options());
   CHECK(remap::kind_name(fit.mapping) != "parametric");
   CHECK(fit.specular_error.rms < 4e-3);  // the bump is 0.03 high
@@ -133,7 +133,7 @@ TEST_CASE("comparison: an interruption ends it") {
 }
 
 TEST_CASE("comparison: tables with one specular, with duplicates and with outliers are fitted") {
-  // One specular: regressors that want two inputs have nothing to hold on to.
+  // With one specular value, regressors of two inputs are underdetermined.
   const Table flat = table_of(paper_surface, 20, 1);
   const remap::Fit of_flat = fit_of(flat, quick_options());
   CHECK(of_flat.specular_error.rms < 1e-3);
@@ -146,7 +146,7 @@ TEST_CASE("comparison: tables with one specular, with duplicates and with outlie
   Table spoilt = table_of(paper_surface, 16, 6);
   spoilt.rows[40].specular2 *= 1.5;
   const remap::Fit of_spoilt = fit_of(spoilt, quick_options());
-  // The outlier is not followed: other rows stay within what one of 96 can pull.
+  // The outlier is not followed: other rows move by no more than one of 96 rows can cause.
   CHECK(remap::evaluate_mapping(of_spoilt.mapping, 0.8, 0.45).specular ==
         Approx(paper_surface(0.8, 0.45).specular).epsilon(0.05));
 }
@@ -178,7 +178,7 @@ TEST_CASE("edge: the outermost widths and the largest speculars are left out") {
   CHECK(errors.alpha_rms > 1e-3);  // the domain rule holds alpha at the last row but one
 }
 
-TEST_CASE("edge: chroma shifts by what the closed form says, and breaks are told") {
+TEST_CASE("edge: chroma shifts by the closed form, and faults are reported") {
   const remap::Domain domain{{0.1, 1.0}, {0.0, 1.0}};
   CHECK(look_beyond(kPaper, domain).chroma_shift < 1e-12);
   // specular2 = s - 0.5 s^2: of (1, 0.1, 0.1) the first is 0.5, beyond it 0.375.
@@ -191,7 +191,7 @@ TEST_CASE("edge: chroma shifts by what the closed form says, and breaks are told
   CHECK(look_beyond(negative, domain).fault.find("specular1 1.5") != std::string::npos);
 }
 
-TEST_CASE("folds: twins share a fold, folds are even, draws are the same for a seed") {
+TEST_CASE("folds: equal rows share a fold, folds are even, draws depend on the seed only") {
   Table table = table_of(paper_surface, 10, 5);
   const std::vector<TableRow> once = table.rows;
   table.rows.insert(table.rows.end(), once.begin(), once.end());
@@ -207,7 +207,7 @@ TEST_CASE("folds: twins share a fold, folds are even, draws are the same for a s
   CHECK(draw_rows(table.rows, 30, 1).size() == 30);
 }
 
-TEST_CASE("baselines: formulas give the numbers of their sources, and say why they do not apply") {
+TEST_CASE("baselines: formulas give the numbers of their sources, or the reason why they do not apply") {
   using Convention = remap::RoughnessConvention;
   const auto find = [](const std::vector<Baseline>& all, const std::string& name) {
     for (const Baseline& baseline : all)

@@ -1,5 +1,4 @@
-// Renderers in disguise: the built-in one behind other names, scales, laws and lights, as a closed renderer
-// meets the sweep.
+// Stand-ins for closed renderers: the built-in one with other names, scales, laws and lights.
 #pragma once
 
 #include <atomic>
@@ -13,7 +12,7 @@
 
 namespace remapc {
 
-// The built-in renderer, and beside it one model of a closed one.
+// The built-in renderer, plus one model of a closed one.
 class DisguisedRenderer : public Renderer {
  public:
   std::string version() const override { return "disguised"; }
@@ -36,8 +35,8 @@ class DisguisedRenderer : public Renderer {
   std::unique_ptr<Renderer> builtin_ = make_builtin_renderer();
 };
 
-// The built-in renderer, and beside it `disguised/metal`: Ward with another name and scale for every
-// parameter, and light of a strength that the sweep does not know.
+// The built-in renderer, plus `disguised/metal`: Ward with another name and scale for every parameter, and
+// light of an unknown strength.
 class BothRenderers final : public DisguisedRenderer {
  public:
   explicit BothRenderers(double light = 0.5) : light_(light) {}
@@ -65,8 +64,8 @@ class BothRenderers final : public DisguisedRenderer {
   double light_;
 };
 
-// The built-in renderer, and beside it `disguised/law`: `inner` with its specular parameter replaced by a
-// function of the one that is given, over `range`.
+// The built-in renderer, plus `disguised/law`: `inner` with its specular computed by a function of the given
+// parameter, over `range`.
 class LawRenderer final : public DisguisedRenderer {
  public:
   LawRenderer(std::string inner, remap::Range range, std::function<double(double)> law)
@@ -95,9 +94,9 @@ class LawRenderer final : public DisguisedRenderer {
   std::function<double(double)> law_;
 };
 
-// `disguised/blend`, alone: the sum of built-in pictures, each of a model and width of its own, times
-// functions of the one specular parameter, so that the shape of the picture and not only its strength depends
-// on it. Refuses widths out of its range, as real renderers do, and counts its pictures.
+// Only `disguised/blend`: the sum of pictures of built-in models, each with its own width, times functions of
+// one specular parameter. The shape of the picture depends on specular, not only its strength. Refuses widths
+// out of range, as real renderers do, and counts its pictures.
 class BlendRenderer final : public DisguisedRenderer {
  public:
   struct Term {

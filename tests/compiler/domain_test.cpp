@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kAlphas = 20, kSpeculars = 10;
 
-// A grid over alpha 0.05 to 1, specular 0.1 to 1; `status_of` decides which rows are usable.
+// Makes a grid over alpha 0.05 to 1 and specular 0.1 to 1; `status_of` sets the status of each row.
 template <typename StatusOf>
 Table grid(const StatusOf& status_of) {
   Table table;
@@ -31,20 +31,20 @@ RowStatus clamped_where(bool condition) { return condition ? RowStatus::kClamped
 
 }  // namespace
 
-TEST_CASE("domain: without clamped rows it is the box of all rows") {
+TEST_CASE("domain: without clamped rows, it is the box of all rows") {
   const remap::Domain domain = table_domain(grid([](double, double) { return RowStatus::kOk; }));
   CHECK(domain.alpha == remap::Range{0.05, 1.0});
   CHECK(domain.specular == remap::Range{0.0, 1.0});
 }
 
-TEST_CASE("domain: a width that the target does not reach ends it, whatever the specular") {
+TEST_CASE("domain: a width that the target cannot reach ends it, whatever the specular") {
   const remap::Domain domain =
       table_domain(grid([](double alpha, double) { return clamped_where(alpha > 0.71); }));
   CHECK(domain.alpha == remap::Range{0.05, 0.7});
   CHECK(domain.specular == remap::Range{0.0, 1.0});
 }
 
-TEST_CASE("domain: where the target's specular passes its bound, widths count more than specular") {
+TEST_CASE("domain: if the target's specular exceeds its bound, widths count more than specular") {
   // As Beckmann to Ward: specular2 = (1 + 2 alpha) specular1 must stay within 1.
   const Table table =
       grid([](double alpha, double specular) { return clamped_where((1.0 + 2.0 * alpha) * specular > 1.0); });
@@ -57,7 +57,7 @@ TEST_CASE("domain: where the target's specular passes its bound, widths count mo
   }
 }
 
-TEST_CASE("domain: rows that are unstable or flat are gaps and bound nothing") {
+TEST_CASE("domain: unstable and flat rows are gaps and do not limit it") {
   const remap::Domain domain = table_domain(grid([](double alpha, double specular) {
     if (alpha == 0.5 && specular == 0.5) return RowStatus::kUnstable;
     return alpha == 0.25 ? RowStatus::kFlat : RowStatus::kOk;
@@ -66,7 +66,7 @@ TEST_CASE("domain: rows that are unstable or flat are gaps and bound nothing") {
   CHECK(domain.specular.max == 1.0);
 }
 
-TEST_CASE("domain: scattered rows are covered where neighbours in width reach as far") {
+TEST_CASE("domain: scattered rows are covered if their neighbours in width reach as far") {
   std::mt19937_64 random(7);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   Table table;
@@ -87,7 +87,7 @@ TEST_CASE("domain: a table without usable rows has none") {
                     Catch::Contains("t.csv") && Catch::Contains("status ok"));
 }
 
-TEST_CASE("swapped: parameters and models change places, rows that are not usable go") {
+TEST_CASE("swapped: parameters and models are exchanged, unusable rows removed") {
   const Table table = swapped(grid([](double alpha, double) { return clamped_where(alpha > 0.71); }));
   CHECK(table.source.model == "c/d");
   CHECK(table.target.model == "a/b");

@@ -1,4 +1,4 @@
-// Spheres under environments: the maps, the light that they give, and the study that compares by them.
+// Spheres under environments: the maps, their light, and the study that uses them.
 #include "report/environment.hpp"
 
 #include <algorithm>
@@ -15,6 +15,8 @@
 #include "renderer/scene.hpp"
 #include "report/lit_sphere.hpp"
 #include "study/environments_report.hpp"
+#include "report/lit_sphere.hpp"
+#include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
 
@@ -27,7 +29,7 @@ Environment constant_environment(float radiance) {
   return {"constant", {8, 4, 3, std::vector<float>(8 * 4 * 3, radiance)}};
 }
 
-// Light from a cap of 10 degrees about a direction, and none from elsewhere.
+// Light from a cap of 10 degrees about a direction only.
 Environment cap_environment(const Direction& middle) {
   Environment environment{"cap", {128, 64, 3, {}}};
   for (int row = 0; row < 64; ++row)
@@ -48,8 +50,7 @@ SpherePictures render(const Environment& environment, const SphereMaterial& mate
   return render_spheres(pyramid, {&material, 1}, sampling);
 }
 
-// The place in the picture, in pixels from its middle to the right and up, of the light that the sphere
-// sends.
+// The centroid of the light in the picture, in pixels right and up from its middle.
 struct Centroid {
   double right, up;
 };
@@ -67,8 +68,8 @@ Centroid centroid(const SpherePictures& pictures) {
   return {right / sum, up / sum};
 }
 
-// Reflected share of even light, seen from `cos_view`: the midpoint rule over half vectors, which resolves
-// narrow lobes, with tan(theta_half) = alpha * t / (1 - t).
+// Returns the reflected share of uniform light, seen from `cos_view`. The midpoint rule over half vectors,
+// with tan(theta_half) = alpha * t / (1 - t), resolves narrow lobes.
 double directional_albedo(const SphereMaterial& material, double cos_view) {
   const double sin_view = std::sqrt(1.0 - cos_view * cos_view);
   constexpr int kSteps = 1500, kTurns = 400;
@@ -127,7 +128,7 @@ TEST_CASE("environment: the middle of a map lies behind the sphere, its right ha
   }
 }
 
-TEST_CASE("lit sphere: light is reflected where a mirror ball shows it") {
+TEST_CASE("lit sphere: light is reflected where a mirror ball reflects it") {
   const SphereMaterial shiny{builtin_brdf("mitsuba/beckmann-plain"), 0.05, 1.0};
   const auto shown = [&](const Direction& light) {
     return centroid(render(cap_environment(light), shiny, 33, 256));
@@ -144,7 +145,7 @@ TEST_CASE("lit sphere: light is reflected where a mirror ball shows it") {
   CHECK(std::fabs(above.right) < 0.1);
 }
 
-TEST_CASE("lit sphere: under even light it shows the directional albedo") {
+TEST_CASE("lit sphere: under uniform light it shows the directional albedo") {
   const Environment even = constant_environment(2.0f);
   for (const std::string name : {"mitsuba/ward", "mitsuba/ward-balanced", "mitsuba/beckmann", "mitsuba/ggx",
                                  "mitsuba/as", "mitsuba/phong"})
@@ -162,10 +163,10 @@ TEST_CASE("lit sphere: under even light it shows the directional albedo") {
     }
 }
 
-TEST_CASE("lit sphere: microfacets that reflect all send back at most what they receive") {
+TEST_CASE("lit sphere: microfacets without absorption reflect at most the light that they receive") {
   const Environment even = constant_environment(1.0f);
-  // Not so Ashikhmin-Shirley's distribution behind the shadowing of Beckmann's (Mitsuba): 6 % more at the
-  // rim.
+  // Mitsuba combines Ashikhmin-Shirley's distribution with Beckmann's shadowing, which reflects 6 % too much
+  // at the rim.
   for (const std::string name : {"mitsuba/beckmann", "mitsuba/ggx"})
     for (const double alpha : {0.1, 0.4, 1.0}) {
       const SpherePictures pictures = render(even, {builtin_brdf(name), alpha, 1.0}, 24, 1024);
@@ -193,7 +194,8 @@ TEST_CASE("radiance pyramid: a map of any size keeps its light at every level") 
   const RadiancePyramid pyramid({&odd, 1}, 32);
   CHECK_FALSE(pyramid.lamps(0).empty());
   float radiance[3];
-  // The mean over all directions by the midpoint rule; bilinear reading moves a little light at the poles.
+  // Compares the mean over all directions, by the midpoint rule; bilinear lookup moves a little light at the
+  // poles.
   for (const double solid_angle : {1e-6, 0.05, 0.3}) {
     double sum = 0.0, weights = 0.0;
     for (int row = 0; row < 128; ++row)
@@ -232,7 +234,7 @@ TEST_CASE("environment: an EXR file is read as it was written, grey as three cha
   CHECK(from_grey.map.values[10] == 0.0f);  // held at 0
 }
 
-TEST_CASE("environment: files that are no map are refused with what was expected") {
+TEST_CASE("environment: files that do not hold a map are refused") {
   const remap::TemporaryFolder folder;
   const auto written = [&](const Image& image) {
     write_exr(folder.path() / "bad.exr", image, {});
@@ -240,11 +242,11 @@ TEST_CASE("environment: files that are no map are refused with what was expected
   };
   CHECK_THROWS_WITH(load_environment(folder.path() / "none.exr"),
                     Catch::Contains("none.exr: cannot be read"));
-  CHECK_THROWS_WITH(load_environment(folder.path()), Catch::Contains("is no file"));
+  CHECK_THROWS_WITH(load_environment(folder.path()), Catch::Contains("not a file"));
   CHECK_THROWS_WITH(load_environment(written({4, 4, 1, std::vector<float>(16, 1.0f)})),
-                    Catch::Contains("is 4 x 4; expected a map in latitude and longitude"));
+                    Catch::Contains("size 4x4 is not that of a map in latitude and longitude"));
   CHECK_THROWS_WITH(load_environment(written({4, 2, 1, std::vector<float>(8, 0.0f)})),
-                    Catch::Contains("is black"));
+                    Catch::Contains("the map is black"));
   CHECK_THROWS_WITH(
       load_environment(written({4, 2, 1, std::vector<float>(8, std::numeric_limits<float>::infinity())})),
       Catch::Contains("not finite"));
@@ -257,10 +259,8 @@ TEST_CASE("environment: files that are no map are refused with what was expected
 
 TEST_CASE("environment: maps of Blender are read") {
   const std::filesystem::path folder = "/usr/share/blender/datafiles/studiolights/world";
-  if (!std::filesystem::is_directory(folder)) {
-    std::cout << "skipped: Debian's blender-data is not installed\n";
-    return;
-  }
+  if (!std::filesystem::is_directory(folder))
+    return remap::skip("blender-data", "Debian's blender-data is not installed");
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".exr") CHECK(mean_luminance(load_environment(entry.path())) > 0.0);
 }
@@ -313,7 +313,7 @@ TEST_CASE(
   CHECK(comparisons_csv(options, study_environments(options)) == comparisons_csv(options, result));
 }
 
-TEST_CASE("study environments: nothing beats the floor, and copies of a model reach it") {
+TEST_CASE("study environments: no method has less than the least error, and copies of a model reach it") {
   EnvironmentsOptions options = small_study();
   options.alphas = {0.3};
   options.resolution = 48;  // that of the search
@@ -331,7 +331,7 @@ TEST_CASE("study environments: nothing beats the floor, and copies of a model re
   CHECK(found.target_specular == Approx(0.5).epsilon(0.01));
 }
 
-TEST_CASE("study environments: a fit converts as it is shipped") {
+TEST_CASE("study environments: a fit is used as shipped") {
   EnvironmentsOptions options = small_study();
   options.pairs = {{"mitsuba/ward", "mitsuba/as"}};
   options.fits = {remap::load_fit(REMAP_SOURCE_DIR "/fits/mitsuba_ward_to_mitsuba_as.json")};
@@ -347,26 +347,26 @@ TEST_CASE("study environments: a fit converts as it is shipped") {
   }
 }
 
-TEST_CASE("study environments: what makes no study is refused") {
+TEST_CASE("study environments: invalid options are refused") {
   EnvironmentsOptions options = small_study();
   options.pairs = {{"mitsuba/gxx", "mitsuba/as"}};
   CHECK_THROWS_WITH(study_environments(options), Catch::Contains("did you mean mitsuba/ggx?"));
   options = small_study();
   options.alphas = {2.0};
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("alpha: 2; expected 1e-04 to 1"));
+  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("alpha: 2 is out of range"));
   options = small_study();
   options.specular = 0.0;
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("specular: 0; expected more than 0"));
+  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("specular: 0 is out of range"));
   options = small_study();
   options.alphas.clear();
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("expected one at least"));
+  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("at least one pair"));
   options = small_study();
   options.environments.push_back(options.environments.front());
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("two are named sky"));
+  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("two have the name 'sky'"));
   options = small_study();
   options.samples = 1;
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("samples: 1; expected 16"));
+  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("samples: 1 is out of range (16"));
   options = small_study();
   options.resolution = 2;
-  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("resolution: 2; expected 4"));
+  CHECK_THROWS_WITH(study_environments(options), Catch::Contains("resolution: 2 is out of range (4"));
 }

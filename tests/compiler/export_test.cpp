@@ -1,4 +1,4 @@
-// Lookup tables: read back by a reader that knows nothing but the file, against the interpreter.
+// Lookup tables: an independent reader of the file against the interpreter.
 #include <cmath>
 #include <map>
 #include <random>
@@ -60,7 +60,7 @@ std::vector<double> numbers(const std::string& text) {
   return values;
 }
 
-// The reader that a tool would have: head, sizes, domain, linear lookup between even steps.
+// A reader as a tool would have it: head, sizes, domain, linear lookup between even steps.
 class Reader {
  public:
   explicit Reader(const std::string& text) {
@@ -133,7 +133,7 @@ LookupOptions small(LookupOutput output = LookupOutput::kBoth) {
 
 }  // namespace
 
-TEST_CASE("lookup: a fit of alpha alone and in proportion is one axis with the factor to specular") {
+TEST_CASE("lookup: a proportional fit that depends on alpha only has one axis and the factor to specular") {
   const Fit fit = fit_of(kPaper);
   const Reader table = exported(fit, small());
   CHECK(table.names() == std::vector<std::string>{"source_roughness", "target_alpha", "target_f0_factor"});
@@ -150,7 +150,7 @@ TEST_CASE("lookup: a fit of alpha alone and in proportion is one axis with the f
   }
 }
 
-TEST_CASE("lookup: outputs that depend on specular have two axes, and values are the interpreter's") {
+TEST_CASE("lookup: outputs that depend on specular have two axes, with the interpreter's values") {
   for (const remap::MappingKind& mapping :
        {remap::MappingKind(kAffine), remap::MappingKind(kLeaning), remap::MappingKind(some_svr())}) {
     CAPTURE(mapping.index());
@@ -170,7 +170,7 @@ TEST_CASE("lookup: outputs that depend on specular have two axes, and values are
   }
 }
 
-TEST_CASE("lookup: a reader gets the fit within the stated error, and the error is not far above") {
+TEST_CASE("lookup: a reader gets the fit within the stated error, which is tight") {
   std::mt19937_64 random(5);
   const auto uniform = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
@@ -207,7 +207,7 @@ TEST_CASE("lookup: the error falls with the square of the size") {
   CHECK(sample_fit(fit, options).columns[1].max_error < coarse / 8.0);  // 16 in the limit
 }
 
-TEST_CASE("lookup: one output alone has the axes that it needs") {
+TEST_CASE("lookup: a single output has only the axes that it needs") {
   const Fit affine = fit_of(kAffine), leaning = fit_of(kLeaning);
   CHECK(exported(affine, small(LookupOutput::kRoughness)).names() ==
         std::vector<std::string>{"source_roughness", "target_alpha"});
@@ -217,7 +217,7 @@ TEST_CASE("lookup: one output alone has the axes that it needs") {
         std::vector<std::string>{"source_roughness", "source_specular", "target_alpha"});
 }
 
-TEST_CASE("lookup: canonical tables hold alpha, and say how the models' own parameters become it") {
+TEST_CASE("lookup: canonical tables hold alpha, and state how the models' parameters convert to it") {
   Fit fit = fit_of(kPaper);
   fit.source.roughness = RoughnessConvention::kExponent;
   LookupOptions options = small();
@@ -230,7 +230,7 @@ TEST_CASE("lookup: canonical tables hold alpha, and say how the models' own para
   CHECK_FALSE(table.has("target_alpha"));
   for (const auto& row : table.rows())
     CHECK(row[1] == Approx(interpreted(fit, from_alpha(RoughnessConvention::kExponent, row[0]), 0.3).width));
-  // Of an exponent even steps say nothing about rough materials.
+  // Even steps of an exponent hardly sample rough materials.
   CHECK(own_error > 20.0 * sample_fit(fit, options).columns[0].max_error);
 }
 
@@ -248,7 +248,7 @@ TEST_CASE("lookup: the table does not depend on the number of threads, and progr
   CHECK(lookup_text(fit, sample_fit(fit, options)) == one);
 }
 
-TEST_CASE("lookup: sizes and fits that give no table are refused") {
+TEST_CASE("lookup: invalid sizes and fits are refused") {
   LookupOptions options = small();
   options.size = 1;
   CHECK_THROWS_WITH(sample_fit(fit_of(kPaper), options), Catch::Contains("size: is 1; expected 2 to"));

@@ -1,5 +1,5 @@
-// Fits of tables: the parametric regression on tables whose answer is known, on the published table, and on
-// tables it must refuse.
+// Fits of tables: the parametric regression on tables with a known answer, on the published table, and on
+// invalid tables.
 #include <cmath>
 #include <iostream>
 
@@ -63,7 +63,7 @@ double paper_slope(const std::array<double, 5>& c, double a) {
 
 }  // namespace
 
-TEST_CASE("parametric: coefficients of a table made from them are found again") {
+TEST_CASE("parametric: recovers the coefficients that a table was made from") {
   const Parametric truth = paper_form({1.04, -0.388, -0.332, 0.25}, {1.02, -0.4, 1.7, -1.1, 3.3, 0.0});
   const remap::Fit fit = fit_of(table_of(truth));
   const auto& found = std::get<Parametric>(fit.mapping);
@@ -98,8 +98,8 @@ TEST_CASE("parametric: flat, straight and steep slopes converge") {
     CHECK(fit_of(table_of(paper_form(curve, truth))).specular_error.max < 2e-6);
 }
 
-TEST_CASE("parametric: every form finds the surface that a table was made from") {
-  // What each form has beyond the paper's; the errors show whether it was found.
+TEST_CASE("parametric: every form recovers the surface that a table was made from") {
+  // Terms that each form has beyond the paper's; the errors show whether they were recovered.
   const std::vector<double> quartic = {1.04, -0.388, -0.332, 0.25};
   const remap::AlphaCurve slope{1.02, -0.4, 1.7, -1.1, 3.3, 0.0};
   const remap::AlphaCurve polar{1.02, -0.4, 1.7, -1.1, 3.3, 0.002};
@@ -121,8 +121,8 @@ TEST_CASE("parametric: every form finds the surface that a table was made from")
     const remap::Fit fit = fit_of(table_of(truth), 1, form);
     CHECK(fit.method.at("form") == (form == "paper+pole" ? "quartic/slope+pole" : form));
     CHECK(fit.roughness_error.max < 1e-9);
-    // The penalty that keeps coefficients small is worth 1e-6 (specular_terms.cpp). Curves over the same
-    // alphas stand in for each other where there are many.
+    // The penalty that keeps coefficients small is worth 1e-6 (specular_terms.cpp). Where a form has many
+    // curves over the same alphas, they can replace each other.
     const bool many = truth.specular.size() > 2 || form == "quartic/double";
     CHECK(fit.specular_error.max < (many ? kNegligibleError : 5e-6));
   }
@@ -150,7 +150,7 @@ TEST_CASE("parametric: curves that could cancel each other keep coefficients of 
   }
 }
 
-TEST_CASE("parametric: the simplest form that is as good as the best is chosen, for each output by itself") {
+TEST_CASE("parametric: for each output, the simplest form as good as the best is chosen") {
   const std::vector<double> quartic = {1.04, -0.388, -0.332, 0.25};
   const remap::AlphaCurve slope{1.02, -0.4, 1.7, -1.1, 3.3, 0.0};
   CHECK(fit_of(table_of(paper_form(quartic, slope)), 1, "").method.at("form") == "paper");
@@ -212,13 +212,13 @@ TEST_CASE("parametric: the committed table of `natural` is followed to 5e-4") {
 }
 
 TEST_CASE("parametric: a curve that bends inside the domain is refused with the alpha at which it does") {
-  // Rises to alpha 0.5 and falls behind it; the table itself stays away from the bend.
+  // The curve rises to alpha 0.5 and falls beyond; the table has no rows near the bend.
   const Parametric bent = paper_form({1.0, -1.0, 0.0, 0.0}, {0.5, 0.0, 0.0, 0.0, 0.0, 0.0});
   const Table table = table_of(bent, 0.02, 0.45, 20);
   const ParametricForm paper = find_form("paper");
   const remap::Range specular{0.0, 0.9};
   CHECK_THROWS_WITH(fit_parametric(table.rows, {{0.02, 0.9}, specular}, paper),
-                    Catch::Contains("bends") && Catch::Contains("alpha1 0.9"));
+                    Catch::Contains("does not increase from") && Catch::Contains("alpha1 0.9"));
   CHECK_NOTHROW(fit_parametric(table.rows, {{0.02, 0.45}, specular}, paper));
 }
 
@@ -226,28 +226,29 @@ TEST_CASE(
     "parametric: a specular that falls, and a factor that is not positive, are refused with the place") {
   Table table = table_of(kStraight);
   const remap::Domain domain = covered_domain(table.rows);
-  // Rises to specular 0.6 and falls behind it.
+  // The curve rises to specular 0.6 and falls beyond.
   for (TableRow& row : table.rows) row.specular2 = row.specular1 * (1.2 - row.specular1);
   CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("quartic/quadratic")),
-                    Catch::Contains("specular2 falls") && Catch::Contains("specular1 0.8999"));
+                    Catch::Contains("specular2 does not increase") && Catch::Contains("specular1 0.8999"));
   for (TableRow& row : table.rows) row.specular2 = 0.0;
-  CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("paper")), Catch::Contains("k(alpha) is"));
+  CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("paper")),
+                    Catch::Contains("k(alpha) is not positive"));
 }
 
 TEST_CASE("parametric: too few different samples are refused with their number") {
   Table table = table_of(kStraight, 0.02, 1.0, 5);
   const remap::Domain domain = covered_domain(table.rows);
   CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("paper")),
-                    Catch::Contains("5 different alpha1"));
+                    Catch::Contains("too few distinct alpha1 (5,"));
   table = table_of(kStraight);
   for (TableRow& row : table.rows) row.specular1 = 0.5;
   CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("quartic/affine")),
-                    Catch::Contains("1 different specular1"));
+                    Catch::Contains("too few distinct specular1 (1,"));
   CHECK_THROWS_WITH(fit_parametric(table.rows, domain, find_form("quartic-s/slope")),
-                    Catch::Contains("too few different samples"));
+                    Catch::Contains("too few distinct samples"));
 }
 
-TEST_CASE("parametric: odd tables are fitted, or refused with the reason") {
+TEST_CASE("parametric: unusual tables are fitted, or refused with the reason") {
   const Parametric truth = paper_form({1.04, -0.388, -0.332, 0.25}, {1.02, -0.4, 1.7, -1.1, 3.3, 0.0});
   Table table = table_of(truth);
   SECTION("duplicated rows") {
@@ -266,7 +267,7 @@ TEST_CASE("parametric: odd tables are fitted, or refused with the reason") {
   }
   SECTION("an outlier of 1e6 makes k negative somewhere") {
     table.rows[70].specular2 = 1e6;
-    CHECK_THROWS_WITH(fit_of(table), Catch::Contains("expected a positive factor"));
+    CHECK_THROWS_WITH(fit_of(table), Catch::Contains("k(alpha) is not positive"));
   }
   SECTION("a constant target alpha does not rise") {
     for (TableRow& row : table.rows) row.alpha2 = 0.3;
@@ -279,7 +280,7 @@ TEST_CASE("parametric: odd tables are fitted, or refused with the reason") {
   }
 }
 
-TEST_CASE("parametric: an unknown form is answered with the nearest") {
+TEST_CASE("parametric: the error for an unknown form names the nearest") {
   CHECK_THROWS_WITH(find_form("quartic/afine"), Catch::Contains("did you mean quartic/affine?"));
   CHECK_THROWS_WITH(find_form("papr"), Catch::Contains("did you mean paper?"));
 }
@@ -289,8 +290,7 @@ TEST_CASE("fit: the held-out rows judge and do not train") {
   const RowSplit split = split_rows(table, table_domain(table), 3, 0.2);
   CHECK(split.training.size() == 120);
   CHECK(split.held_out.size() == 30);
-  // Spoil the rows that seed 3 holds out, in their order in the table: the fit must not notice, the errors
-  // must.
+  // Changes the rows that seed 3 holds out: the fit must stay the same, the errors must not.
   for (TableRow& row : table.rows)
     for (const TableRow& held : split.held_out)
       if (row.line == held.line) row.specular2 += 0.01;
@@ -325,16 +325,16 @@ TEST_CASE("fit: a table that does not name its models is refused") {
   CHECK_THROWS_WITH(fit_of(table), Catch::Contains("--source and --target"));
 }
 
-TEST_CASE("fit: names that cannot stand in generated code are refused") {
+TEST_CASE("fit: names that are invalid in generated code are refused") {
   Table table = table_of(kStraight);
   table.source.model = "a\"b";
   CHECK_THROWS_WITH(fit_of(table), Catch::Contains("letters, digits"));
   table.source.model = "a/b";
   table.target.specular = "two words";
-  CHECK_THROWS_WITH(fit_of(table), Catch::Contains("\"two words\" of mitsuba/as"));
+  CHECK_THROWS_WITH(fit_of(table), Catch::Contains("'two words' of mitsuba/as"));
 }
 
-TEST_CASE("fit: an id that is no identifier is refused") {
+TEST_CASE("fit: an id that is not an identifier is refused") {
   const Table table = table_of(kStraight);
   for (const std::string id : {"2fast", "a-b", "class", "a__b", "_a"}) {
     FitOptions options;

@@ -10,7 +10,7 @@ using namespace remapc;
 
 namespace {
 
-// The conductor by complex arithmetic, as textbooks have it: Snell's law with a complex index.
+// The conductor by complex arithmetic, as in textbooks: Snell's law with a complex index.
 PolarisedReflectance complex_reflectance(double cosine, std::complex<double> ior) {
   const double sine_2 = 1.0 - cosine * cosine;
   const std::complex<double> root = std::sqrt(ior * ior - sine_2);
@@ -51,7 +51,7 @@ TEST_CASE("fresnel: at Brewster's angle p vanishes and s is that of the closed f
   }
 }
 
-TEST_CASE("fresnel: grazing light is reflected whole") {
+TEST_CASE("fresnel: grazing light is reflected completely") {
   for (const double ior : {1.05, 1.5, 2.5}) CHECK(fresnel_dielectric(0.0, ior).mean() == Approx(1.0));
   for (const double k : {0.0, 1.0, 7.0}) {
     CHECK(fresnel_conductor(0.0, 0.3, k).mean() == Approx(1.0));
@@ -70,13 +70,13 @@ TEST_CASE("fresnel: a dielectric is a conductor that does not absorb") {
     }
 }
 
-TEST_CASE("fresnel: total reflection where the inside is rarer") {
+TEST_CASE("fresnel: total reflection for an index below 1") {
   const double critical = std::sqrt(1.0 - 0.7 * 0.7);  // sine of the critical angle is the index
   CHECK(fresnel_dielectric(critical * 0.99, 0.7).mean() == 1.0);
   CHECK(fresnel_dielectric(critical * 1.01, 0.7).mean() < 1.0);
 }
 
-TEST_CASE("fresnel: conductors are those of complex arithmetic, and stay in 0 to 1") {
+TEST_CASE("fresnel: conductors agree with complex arithmetic, and stay in 0 to 1") {
   for (const double eta : {1e-6, 0.13, 0.6, 1.0, 1.9, 4.2})
     for (const double k : {0.0, 0.01, 0.5, 3.1, 8.1})
       for (double cosine = 0.01; cosine <= 1.0; cosine += 0.03) {

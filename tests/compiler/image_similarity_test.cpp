@@ -1,4 +1,4 @@
-// ImageSimilarity of pictures against scikit-image and closed forms.
+// The similarity of pictures against scikit-image and closed forms.
 #include "renderer/image_similarity.hpp"
 
 #include <cmath>
@@ -33,7 +33,7 @@ std::vector<float> grain() {
   return picture([](int x, int y) { return (x * 7 + y * 13) % 11 / 10.0; });
 }
 
-// What scikit-image 0.26 gives for these pictures: structural_similarity(a, b, data_range=1, full=True,
+// The results of scikit-image 0.26 for these pictures: structural_similarity(a, b, data_range=1, full=True,
 // gaussian_weights=True, sigma=1.5, use_sample_covariance=False).
 struct Golden {
   double mean, top_left, middle, bottom_right, top_right;
@@ -57,25 +57,25 @@ void check_golden(const std::vector<float>& a, const std::vector<float>& b, cons
 
 }  // namespace
 
-TEST_CASE("likeness: structural similarity is that of scikit-image") {
+TEST_CASE("image similarity: structural similarity equals that of scikit-image") {
   check_golden(waves(), other_waves(), kWavesToWaves);
   check_golden(waves(), grain(), kWavesToGrain);
 }
 
-TEST_CASE("likeness: a picture is as similar to another as the other to it, and wholly to itself") {
+TEST_CASE("image similarity: it is symmetric, and 1 for equal pictures") {
   CHECK(structural_similarity(waves(), waves(), kWidth, kHeight) == Approx(1.0).epsilon(1e-12));
   CHECK(structural_similarity(waves(), grain(), kWidth, kHeight) ==
         structural_similarity(grain(), waves(), kWidth, kHeight));
 }
 
-TEST_CASE("likeness: constant pictures differ by their means alone") {
+TEST_CASE("image similarity: constant pictures differ by their means alone") {
   // (2 a b + C1) / (a^2 + b^2 + C1), Wang et al. 2004, equation (13) without variance.
   const std::vector<float> a(16, 0.25f), b(16, 0.75f);
   CHECK(structural_similarity(a, b, 4, 4) == Approx((0.375 + 1e-4) / (0.625 + 1e-4)).epsilon(1e-6));
   CHECK(rms_difference(a, b) == Approx(0.5).epsilon(1e-12));
 }
 
-TEST_CASE("likeness: display values are sRGB, held in its range") {
+TEST_CASE("image similarity: display values are sRGB, held in its range") {
   CHECK(display_value(0.5) == Approx(0.7353569830524495).epsilon(1e-6));
   CHECK(display_value(0.002) == Approx(0.02584).epsilon(1e-6));
   CHECK(display_value(1.0) == 1.0f);
@@ -85,7 +85,7 @@ TEST_CASE("likeness: display values are sRGB, held in its range") {
   CHECK(display_value(std::nan("")) == 0.0f);
 }
 
-TEST_CASE("likeness: pictures of different sizes are refused") {
+TEST_CASE("image similarity: pictures of different sizes are refused") {
   const std::vector<float> a(16), b(12);
   CHECK_THROWS_WITH(structural_similarity(a, b, 4, 4), Catch::Contains("expected 16 each"));
   CHECK_THROWS_AS(rms_difference(a, b), remap::Error);

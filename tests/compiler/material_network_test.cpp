@@ -1,5 +1,4 @@
-// Networks from the specular to the metallic workflow: rows that prove themselves, the fit, and what is
-// refused.
+// Networks from the specular to the metallic workflow: the check of the rows, the fit, and invalid tables.
 #include "fit/network/material_network.hpp"
 
 #include <cmath>
@@ -15,7 +14,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// Rows of equation (2), as remapc sample finds them.
+// Rows of equation (2), as remapc sample writes them.
 MaterialTable family_table(std::size_t count, double f0) {
   MaterialTable table;
   table.name = "family.csv";
@@ -86,16 +85,16 @@ TEST_CASE("material network: learns the way back, says how well, and returns fro
   CHECK(fit_material_network(family_table(1000, 0.03), "bytes", quick_options()) == fit);
 }
 
-TEST_CASE("material network: tables that are none of materials, or none of equation (2), are refused") {
+TEST_CASE("material network: tables of other columns, or not of equation (2), are refused") {
   MaterialTable table = family_table(200, 0.04);
   table.target_columns[1] = "specular_r2";
-  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("has no column f0_r2"));
+  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("missing column f0_r2"));
   table = family_table(200, 0.04);
   for (NamedRow& row : table.rows) row.target[4] *= 0.9;
   CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("differ from equation (2)"));
   table = family_table(200, 0.04);
   for (NamedRow& row : table.rows) row.status = RowStatus::kFlat;
-  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("no row of status ok"));
+  CHECK_THROWS_WITH(fit_material_network(table, "", quick_options()), Contains("no row has status ok"));
   MaterialNetworkOptions options = quick_options();
   options.id = "a b";
   CHECK_THROWS_WITH(fit_material_network(family_table(200, 0.04), "", options), Contains("identifier"));

@@ -44,7 +44,7 @@ double at(const MaterialTable& table, const NamedRow& row, const std::string& co
 
 }  // namespace
 
-TEST_CASE("random sweep: six parameters of a metallic material give the F0 and diffuse of equation (2)") {
+TEST_CASE("material sample: six parameters of a metallic material give the F0 and diffuse of equation (2)") {
   MaterialSampleOptions options = random_options("mitsuba/ggx-metallic", "mitsuba/ggx", 12);
   options.varied = {"metallic", "specular"};
   const MaterialTable table = sampled(options);
@@ -66,12 +66,12 @@ TEST_CASE("random sweep: six parameters of a metallic material give the F0 and d
   }
 }
 
-TEST_CASE("random sweep: the way back finds base color and metallic, by renders") {
+TEST_CASE("material sample: the way back finds base color and metallic, by renders") {
   MaterialSampleOptions options = random_options("mitsuba/ggx", "mitsuba/ggx-metallic", 4);
   options.resolution = 32;
   options.searched = {"metallic"};
   options.grey = true;
-  // Of a light dielectric on, so that equation (3) has a root between 0 and 1.
+  // F0 of light dielectrics and above, so that equation (3) has a root between 0 and 1.
   options.ranges["f0"] = {0.05, 0.3};
   options.ranges["diffuse"] = {0.4, 0.8};
   const MaterialTable table = sampled(options);
@@ -87,7 +87,7 @@ TEST_CASE("random sweep: the way back finds base color and metallic, by renders"
   }
 }
 
-TEST_CASE("random sweep: the same seed gives the same table for any number of jobs, and more rows go on") {
+TEST_CASE("material sample: the same seed gives the same table for any number of jobs, and more rows go on") {
   const MaterialSampleOptions options = random_options("mitsuba/ggx-metallic", "mitsuba/ggx", 5);
   const std::string table = material_table_text(sampled(options, 1));
   CHECK(material_table_text(sampled(options, 2)) == table);
@@ -106,20 +106,20 @@ TEST_CASE("random sweep: the same seed gives the same table for any number of jo
   CHECK(seed != back.comments.end());
 }
 
-TEST_CASE("random sweep: what cannot vary is refused by its parameter") {
+TEST_CASE("material sample: a parameter that cannot vary is refused") {
   const auto refused = [](const MaterialSampleOptions& options, const std::string& message) {
     CHECK_THROWS_WITH(sampled(options), Contains(message));
   };
   MaterialSampleOptions options = random_options("mitsuba/ggx-metallic", "mitsuba/ggx", 1);
   options.varied = {"metalic"};
-  refused(options, "has no parameter metalic; did you mean metallic?");
+  refused(options, "has no parameter metalic (did you mean metallic?)");
   options.varied = {"base_color"};
-  refused(options, "base_color is the specular, which varies anyway");
+  refused(options, "base_color is the specular and varies anyway");
   options.varied = {};
   options.ranges["metallic"] = {0.0, 0.5};
   refused(options, "metallic has a range but does not vary");
   options.ranges = {{"base_color", {0.5, 1.5}}};
-  refused(options, "base_color 0.5 to 1.5; expected a range within 0 to 1");
+  refused(options, "base_color: the range 0.5 to 1.5 is not within 0 to 1");
   options.ranges = {};
   options.searched = {"f0"};
   refused(options, "f0 is the specular");

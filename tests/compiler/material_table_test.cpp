@@ -1,10 +1,11 @@
-// Tables of named parameters: in and out, what is wrong with them, and who refuses them.
+// Tables of named parameters: reading and writing, their checks, and commands that refuse them.
 #include "table/material_table.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
-#include "table/table.hpp"
+#include "table/any_table.hpp"
+#include "table/material_check.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;
@@ -33,13 +34,13 @@ std::vector<std::string> kinds(const std::vector<Finding>& findings) {
 
 }  // namespace
 
-TEST_CASE("named table: what is written is read back number for number") {
+TEST_CASE("material table: what is written is read back number for number") {
   MaterialTable table = material_table(3);
   table.rows[1].status = RowStatus::kClamped;
   const std::string text = material_table_text(table);
   CHECK_THAT(text, Contains("# source_columns: metallic1,roughness1\n# target_columns: f0_r2,roughness2\n"
                             "metallic1,roughness1,f0_r2,roughness2,error,status\n"));
-  CHECK(is_material_table(text, "n.csv"));
+  CHECK(std::holds_alternative<MaterialTable>(parse_any_table(text, "n.csv")));
   const MaterialTable back = parse_material_table(text, "n.csv");
   CHECK(back.comments == table.comments);
   CHECK(back.source_columns == table.source_columns);
@@ -49,7 +50,7 @@ TEST_CASE("named table: what is written is read back number for number") {
   CHECK(material_table_text(back) == text);
 }
 
-TEST_CASE("named table: complaints name the place") {
+TEST_CASE("material table: errors name the place") {
   CHECK_THROWS_WITH(parse_material_table("# source_columns: a1\n# target_columns: b2\na1,b2,error,status\n"
                                          "0.5,x,0,ok\n",
                                          "n.csv"),
@@ -61,15 +62,17 @@ TEST_CASE("named table: complaints name the place") {
                     Contains("has no comment source_columns"));
 }
 
-TEST_CASE("named table: who needs width and specular refuses it in words") {
+TEST_CASE("material table: commands that need width and specular refuse it") {
   CHECK_THROWS_WITH(
       parse_table(material_table_text(material_table(2)), "n.csv"),
-      Contains("n.csv:5:1: is a table of named parameters (metallic1,roughness1), which this "
-               "command cannot use; expected the columns alpha1, specular1, alpha2, specular2"));
-  CHECK_FALSE(is_material_table("alpha1,specular1,alpha2,specular2\n1,2,3,4\n", "t.csv"));
+      Contains(
+          "n.csv:5:1: this command needs the columns alpha1, specular1, alpha2, specular2 of remapc sweep; "
+          "the table has named parameters (metallic1,roughness1)"));
+  CHECK(std::holds_alternative<Table>(
+      parse_any_table("alpha1,specular1,alpha2,specular2\n1,2,3,4\n", "t.csv")));
 }
 
-TEST_CASE("named table: the check finds each fault") {
+TEST_CASE("material table: the check finds each fault") {
   CHECK(check_material_table(material_table(20)).empty());
   CHECK(kinds(check_material_table(material_table(19))) == std::vector<std::string>{"rows"});
   MaterialTable table = material_table(21);

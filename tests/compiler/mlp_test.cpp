@@ -85,7 +85,7 @@ TEST_CASE("mlp: errors on unseen rows of the published table") {
   CHECK(specular_mean <= 1e-4);
 }
 
-TEST_CASE("mlp: method records how the networks were found") {
+TEST_CASE("mlp: method records how the networks were trained") {
   const Regression regression = fit_mlp(smooth_rows(), quick_options());
   const auto& method = regression.method;
   CHECK(method.at("hidden") == "5");
@@ -109,7 +109,7 @@ TEST_CASE("mlp: target alpha that depends on specular is fitted from both") {
     CHECK(remap::target_alpha(mlp, row.alpha1, row.specular1) == Approx(row.alpha2).margin(4e-3));
 }
 
-TEST_CASE("mlp: the same seed gives the same numbers for any number of threads, another seed others") {
+TEST_CASE("mlp: numbers depend on the seed and not on the number of threads") {
   MlpOptions options = quick_options();
   options.jobs = 1;
   const Regression one = fit_mlp(smooth_rows(), options);
@@ -162,7 +162,7 @@ TEST_CASE("mlp: rows that cannot be fitted are refused") {
   };
   std::vector<TableRow> rows = smooth_rows();
   rows.resize(9);
-  CHECK_THROWS_WITH(fit_mlp(rows, {}), "mlp: 9 rows; expected at least 10");
+  CHECK_THROWS_WITH(fit_mlp(rows, {}), "mlp: too few rows (9, at least 10 are required)");
   CHECK(kind_of(rows, {}) == remap::ErrorKind::kInput);
 
   rows = smooth_rows();
@@ -185,7 +185,7 @@ TEST_CASE("mlp: rows that cannot be fitted are refused") {
   CHECK(kind_of(smooth_rows(), options) == remap::ErrorKind::kUsage);
 }
 
-TEST_CASE("mlp: an outlier, a constant target and two widths are fitted without harm") {
+TEST_CASE("mlp: an outlier, a constant target and two widths are fitted") {
   std::vector<TableRow> rows = smooth_rows();
   rows[40].specular2 += 50.0;
   Regression regression = fit_mlp(rows, quick_options());

@@ -13,6 +13,7 @@
 #include "fit/network/network_training.hpp"
 #include "model/evaluate.hpp"
 #include "support/build_speed.hpp"
+#include "support/skip.hpp"
 
 using namespace remapc;
 using Eigen::Index;
@@ -123,7 +124,7 @@ TEST_CASE("network batch: outputs are those of the interpreter's formula") {
       const VectorXd column = inputs.col(n);
       const auto expected =
           remap::network_outputs(network, std::vector<double>(column.begin(), column.end()));
-      // Sums of at most 9 products, in another order.
+      // The margin covers sums of at most 9 products in another order.
       for (Index k = 0; k < 4; ++k)
         CHECK(outputs(k, n) == Approx(expected[static_cast<std::size_t>(k)]).margin(1e-12));
     }
@@ -153,11 +154,11 @@ TEST_CASE("network training: reported errors are those of the stored network") {
   }
 }
 
-TEST_CASE("network training: six inputs and four outputs are learned, by either way of training") {
+TEST_CASE("network training: six inputs and four outputs are learned by both optimisers") {
   const Samples seen = metallic_samples(kSlowBuild ? 400 : 1500, 1), unseen = metallic_samples(500, 2);
   for (const std::size_t units : {std::size_t{12}, std::size_t{60}}) {
     if (kSlowBuild && units > 12) {
-      std::cout << "skipped under a sanitizer: network of " << units << " units\n";
+      remap::skip("speed", "the large network trains too slowly under a sanitizer");
       continue;
     }
     TrainingOptions options;
@@ -172,7 +173,7 @@ TEST_CASE("network training: six inputs and four outputs are learned, by either 
   }
 }
 
-TEST_CASE("network training: large networks do not depend on the number of threads either") {
+TEST_CASE("network training: large networks do not depend on the number of threads") {
   const Samples samples = metallic_samples(40, 1);
   TrainingOptions options;
   options.hidden = {60};
@@ -190,6 +191,6 @@ TEST_CASE("network training: samples and options that do not fit together are re
   options.validation_fraction = 0.6;
   CHECK_THROWS_WITH(train_network(samples, options), Catch::Contains("validation share 0.6"));
   samples.outputs.pop_back();
-  CHECK_THROWS_WITH(train_network(samples, {}), Catch::Contains("whole rows"));
-  CHECK_THROWS_WITH(train_network({}, {}), Catch::Contains("whole rows"));
+  CHECK_THROWS_WITH(train_network(samples, {}), Catch::Contains("do not form equally many whole rows"));
+  CHECK_THROWS_WITH(train_network({}, {}), Catch::Contains("do not form equally many whole rows"));
 }

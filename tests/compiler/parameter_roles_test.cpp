@@ -96,7 +96,7 @@ TEST_CASE("roles: the specular level of a black dielectric is a share of 8 %") {
   }
 }
 
-TEST_CASE("roles: a target is cast as a source is") {
+TEST_CASE("roles: a target takes roles as a source does") {
   SweepOptions options =
       sweep_options("mitsuba/ggx", "mitsuba/ggx-metallic", "natural", {{0.2, 0.3}, {0.4, 0.6}}, 96);
   // F0 = 0.04 + metallic (0.9 - 0.04), and no diffuse to disturb it: that of the target is in its base.
@@ -106,7 +106,7 @@ TEST_CASE("roles: a target is cast as a source is") {
   for (const TableRow& row : table.rows) CHECK(row.specular2 == Approx(row.specular1).epsilon(1e-5));
 }
 
-TEST_CASE("roles: a roughness may be another parameter, of another convention") {
+TEST_CASE("roles: another parameter with another convention can be the roughness") {
   const ModelDescription metal = metallic();
   ParameterRoles roles;
   cast_roughness("metallic:glossiness", &roles);
@@ -120,23 +120,23 @@ TEST_CASE("roles: a roughness may be another parameter, of another convention") 
   CHECK(fixed_text(recast(metal, {})) == fixed_text(metal));
 }
 
-TEST_CASE("roles: what cannot be cast is refused by its parameter") {
+TEST_CASE("roles: invalid roles are refused with the parameter") {
   const ModelDescription metal = metallic();
   const auto refused = [&](const ParameterRoles& roles, const std::string& message) {
     CHECK_THROWS_WITH(recast(metal, roles), Contains(message));
   };
   ParameterRoles roles;
   roles.specular = "metalic";
-  refused(roles, "has no parameter metalic; did you mean metallic?");
+  refused(roles, "has no parameter metalic (did you mean metallic?)");
   roles.specular = "metallic";
-  refused(roles, "base_color has lost its role and has no value; expected it fixed, base_color=VALUE");
+  refused(roles, "base_color no longer has a role and needs a value (add base_color=VALUE");
   roles.fixed = {{"metallic", 0.5}, {"base_color", 0.5}};
-  refused(roles, "metallic is fixed, but is the specular of this remap");
+  refused(roles, "metallic is the specular of this sweep and cannot be fixed");
   roles.fixed = {{"base_color", 1.5}};
-  refused(roles, "base_color = 1.5; expected 0 to 1");
+  refused(roles, "base_color = 1.5 is out of range (0 to 1)");
   roles = {};
   roles.roughness = "base_color";
   roles.fixed = {{"roughness", 0.5}};
   refused(roles, "has no parameter for specular");
-  CHECK_THROWS_WITH(cast_roughness("roughness:rough", &roles), Contains("rough is no convention"));
+  CHECK_THROWS_WITH(cast_roughness("roughness:rough", &roles), Contains("unknown convention rough"));
 }

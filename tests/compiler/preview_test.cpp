@@ -1,4 +1,4 @@
-// Previews: an identity looks the same, another conversion does not, and figures are those of the pictures.
+// Previews: an identity looks the same, other conversions do not, and figures match the pictures.
 #include "report/preview.hpp"
 
 #include <cmath>
@@ -50,7 +50,7 @@ TEST_CASE("preview: the identity looks the same on every shape") {
   CHECK(preview.sheet.height == 6 * 48);
 }
 
-TEST_CASE("preview: shows the domain where nothing else is asked for") {
+TEST_CASE("preview: shows the domain by default") {
   remap::Fit fit = scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.0);
   fit.domain = {{0.01, 1.0}, {0.0, 0.08}};
   PreviewOptions options = small_preview();
@@ -67,7 +67,7 @@ TEST_CASE("preview: shows the domain where nothing else is asked for") {
   CHECK(preview_alphas({{0.8, 0.9}, {0.0, 1.0}}).back() == Approx(0.9));
 }
 
-TEST_CASE("preview: the further a conversion is off, the less alike it looks") {
+TEST_CASE("preview: a larger error of the conversion gives less similar pictures") {
   const auto renderer = make_builtin_renderer();
   double ssim = 1.0, rms = 0.0;
   for (const double scale : {1.1, 1.4, 2.0}) {
@@ -82,8 +82,7 @@ TEST_CASE("preview: the further a conversion is off, the less alike it looks") {
   CHECK(ssim < 0.95);
 }
 
-TEST_CASE(
-    "preview: an index is shown as the F0 that the fit speaks of, and light of another strength is scaled") {
+TEST_CASE("preview: an index is shown as the F0 of the fit, and light of another strength is scaled") {
   const auto renderer = make_builtin_renderer();
   PreviewOptions options = small_preview();
   options.specular = {0.04};
@@ -108,7 +107,7 @@ TEST_CASE("preview: a fit of a model with fixed parameters is shown with them") 
     CHECK(figure.ssim < 0.95);
 }
 
-TEST_CASE("preview: what cannot be shown is refused") {
+TEST_CASE("preview: invalid options are refused") {
   const auto refused = [](const std::string& source, const PreviewOptions& options,
                           const std::string& message) {
     CHECK_THROWS_WITH(make_preview(*make_builtin_renderer(), scaled_fit(source, "mitsuba/ggx", 1.0), options),
@@ -117,8 +116,8 @@ TEST_CASE("preview: what cannot be shown is refused") {
   refused("mitsuba/ggxx", small_preview(), "did you mean mitsuba/ggx?");
   PreviewOptions options = small_preview();
   options.specular = {0.1, 0.2};
-  refused("mitsuba/ggx", options, "specular has 2 values; expected 1 or 3");
+  refused("mitsuba/ggx", options, "specular must have 1 or 3 values, not 2");
   options = small_preview();
   options.shapes.clear();
-  refused("mitsuba/ggx", options, "nothing to show");
+  refused("mitsuba/ggx", options, "at least one shape is required");
 }

@@ -1,4 +1,4 @@
-// The built-in renderer against closed forms at single pixels, and the properties that its models promise.
+// Compares the built-in renderer with closed forms at single pixels, and checks the properties of its models.
 #include "renderer/renderer.hpp"
 
 #include <cmath>
@@ -15,7 +15,8 @@ using std::numbers::pi;
 
 namespace {
 
-// Radiance of the pixel that looks along the normal under a headlight: light 2 away, all cosines 1.
+// Returns the radiance of the pixel that looks along the normal under a headlight at distance 2, where all
+// cosines are 1.
 double central_radiance(const std::string& model, const std::string& width, double value,
                         const std::string& specular) {
   const auto renderer = make_builtin_renderer();
@@ -40,7 +41,8 @@ LocalGeometry geometry(double cos_light, double cos_view, double azimuth) {
 constexpr Brdf kAllBrdfs[] = {
     Brdf::kWard, Brdf::kWardDuer, Brdf::kWardBalanced, Brdf::kPhong, Brdf::kBeckmann, Brdf::kGgx, Brdf::kAs};
 
-// Reflected share of light that comes from `cos_light`, specular 1: midpoint rule over the hemisphere.
+// Returns the reflected share of light from `cos_light` at specular 1, by the midpoint rule over the
+// hemisphere.
 double directional_albedo(Brdf brdf, Fresnel fresnel, double alpha, double cos_light, double f0) {
   constexpr int kPolar = 400, kAzimuth = 400;
   double sum = 0.0;
@@ -55,7 +57,7 @@ double directional_albedo(Brdf brdf, Fresnel fresnel, double alpha, double cos_l
   return sum * (0.5 * pi / kPolar) * (2.0 * pi / kAzimuth);
 }
 
-// The directions at one pixel that looks at the sphere off its middle, from vectors.
+// The directions at one pixel off the middle of the sphere, computed from vectors.
 struct PixelGeometry {
   double cos_light, cos_view, cos_half, cos_light_half, distance_2;
 };
@@ -84,7 +86,7 @@ PixelGeometry pixel_geometry() {
           dot(h, l[0], l[1], l[2]) / half_length, light_length * light_length};
 }
 
-// D G / (4 cos cos) as Walter et al. 2007 print them, in angles.
+// D G / (4 cos cos) as printed by Walter et al. 2007, in angles.
 double walter(const std::string& name, double alpha, const PixelGeometry& g) {
   const double theta_h = std::acos(g.cos_half), tan_h = std::tan(theta_h);
   const auto shadowing = [&](double cosine) {
@@ -149,7 +151,7 @@ TEST_CASE("renderer: off the middle, Ward and Phong have their closed forms") {
         Approx(scale * 4.0 * lobe / (half_2 * std::pow(g.cos_half, 4))).epsilon(1e-6));
 }
 
-TEST_CASE("renderer: the conserving Ward is Ward up to specular 1 and stays there") {
+TEST_CASE("renderer: the conserving Ward equals Ward up to specular 1 and is constant beyond") {
   const auto pixel = [&](const std::string& model, double specular) {
     return pixel_of({model, {{"alpha", {0.4}}, {"specular", {specular}}, {"diffuse", {0.2}}}});
   };
@@ -159,7 +161,7 @@ TEST_CASE("renderer: the conserving Ward is Ward up to specular 1 and stays ther
     CHECK(pixel("mitsuba/ward-conserving", specular) == pixel("mitsuba/ward", 1.0));
 }
 
-TEST_CASE("renderer: conductors take an index and an extinction for each channel, and are no sweep's") {
+TEST_CASE("renderer: conductors take an index and an extinction for each channel, and cannot be swept") {
   const auto renderer = make_builtin_renderer();
   const Scene scene{24, 1, {30.0, 3.0}};
   const double eta[] = {0.2, 0.9, 1.4}, k[] = {3.9, 2.4, 1.6};
@@ -228,14 +230,15 @@ TEST_CASE("renderer: a diffuse sphere is Lambert's, scaled by the distance of th
   CHECK(near.values[16 * 33 + 16] == Approx(0.8 / pi / 4.0));
   const Image far = renderer->render(material, {33, 1, {0.0, 11.0}});
   CHECK(far.values[16 * 33 + 16] == Approx(0.8 / pi / 100.0));
-  // At 60 degrees the pole sees the light under the angle of the triangle pole - light.
+  // With the light at 60 degrees, its direction at the pole follows from the triangle of origin, pole and
+  // light.
   const Image side = renderer->render(material, {33, 1, {60.0, 3.0}});
   const double dx = 3.0 * std::sin(pi / 3), dz = 3.0 * std::cos(pi / 3) - 1.0;
   const double distance_2 = dx * dx + dz * dz;
   CHECK(side.values[16 * 33 + 16] == Approx(0.8 / pi * dz / std::sqrt(distance_2) / distance_2));
 }
 
-TEST_CASE("renderer: color makes three channels, each as the grey picture of its value") {
+TEST_CASE("renderer: color makes three channels, each equal to the grey picture of its value") {
   const auto renderer = make_builtin_renderer();
   const Scene scene{24, 1, {30.0, 3.0}};
   const Image rgb = renderer->render(
@@ -279,8 +282,8 @@ TEST_CASE("brdf: microfacet distributions have projected area 1") {
   }
 }
 
-// All of the hub's models, Phong as Mitsuba defines it included: cos^n of the mirrored angle without division
-// by the cosine of the light is symmetric.
+// This holds for all models of the hub, also for Mitsuba's Phong: without division by the cosine of the
+// light, cos^n of the mirrored angle is symmetric.
 TEST_CASE("brdf: light and view can change places") {
   for (const Brdf brdf : kAllBrdfs) {
     const Lobe there = evaluate_lobe(brdf, Fresnel::kSchlick, 0.4, geometry(0.9, 0.35, 1.1));
@@ -290,7 +293,7 @@ TEST_CASE("brdf: light and view can change places") {
   }
 }
 
-TEST_CASE("brdf: models that promise it never reflect more than they receive") {
+TEST_CASE("brdf: energy-conserving models never reflect more than they receive") {
   for (const Brdf brdf : {Brdf::kBeckmann, Brdf::kGgx, Brdf::kAs, Brdf::kWardBalanced})
     for (const double alpha : {0.2, 0.5, 1.0})
       for (const double cos_light : {0.99, 0.6, 0.2})
@@ -306,7 +309,7 @@ TEST_CASE("brdf: Schlick's Fresnel is F0 along the normal and 1 at grazing light
   CHECK(grazing.base + grazing.slope == Approx(plain.slope).epsilon(1e-12));
 }
 
-TEST_CASE("renderer: an unknown model is answered with the nearest name") {
+TEST_CASE("renderer: the error for an unknown model names the nearest") {
   const auto renderer = make_builtin_renderer();
   CHECK_THROWS_WITH(find_model(*renderer, "mitsuba/gxx"), Catch::Contains("did you mean mitsuba/ggx?"));
 }
@@ -316,11 +319,11 @@ TEST_CASE("renderer: parameters out of range, unknown or missing are refused by 
   const Scene scene{8, 1, {}};
   const auto render = [&](const Material& material) { return renderer->render(material, scene); };
   CHECK_THROWS_WITH(render({"mitsuba/ggx", {{"alpha", {2.0}}, {"f0", {0.5}}, {"diffuse", {0.0}}}}),
-                    Catch::Contains("alpha = 2; expected 1e-04 to 1"));
+                    Catch::Contains("alpha = 2 is out of range (1e-04 to 1)"));
   CHECK_THROWS_WITH(render({"mitsuba/ggx", {{"alpha", {0.2}}, {"fo", {0.5}}, {"diffuse", {0.0}}}}),
-                    Catch::Contains("has no parameter fo; did you mean f0?"));
+                    Catch::Contains("has no parameter fo (did you mean f0?)"));
   CHECK_THROWS_WITH(render({"mitsuba/ggx", {{"alpha", {0.2}}, {"diffuse", {0.0}}}}),
-                    Catch::Contains("f0 is missing"));
+                    Catch::Contains("f0 has no value"));
   const Material good{"mitsuba/ggx", {{"alpha", {0.2}}, {"f0", {0.5}}, {"diffuse", {0.0}}}};
   CHECK_THROWS_WITH(renderer->render(good, {0, 1, {}}), Catch::Contains("resolution"));
   CHECK_THROWS_WITH(renderer->render(good, {8, 1, {0.0, 0.5}}), Catch::Contains("light distance"));

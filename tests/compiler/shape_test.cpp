@@ -1,4 +1,4 @@
-// The torus of the preview, against what a torus is.
+// The torus of the preview, against the definition of a torus.
 #include "renderer/shape.hpp"
 
 #include <cmath>
@@ -38,7 +38,7 @@ TEST_CASE("shape: every point of the torus lies on it and on its ray, with the n
       CHECK(std::fabs(from_torus(hit.position)) < 1e-9);
       CHECK(hit.position.x == Approx(t * ray.x).margin(1e-9));
       CHECK(hit.position.y == Approx(t * ray.y).margin(1e-9));
-      // Out along the normal the distance grows by as much, inwards it falls.
+      // Along the normal, the distance to the torus grows by the step outwards and falls inwards.
       const auto moved = [&](double step) {
         return from_torus({hit.position.x + step * hit.normal.x, hit.position.y + step * hit.normal.y,
                            hit.position.z + step * hit.normal.z});
@@ -65,8 +65,7 @@ TEST_CASE(
     for (std::size_t column = 0; column < kSide / 2; ++column)
       REQUIRE(front[row * kSide + column] ==
               Approx(front[row * kSide + kSide - 1 - column]).epsilon(1e-5).margin(1e-9));
-  // Where the light would be above the horizon, yet the picture is black, the other side of the ring is
-  // between.
+  // Where the light is above the horizon but the picture is black, the ring casts its shadow.
   std::size_t shadowed = 0;
   const double x = 3.0 * std::sin(75.0 * pi / 180.0), z = 3.0 * std::cos(75.0 * pi / 180.0);
   for (const std::uint32_t pixel : shape_pixels(Shape::kTorus, kSide)) {
@@ -80,7 +79,7 @@ TEST_CASE(
   CHECK(shadowed > 20);
 }
 
-TEST_CASE("shape: names are answered with the nearest") {
+TEST_CASE("shape: the error for an unknown name names the nearest") {
   for (const Shape shape : kShapes) CHECK(shape_from_name(shape_name(shape)) == shape);
-  CHECK_THROWS_WITH(shape_from_name("tours"), "shape: tours is none; did you mean torus?");
+  CHECK_THROWS_WITH(shape_from_name("tours"), "shape: unknown shape tours (did you mean torus?)");
 }

@@ -1,4 +1,4 @@
-// The converters that ship: what their cards promise, held against their tables.
+// The converters that ship: the figures on their cards against their tables.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include "manifest/build.hpp"
 #include "manifest/fit_folder.hpp"
 #include "manifest/report.hpp"
+#include "manifest/trust.hpp"
 #include "model/chain.hpp"
 #include "model/interpreter.hpp"
 #include "system/files.hpp"
@@ -56,7 +57,7 @@ TEST_CASE("shipped: every ordered pair of the hub, and the models that are reach
   for (const std::string& source : hub)
     for (const std::string& target : hub)
       if (source != target) CHECK(measured.count({source, target}) == 1);
-  // Every other model leads into the hub and out of it.
+  // Every other model has converters to and from the hub.
   std::set<std::string> real;
   for (const auto& [source, target] : measured) {
     if (!is_in(hub, source)) real.insert(source);
@@ -80,7 +81,7 @@ TEST_CASE("shipped: every ordered pair of the hub, and the models that are reach
     CHECK(others.count(pair) == 1);
 }
 
-// Tables of real renderers bend more: held widths, tables that shaders look up, halves.
+// Tables of real renderers are less smooth: clamped widths, lookup tables in shaders, half floats.
 TEST_CASE(
     "shipped: fits follow their tables to 1e-3 in alpha, 2e-3 for real renderers, and 1 % in specular") {
   for (const remap::Fit& fit : shipped()) {
@@ -106,14 +107,14 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("shipped: inside its domain a converter gives parameters that the target takes, and rises") {
+TEST_CASE("shipped: inside its domain a converter gives valid parameters of the target, and rises") {
   for (const remap::Fit& fit : shipped()) {
     INFO(fit.id);
     const double specular_slack = fit.has_errors() ? 2.0 * fit.specular_error.max + 1e-3 : 1e-3;
     over_domain(fit, [&](double alpha, double specular) {
       const remap::MappedTexel texel = evaluate_mapping(fit.mapping, alpha, specular);
       CHECK(texel.alpha > 0.0);
-      // Past the last row, where a corner bends; and where the samples of dielectrics have not begun.
+      // Beyond the last row, and below the first samples of dielectrics.
       const bool faint = specular < 0.2 * fit.domain.specular.max;
       CHECK(texel.alpha <= 1.0 + (of_hub(fit) ? 5e-3 : faint ? 0.04 : 0.02));
       CHECK(texel.specular <= 1.0 + specular_slack);
@@ -125,7 +126,7 @@ TEST_CASE("shipped: inside its domain a converter gives parameters that the targ
   }
 }
 
-TEST_CASE("shipped: chains are what their steps are") {
+TEST_CASE("shipped: chains agree with their steps") {
   for (const remap::Fit& fit : shipped()) {
     if (!std::holds_alternative<remap::Chain>(fit.mapping)) continue;
     INFO(fit.id);
@@ -143,7 +144,7 @@ TEST_CASE("shipped: chains are what their steps are") {
 TEST_CASE("shipped: figure 18 there and back") {
   const remap::Fit there = find_fit("blender_internal_2_7_ward_to_cycles_2_7_ggx", kFits),
                    back = find_fit("cycles_2_7_ggx_to_blender_internal_2_7_ward", kFits);
-  // Ward and GGX differ in shape: each way finds its own match, so what comes back is near, not the same.
+  // Ward and GGX differ in shape, so each direction has its own match and the round trip is not exact.
   for (const double alpha : {0.1, 0.2, 0.3}) {
     const remap::MappedTexel far = evaluate_mapping(there.mapping, alpha, 0.1);
     const remap::MappedTexel home = evaluate_mapping(back.mapping, far.alpha, far.specular);
@@ -172,7 +173,7 @@ TEST_CASE("shipped: the published formulas, as corrected") {
   }
 }
 
-TEST_CASE("shipped: the manifest asks for what is there, and the report is of these fits") {
+TEST_CASE("shipped: the fits are those of the manifest, and the report is up to date") {
   const BuildFolders folders{kFits, std::filesystem::path(REMAP_SOURCE_DIR) / "generated"};
   CHECK(stale(load_manifest(kFits), folders).empty());
   const std::vector<ReportFile> files = report(load_fit_folder(kFits), load_lock(kFits));

@@ -1,5 +1,5 @@
-// Models whose pictures follow no known law of specular: the few pictures that all others are combinations
-// of, and matches by them, against direct renders.
+// Models without a known law of specular: the pictures whose combinations give all others, and matches by
+// them, against direct renders.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,8 +22,7 @@ namespace {
 
 constexpr remap::Range kAlphas{0.05, 0.8};
 
-// As three.js: a part in proportion to level and one that goes with its square and is wider, and light at
-// level 0.
+// Like three.js: a part proportional to level, a wider one proportional to its square, and light at level 0.
 BlendRenderer quadratic_blend() {
   return BlendRenderer({{"mitsuba/ggx-plain", 1.0, [](double level) { return 0.01 + 0.6 * level; }},
                         {"mitsuba/beckmann-plain", 1.2, [](double level) { return 0.8 * level * level; }}},
@@ -43,8 +42,8 @@ std::optional<SpecularFamily> family_of(const Renderer& renderer, const std::str
   return probe_family(picture_taker, find_model(renderer, model), kAlphas);
 }
 
-// Largest deviation of the family's pictures from rendered ones at speculars and widths that no probe has
-// seen, relative to the brightest pixel at full specular.
+// Returns the largest deviation of the family's pictures from rendered ones, at speculars and widths that
+// were not probed, relative to the brightest pixel at full specular.
 double family_deviation(const Renderer& renderer, const std::string& model, const SpecularFamily& family) {
   const PictureTaker picture_taker(renderer, objective_preset("natural"), 48, 1);
   const ProbedModel probed_model{find_model(renderer, model), {}, 1.0, family};
@@ -81,7 +80,7 @@ class RenderedLoss {
     return sum;
   }
 
-  // The best point of a grid over the whole of both ranges, then of ever smaller grids around the best.
+  // Returns the best point of a grid over both ranges, refined by ever smaller grids around it.
   RoleValues brute_force(const remap::Range& alphas, const remap::Range& speculars) const {
     RoleValues best{std::sqrt(alphas.min * alphas.max), 0.5 * (speculars.min + speculars.max), 0.0};
     double width = 0.5 * std::log(alphas.max / alphas.min), height = 0.5 * (speculars.max - speculars.min);
@@ -110,8 +109,8 @@ class RenderedLoss {
 
 }  // namespace
 
-TEST_CASE("polynomial: minima over a range are those that a dense grid shows") {
-  // Degree 6 with two wells inside, one of them the lower; ends, and a range that holds one well only.
+TEST_CASE("polynomial: minima over a range agree with a dense grid") {
+  // Degree 6 with two minima inside, one lower; the ends of the range; and a range with one minimum.
   const std::vector<double> wells = {0.2, -0.35, -2.1, 0.3, 2.4, 0.05, 0.1};
   for (const remap::Range range : {remap::Range{-1.0, 1.0}, {-0.2, 1.0}, {-1.0, -0.9}, {0.0, 0.3}}) {
     std::vector<double> grid;
@@ -132,7 +131,7 @@ TEST_CASE("polynomial: minima over a range are those that a dense grid shows") {
   }
 }
 
-TEST_CASE("polynomial: a parabola has its vertex or the end that is nearer, a line its lower end") {
+TEST_CASE("polynomial: a parabola has its minimum at the vertex or the nearer end, a line at its lower end") {
   const std::vector<double> parabola = {1.0, -2.0, 2.0};
   CHECK(polynomial_minima(parabola, {0.0, 1.0}).front().at == 0.5);
   CHECK(polynomial_minima(parabola, {0.0, 0.25}).front().at == 0.25);
@@ -141,7 +140,7 @@ TEST_CASE("polynomial: a parabola has its vertex or the end that is nearer, a li
   CHECK(polynomial_minima({0.0, 0.0, -1.0}, {-1.0, 2.0}).front().value == -4.0);
 }
 
-TEST_CASE("family: few pictures give all others of a model without a law") {
+TEST_CASE("family: a few pictures give all others of a model without a law") {
   // Two pictures whatever the law of their weights, one where only the strength changes.
   const BlendRenderer blend = quadratic_blend();
   const auto quadratic = family_of(blend, "disguised/blend");
@@ -165,7 +164,7 @@ TEST_CASE("family: few pictures give all others of a model without a law") {
         4e-6);  // twice what points of the probe are held to
 }
 
-TEST_CASE("family: a law that bends sharply has none") {
+TEST_CASE("family: a law that bends sharply has no family") {
   const LawRenderer stairs("mitsuba/ward", {0.0, 1.0},
                            [](double level) { return level < 0.4 ? level : std::max(0.4, level - 0.3); });
   CHECK_FALSE(family_of(stairs, "disguised/law"));
@@ -250,7 +249,7 @@ TEST_CASE("sweep: a source without a law is flat where it is black, whatever its
     CHECK(table.rows[i].specular2 == Approx(0.9 * std::pow(table.rows[i].specular1 - 1.0, 2)).epsilon(1e-5));
 }
 
-TEST_CASE("pictures: those of a family and their derivatives are those of renders") {
+TEST_CASE("pictures: those of a family and their derivatives agree with renders") {
   const LawRenderer renderer = fresnel_level();
   const PictureTaker picture_taker(renderer, objective_preset("natural"), 32, 1);
   const ModelDescription model = find_model(renderer, "disguised/law");
@@ -277,7 +276,7 @@ TEST_CASE("pictures: those of a family and their derivatives are those of render
   }
 }
 
-TEST_CASE("random sweep: a target without a law is matched by the bank's pictures") {
+TEST_CASE("material sample: a target without a law is matched by the bank's pictures") {
   const BlendRenderer renderer = quadratic_blend();
   MaterialSampleOptions options;
   options.source = options.target = "disguised/blend";

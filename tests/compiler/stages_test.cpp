@@ -22,7 +22,7 @@ SweepOptions staged(int stages, std::vector<SamplePoint> samples, double diffuse
 
 }  // namespace
 
-TEST_CASE("stages: a model matched with itself gives width, specular and diffuse back") {
+TEST_CASE("stages: a model matched with itself keeps width, specular and diffuse") {
   const auto renderer = make_builtin_renderer();
   for (const int stages : {1, 2, 3})
     for (const std::string model : {"mitsuba/ward", "mitsuba/ggx", "mitsuba/phong"}) {
@@ -47,7 +47,7 @@ TEST_CASE(
   for (std::size_t i = 0; i < samples.size(); ++i) {
     CHECK(three.rows[i].error <= two.rows[i].error * (1.0 + 1e-6));
     CHECK(two.rows[i].diffuse2 == 0.3);
-    // Where both are trusted they are the same minimum.
+    // If both are ok, they are the same minimum.
     if (one.rows[i].status == RowStatus::kOk && three.rows[i].status == RowStatus::kOk) {
       CHECK(one.rows[i].alpha2 == Approx(three.rows[i].alpha2).epsilon(1e-3));
       CHECK(one.rows[i].specular2 == Approx(three.rows[i].specular2).epsilon(1e-3));
@@ -93,7 +93,7 @@ TEST_CASE("stages: the joint match is a minimum of the whole picture as direct r
   CHECK(std::fabs(vertex(0.0, 0.0, step)) < 1e-4);
 }
 
-TEST_CASE("stages: a joint match at a bound is clamped or unstable, and says which guess it started from") {
+TEST_CASE("stages: a joint match at a bound is clamped or unstable, and records its initial guess") {
   const auto renderer = make_builtin_renderer();
   const Table table = sweep(*renderer, staged(1, {{0.6, 0.9}}));
   CHECK(table.rows.front().specular2 == Approx(1.0));
@@ -102,8 +102,8 @@ TEST_CASE("stages: a joint match at a bound is clamped or unstable, and says whi
   CHECK(comment(table, "initial_guess") == "0.5,0.5,0.5 of the ranges of alpha, specular, diffuse");
 }
 
-TEST_CASE("stages: a diffuse target that does not add is found out and matched by renders") {
-  // Diffuse that dims the highlight, as layered models have it.
+TEST_CASE("stages: a target whose diffuse does not add is detected and matched by renders") {
+  // Diffuse that dims the highlight, as in layered models.
   class Layered final : public Renderer {
    public:
     std::string version() const override { return "layered 1"; }
@@ -128,7 +128,7 @@ TEST_CASE("stages: a diffuse target that does not add is found out and matched b
   CHECK(row.diffuse2 == Approx(0.4).epsilon(1e-3));
 }
 
-TEST_CASE("stages: where the source is black there is nothing to match") {
+TEST_CASE("stages: a black source is flat") {
   const auto renderer = make_builtin_renderer();
   SweepOptions options = staged(1, {{0.3, 1.0}, {0.3, 1.5}}, 0.0);  // indices: 1 is no boundary at all
   options.source = "mitsuba/as-dielectric";
@@ -144,6 +144,7 @@ TEST_CASE(
   const auto renderer = make_builtin_renderer();
   const SweepOptions options = staged(3, grid_samples({0.2, 0.5}, 3, {0.0, 0.5}, 2));
   CHECK(table_text(sweep(*renderer, options, 1)) == table_text(sweep(*renderer, options, 2)));
-  CHECK_THROWS_WITH(sweep(*renderer, staged(4, {{0.3, 0.3}})), Catch::Contains("stages: 4; expected 1, 2"));
-  CHECK_THROWS_WITH(sweep(*renderer, staged(2, {{0.3, 0.3}}, 1.5)), Catch::Contains("diffuse 1.5; expected"));
+  CHECK_THROWS_WITH(sweep(*renderer, staged(4, {{0.3, 0.3}})), Catch::Contains("stages: 4 is out of range"));
+  CHECK_THROWS_WITH(sweep(*renderer, staged(2, {{0.3, 0.3}}, 1.5)),
+                    Catch::Contains("diffuse 1.5 is out of range"));
 }

@@ -1,4 +1,4 @@
-// The studies of measured materials: the list against the database, and small studies against what must hold.
+// The studies of measured materials: the list against the database, and properties of small studies.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -11,6 +11,7 @@
 #include "study/dielectrics_study.hpp"
 #include "study/materials.hpp"
 #include "support/shared_data.hpp"
+#include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
 
@@ -35,6 +36,29 @@ StudyOptions small_study(std::vector<double> alphas) {
   return options;
 }
 
+std::size_t line_count(const std::filesystem::path& path) {
+  const std::string text = remap::read_file(path);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+// The file is the table: tables are written so that doubles read back.
+void check_written(const std::filesystem::path& path, const Table& table) {
+  const Table written = read_table(path);
+  REQUIRE(written.rows.size() == table.rows.size());
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    CHECK(written.rows[i].alpha2 == table.rows[i].alpha2);
+    CHECK(written.rows[i].specular2 == table.rows[i].specular2);
+    CHECK(written.rows[i].status == table.rows[i].status);
+  }
+}
+
+// Drawn by gnuplot, where that is installed.
+void check_plot(const std::filesystem::path& path, const std::vector<std::string>& files) {
+  if (std::find(files.begin(), files.end(), path.filename()) == files.end())
+    return remap::skip("gnuplot", "not installed");
+  CHECK_THAT(remap::read_file(path), Catch::Contains("</svg>"));
+}
+
 }  // namespace
 
 TEST_CASE("materials: at least thirty, named once, with a source, and physical") {
@@ -57,7 +81,7 @@ TEST_CASE("materials: at least thirty, named once, with a source, and physical")
   CHECK(names.size() >= 30);
 }
 
-TEST_CASE("materials: values are those of the database") {
+TEST_CASE("materials: values equal those of the database") {
   const auto path = remap::shared_data("materials/physicallybased.json");
   if (path.empty()) return;
   const nlohmann::json database = nlohmann::json::parse(remap::read_file(path));
@@ -99,9 +123,20 @@ TEST_CASE("conductors: specular of Ward is smooth up to 1, flagged beyond, and c
   }
   // Exact Fresnel of a metal is lower than Schlick's at oblique light, and equal along the normal.
   for (const ConductorRow& row : study.rows) CHECK(row.by_index.specular1 == row.f0);
-  CHECK(conductors_words(study).size() >= 5);
+  // The words have the figures, the files the rows.
+  std::string words;
+  for (const std::string& sentence : conductors_words(study)) words += sentence + "\n";
+  CHECK(words.find("nan") == std::string::npos);
+  for (const ConductorCurve& curve : study.curves)
+    for (const std::size_t figure : {curve.ok, curve.clamped})
+      CHECK_THAT(words, Catch::Contains(" " + std::to_string(figure) + " "));
+  CHECK_THAT(words, Catch::Contains(std::to_string(study.round_trip.rows)));
   const auto files = write_conductors(study, folder.path());
-  for (const std::string& file : files) CHECK(std::filesystem::file_size(folder.path() / file) > 100);
+  CHECK(line_count(folder.path() / "conductors.csv") == study.rows.size() + 1);
+  CHECK(line_count(folder.path() / "fresnel.csv") == study.fresnel.size() + 1);
+  check_written(folder.path() / "as_to_ward.csv", study.there);
+  check_written(folder.path() / "ward_to_as.csv", study.back);
+  check_plot(folder.path() / "figure6_7.svg", files);
 }
 
 TEST_CASE("dielectrics: two stages are smooth and stable, three never worse") {
@@ -120,7 +155,11 @@ TEST_CASE("dielectrics: two stages are smooth and stable, three never worse") {
   CHECK(study.error_gain >= 0.0);
   CHECK_FALSE(study.trials.empty());
   for (const auto& table : study.stages) CHECK(table.has_diffuse);
-  CHECK(write_dielectrics(study, folder.path()).size() >= 5);
+  const auto files = write_dielectrics(study, folder.path());
+  for (std::size_t i = 0; i < study.stages.size(); ++i)
+    check_written(folder.path() / ("stages" + std::to_string(i + 1) + ".csv"), study.stages[i]);
+  CHECK(line_count(folder.path() / "guesses.csv") == study.trials.size() + 1);
+  check_plot(folder.path() / "figure8_10.svg", files);
   for (const std::string& sentence : dielectrics_words(study))
     CHECK(sentence.find("nan") == std::string::npos);
 }

@@ -1,4 +1,4 @@
-// Model files of libsvm: read as libsvm reads them, and refused with the line that is wrong.
+// Model files of libsvm: they are read as libsvm reads them, and faults are reported with their line.
 #include "fit/svr/svr_import.hpp"
 
 #include <cmath>
@@ -113,7 +113,7 @@ TEST_CASE("model file: an index that a vector leaves out is 0") {
   CHECK(expansion_from_svm_model(windows, 2, "m") == expansion);
 }
 
-TEST_CASE("model file: what is wrong is refused with its line") {
+TEST_CASE("model file: faults are reported with their line") {
   const std::string good = kHeader + kVectors;
   const auto refusal = [](const std::string& text) {
     try {
@@ -125,27 +125,33 @@ TEST_CASE("model file: what is wrong is refused with its line") {
   };
   using Catch::Contains;
   using Catch::StartsWith;
-  CHECK_THAT(refusal(""), StartsWith("m:1: the file ends in its header"));
-  CHECK_THAT(refusal("{\"a\": 1}\n"), StartsWith("m:1: unknown line"));
-  CHECK_THAT(refusal(with(good, "epsilon_svr", "c_svc")), StartsWith("m:1: svm_type is \"c_svc\""));
-  CHECK_THAT(refusal(with(good, "rbf", "linear")), StartsWith("m:2: kernel_type is \"linear\""));
-  CHECK_THAT(refusal(with(good, "0.5\n", "-0.5\n")), StartsWith("m:3: gamma is"));
-  CHECK_THAT(refusal(with(good, "gamma 0.5\n", "")), Contains("without gamma"));
+  CHECK_THAT(refusal(""), StartsWith("m:1: the header does not end with a line SV"));
+  CHECK_THAT(refusal("{\"a\": 1}\n"), StartsWith("m:1: unknown header line"));
+  CHECK_THAT(refusal(with(good, "epsilon_svr", "c_svc")), StartsWith("m:1: unsupported svm_type \"c_svc\""));
+  CHECK_THAT(refusal(with(good, "rbf", "linear")), StartsWith("m:2: unsupported kernel_type \"linear\""));
+  CHECK_THAT(refusal(with(good, "0.5\n", "-0.5\n")), StartsWith("m:3: gamma must be above 0"));
+  CHECK_THAT(refusal(with(good, "gamma 0.5\n", "")), Contains("the header has no line gamma"));
   CHECK_THAT(refusal(with(good, "gamma 0.5", "gamma")), StartsWith("m:3:"));
   CHECK_THAT(refusal(with(good, "nr_class 2", "nr_class 3")), StartsWith("m:4: nr_class"));
-  CHECK_THAT(refusal(with(good, "nr_class 2", "rho 1")), StartsWith("m:6: rho stands there again"));
-  CHECK_THAT(refusal(with(good, "total_sv 2", "total_sv 3")), StartsWith("m:10: the file ends after 2"));
-  CHECK_THAT(refusal(with(good, "total_sv 2", "total_sv 1")), StartsWith("m:9: more vectors"));
+  CHECK_THAT(refusal(with(good, "nr_class 2", "rho 1")), StartsWith("m:6: repeated header line rho"));
+  CHECK_THAT(refusal(with(good, "total_sv 2", "total_sv 3")),
+             StartsWith("m:10: the file has 2 vectors, but total_sv is 3"));
+  CHECK_THAT(refusal(with(good, "total_sv 2", "total_sv 1")),
+             StartsWith("m:9: more vectors than total_sv (1)"));
   CHECK_THAT(refusal(with(good, "total_sv 2", "total_sv -2")), StartsWith("m:5: total_sv"));
   CHECK_THAT(refusal(with(good, "total_sv 2", "total_sv 99999999999")), StartsWith("m:5: total_sv"));
-  CHECK_THAT(refusal(with(good, "rho -0.25", "rho nan")), StartsWith("m:6: rho is \"nan\""));
-  CHECK_THAT(refusal(with(good, "2:0.75", "3:0.75")), StartsWith("m:8: an index is \"3\""));
+  CHECK_THAT(refusal(with(good, "rho -0.25", "rho nan")),
+             StartsWith("m:6: rho is not a finite number: \"nan\""));
+  CHECK_THAT(refusal(with(good, "2:0.75", "3:0.75")),
+             StartsWith("m:8: an index is not an integer from 0 to 2: \"3\""));
   CHECK_THAT(refusal(with(good, "1:0.25", "0:0.25")), StartsWith("m:8: index 0"));
   CHECK_THAT(refusal(with(good, "2:0.75", "1:0.75")), StartsWith("m:8: index 1"));
-  CHECK_THAT(refusal(with(good, "2:0.75", "2:")), StartsWith("m:8: a value is \"\""));
-  CHECK_THAT(refusal(with(good, "2:0.75", "2")), StartsWith("m:8: \"2\"; expected index:value"));
-  CHECK_THAT(refusal(with(good, "1.5 1", "inf 1")), StartsWith("m:8: the weight is \"inf\""));
-  CHECK_THAT(refusal(with(good, "-1.5 2:0.5 \n", "\n")), StartsWith("m:9: the weight is \"\""));
+  CHECK_THAT(refusal(with(good, "2:0.75", "2:")), StartsWith("m:8: a value is not a finite number: \"\""));
+  CHECK_THAT(refusal(with(good, "2:0.75", "2")), StartsWith("m:8: \"2\" is not of the form index:value"));
+  CHECK_THAT(refusal(with(good, "1.5 1", "inf 1")),
+             StartsWith("m:8: the weight is not a finite number: \"inf\""));
+  CHECK_THAT(refusal(with(good, "-1.5 2:0.5 \n", "\n")),
+             StartsWith("m:9: the weight is not a finite number: \"\""));
   // Cut anywhere, it is refused: none of the shorter texts is a model.
   for (std::size_t length = 0; length < good.size(); ++length)
     CHECK(refusal(good.substr(0, length)) != "none");
@@ -173,7 +179,7 @@ TEST_CASE("import: a description and two model files give what libsvm predicts b
   }
 }
 
-TEST_CASE("import: a wrong description is refused with the place in it") {
+TEST_CASE("import: faults of a description are reported with their place") {
   const remap::TemporaryFolder folder;
   for (const char* name : {"a.model", "s.model"}) remap::write_file(folder.path() / name, kHeader + kVectors);
   const auto refusal = [&](const std::string& text) {
@@ -192,26 +198,27 @@ TEST_CASE("import: a wrong description is refused with the place in it") {
   };
   using Catch::Contains;
   CHECK(refusal(description().dump()) == "none");
-  CHECK_THAT(refusal("{"), Contains("d.json: is no JSON"));
-  CHECK_THAT(refusal("[]"), Contains("d.json: is no object"));
+  CHECK_THAT(refusal("{"), Contains("d.json: invalid JSON"));
+  CHECK_THAT(refusal("[]"), Contains("d.json: must be an object"));
   CHECK_THAT(without("/speculr", 1), Contains("unknown field \"speculr\""));
   CHECK_THAT(without("/id", "two words"), Contains("d.json.id"));
   CHECK_THAT(without("/source", 3), Contains("d.json.source"));
   CHECK_THAT(without("/source/roughness", "shine"), Contains("d.json.source.roughness"));
   CHECK_THAT(without("/domain/alpha", {0.9, 0.1}), Contains("d.json.domain.alpha"));
   CHECK_THAT(without("/alpha/model_file", "none.model"), Contains("none.model: cannot be read"));
-  CHECK_THAT(without("/alpha/model_file", 3), Contains("alpha.model_file: is no text"));
-  CHECK_THAT(without("/alpha/inputs", nlohmann::json::array()), Contains("alpha.inputs: is no list"));
+  CHECK_THAT(without("/alpha/model_file", 3), Contains("alpha.model_file: must be a string"));
+  CHECK_THAT(without("/alpha/inputs", nlohmann::json::array()), Contains("alpha.inputs: must be a list"));
   CHECK_THAT(without("/alpha/inputs/0/name", "roughness"),
-             Contains("alpha.inputs[0].name: is \"roughness\""));
-  CHECK_THAT(without("/alpha/inputs/0/name", "specular"), Contains("names alpha not once"));
-  CHECK_THAT(without("/alpha/inputs/1/scale", 0), Contains("alpha.inputs[1].scale: is 0"));
-  CHECK_THAT(without("/specular/output/offset", "0"), Contains("specular.output.offset: is no number"));
-  CHECK_THAT(without("/specular/output", 1), Contains("specular.output: is no object"));
+             Contains("alpha.inputs[0].name: unknown input \"roughness\""));
+  CHECK_THAT(without("/alpha/inputs/0/name", "specular"), Contains("must contain alpha once"));
+  CHECK_THAT(without("/alpha/inputs/1/scale", 0), Contains("alpha.inputs[1].scale: must not be 0"));
+  CHECK_THAT(without("/specular/output/offset", "0"),
+             Contains("specular.output.offset: must be a finite number"));
+  CHECK_THAT(without("/specular/output", 1), Contains("specular.output: must be an object"));
   nlohmann::json one_input = description();
   one_input["alpha"]["inputs"].erase(1);
-  CHECK_THAT(refusal(one_input.dump()), Contains("a.model:8: an index is \"2\""));
+  CHECK_THAT(refusal(one_input.dump()), Contains("a.model:8: an index is not an integer from 0 to 1: \"2\""));
   nlohmann::json no_domain = description();
   no_domain.erase("domain");
-  CHECK_THAT(refusal(no_domain.dump()), Contains("has no field \"domain\""));
+  CHECK_THAT(refusal(no_domain.dump()), Contains("missing field \"domain\""));
 }

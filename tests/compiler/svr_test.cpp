@@ -1,4 +1,4 @@
-// Support vector regression on the published table, on tables that are odd, and against libsvm itself.
+// Support vector regression on the published table, on unusual tables, and against libsvm itself.
 #include "fit/svr/svr.hpp"
 
 #include <atomic>
@@ -50,7 +50,7 @@ std::vector<TableRow> made_rows(int widths = 12, int speculars = 6, double coupl
   return rows;
 }
 
-// The hyper-parameters that fit made_rows() well, for tests that are about something else.
+// Hyper-parameters that fit made_rows() well, for tests of other things.
 SvrOptions given() {
   SvrOptions options;
   options.alpha = SvrHyperParameters{10.0, 3.2, 1e-3, 1.0};
@@ -77,7 +77,7 @@ struct ModelDeleter {
 };
 using Model = std::unique_ptr<svm_model, ModelDeleter>;
 
-// libsvm's own reading of an expansion, by way of its file format.
+// Converts an expansion to a libsvm model through its file format.
 Model model_of(const KernelExpansion& expansion) {
   const remap::TemporaryFolder folder;
   using remap::number_text;
@@ -132,7 +132,7 @@ TEST_CASE("svr: errors on unseen rows of the published table") {
     alpha += errors.alpha.rms / seeds;
     specular += errors.specular.rms / seeds;
     largest += errors.specular.max / seeds;
-    // What cross-validation promised holds on rows that it never saw; folds differ by a factor of two.
+    // The cross-validation error holds on unseen rows; folds differ by a factor of two.
     CHECK(errors.specular.rms < 2.0 * *remap::parse_number(fit.method.at("specular.cross_validation_rms")));
   }
   std::cout << "published table, mean of " << seeds << " splits: alpha rms " << alpha << ", specular rms "
@@ -144,7 +144,7 @@ TEST_CASE("svr: errors on unseen rows of the published table") {
   CHECK(largest <= 8.5e-4);
 }
 
-TEST_CASE("svr: a fit is what libsvm predicts with its vectors") {
+TEST_CASE("svr: a fit equals libsvm's prediction with its vectors") {
   // Sums of some dozens of Gaussians whose weights reach C: rounding differs in the order of operations only.
   for (const double coupling : {0.0, 0.2}) {
     const Regression fit = fit_svr(made_rows(12, 6, coupling), given());
@@ -201,8 +201,8 @@ TEST_CASE("svr: hyper-parameters are read back from the record number for number
 
   CHECK(!options_from_method({{"forms", "quartic"}}, {}).alpha);
   CHECK(options_from_method({}, options).alpha == options.alpha);
-  CHECK_THROWS_WITH(options_from_method({{"alpha.C", "1"}}, {}), Catch::Contains("only some"));
-  CHECK_THROWS_WITH(options_from_method({{"alpha.C", "much"}}, {}), Catch::Contains("\"much\""));
+  CHECK_THROWS_WITH(options_from_method({{"alpha.C", "1"}}, {}), Catch::Contains("must be given together"));
+  CHECK_THROWS_WITH(options_from_method({{"alpha.C", "much"}}, {}), Catch::Contains("'much'"));
 }
 
 TEST_CASE("svr: progress rises to 1, and what it throws ends the fit") {
@@ -224,8 +224,8 @@ TEST_CASE("svr: progress rises to 1, and what it throws ends the fit") {
 
 TEST_CASE("svr: tables that cannot be fitted are refused") {
   std::vector<TableRow> few = made_rows(3, 3);
-  CHECK_THROWS_WITH(fit_svr(few, {}), Catch::Contains("9 rows; expected at least 10"));
-  CHECK_THROWS_WITH(fit_svr({}, {}), Catch::Contains("0 rows"));
+  CHECK_THROWS_WITH(fit_svr(few, {}), Catch::Contains("too few rows (9, at least 10"));
+  CHECK_THROWS_WITH(fit_svr({}, {}), Catch::Contains("too few rows (0,"));
   CHECK_THROWS_WITH(fit_svr(made_rows(1, 12), {}), Catch::Contains("alpha1 is 0.05 in every row"));
   CHECK_THROWS_WITH(fit_svr(made_rows(12, 1), {}), Catch::Contains("specular1 is 0.05 in every row"));
   for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
@@ -235,7 +235,7 @@ TEST_CASE("svr: tables that cannot be fitted are refused") {
   }
 }
 
-TEST_CASE("svr: odd tables give finite answers") {
+TEST_CASE("svr: unusual tables give finite results") {
   std::vector<TableRow> rows = made_rows();
   SECTION("two alphas") { rows = made_rows(2, 6); }
   SECTION("duplicates: the same fit as once") {  // bit for bit: the mean of two equal numbers is exact
@@ -260,7 +260,7 @@ TEST_CASE("svr: odd tables give finite answers") {
   }
 }
 
-TEST_CASE("svr: of 100000 rows 2000 train, and the record says so") {
+TEST_CASE("svr: 2000 of 100000 rows train, and the record says so") {
   SvrOptions options = given();
   const Regression fit = fit_svr(made_rows(400, 250), options);
   CHECK(fit.method.at("alpha.trained_samples") == "400");
@@ -268,7 +268,7 @@ TEST_CASE("svr: of 100000 rows 2000 train, and the record says so") {
   CHECK(errors_of(fit.mapping, made_rows(37, 23)).specular.rms < 1e-3);
 }
 
-TEST_CASE("svr: samples are drawn one from each stretch") {
+TEST_CASE("svr: one sample is drawn from each interval") {
   SvrSamples samples{1, {}, {}};
   for (int i = 0; i < 1000; ++i) {
     samples.inputs.push_back(i);

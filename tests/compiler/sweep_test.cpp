@@ -1,5 +1,5 @@
-// The sweep against the published table, against the figures measured outside this project, and against
-// pictures rendered at its own answers.
+// The sweep against the published table, against figures of an independent program, and against pictures
+// rendered at its results.
 #include "sweep/sweep.hpp"
 
 #include <cmath>
@@ -20,7 +20,7 @@
 
 using namespace remapc;
 
-TEST_CASE("sweep: objective paper gives the published table back at its own samples", "[slow]") {
+TEST_CASE("sweep: objective paper reproduces the published table at its samples", "[slow]") {
   const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
   if (path.empty()) return;
   const Table published = read_table(path, column_map("sztrajman-2019"));
@@ -81,7 +81,7 @@ TEST_CASE("sweep: a model matched with itself is the identity") {
   }
 }
 
-TEST_CASE("sweep: the answer is the minimum of the loss as direct renders show it") {
+TEST_CASE("sweep: the result is the minimum of the loss of direct renders") {
   const auto renderer = make_builtin_renderer();
   const SweepOptions options =
       sweep_options("mitsuba/ggx", "mitsuba/beckmann", "natural", {{0.31, 0.37}}, 128);
@@ -158,12 +158,12 @@ TEST_CASE("sweep: several lights are matched together") {
   CHECK(both < std::max(headlight, side));
 }
 
-TEST_CASE("bank: widths cover the range, no less than the model takes, no further apart than asked") {
+TEST_CASE("bank: widths cover the range, within the model's, no further apart than the ratio") {
   const auto renderer = make_builtin_renderer();
   const PictureTaker picture_taker(*renderer, objective_preset("paper"), 8, 1);
   const ModelDescription model = find_model(*renderer, "mitsuba/ggx");
   const SpecularResponse response = probe_specular(picture_taker, model, {0.1, 1.0});
-  // The last: less than a window of the usual steps.
+  // The last range is smaller than a window of the usual steps.
   for (const remap::Range alphas :
        {remap::Range{0.00275625, 1.0}, {0.01, 0.99}, {0.2, 0.2 * 1.6}, {0.25, 1.0}, {0.95, 1.0}})
     for (const bool takes_less : {false, true}) {

@@ -1,4 +1,4 @@
-// Tables in and out, column maps, and every complaint with its place.
+// Tables: reading, writing, column maps, and every error with its place.
 #include "table/table.hpp"
 
 #include <cmath>
@@ -54,17 +54,18 @@ TEST_CASE("table: diffuse is written where rows have it, and read back") {
   CHECK(table_text(back) == text);
   table.has_diffuse = false;
   CHECK(table_text(table) == kHeader + "0.1,0.2,0.3,0.4,0.5,ok\n");
-  CHECK_THROWS_WITH(parse("alpha1,specular1,alpha2,specular2,diffuse2\n1,2,3,4,5\n"),
-                    Catch::Contains("has a column diffuse2 but no diffuse1; expected both or neither"));
+  CHECK_THROWS_WITH(
+      parse("alpha1,specular1,alpha2,specular2,diffuse2\n1,2,3,4,5\n"),
+      Catch::Contains("has a column diffuse2 but no column diffuse1 (both or neither are needed)"));
 }
 
-TEST_CASE("table: a side is named by what its column holds") {
+TEST_CASE("table: a side is named after the content of its column") {
   const Table table = parse("# source: a/b\n# source_specular: ior\n# source_specular_column: f0\n" +
                             kHeader + "0.1,0.2,0.3,0.4,0,ok\n");
   CHECK(table.source.specular == "f0");
 }
 
-TEST_CASE("table: comma, tab and semicolon are told apart, spaces, quotes, BOM and CRLF are no harm") {
+TEST_CASE("table: comma, tab or semicolon is detected; spaces, quotes, BOM and CRLF are accepted") {
   for (const char delimiter : {',', '\t', ';'}) {
     std::string text =
         "\xEF\xBB\xBF# source: a/b\r\n\"alpha1\", specular1,alpha2,specular2,k2\r\n0.1, "
@@ -94,10 +95,10 @@ TEST_CASE("table: the published table loads by its preset and by a column map") 
           same.comments = mapped.comments;
           return same;
         }()));
-  CHECK_THROWS_WITH(read_table(path), Catch::Contains("has no column specular2; did you mean specular1?"));
+  CHECK_THROWS_WITH(read_table(path), Catch::Contains("has no column specular2 (did you mean specular1?)"));
 }
 
-TEST_CASE("table: a bad number is named with line and column") {
+TEST_CASE("table: a bad number is reported with line and column") {
   CHECK_THROWS_WITH(parse("# c: d\n" + kHeader + "0.1,0.2,0.3,0.4,0,ok\n0.1,0.2,0.3x,0.4,0,ok\n"),
                     "t.csv:4:9: alpha2 is \"0.3x\"; expected a number");
   CHECK_THROWS_WITH(parse(kHeader + "0.1,,0.3,0.4,0,ok\n"), Catch::Contains("t.csv:2:5: specular1 is \"\""));
@@ -105,9 +106,9 @@ TEST_CASE("table: a bad number is named with line and column") {
                     Catch::Contains("t.csv:2:19: status is \"fine\""));
 }
 
-TEST_CASE("table: a missing column is named with the nearest there is") {
+TEST_CASE("table: the error for a missing column names the nearest") {
   CHECK_THROWS_WITH(parse("alpha1,specular1,width2,specular2\n1,2,3,4\n"),
-                    "t.csv:1:1: has no column alpha2; did you mean alpha1?");
+                    "t.csv:1:1: has no column alpha2 (did you mean alpha1?)");
 }
 
 TEST_CASE("table: a wrong delimiter is recognised") {
@@ -115,9 +116,8 @@ TEST_CASE("table: a wrong delimiter is recognised") {
                     Catch::Contains("comma, tab or semicolon"));
 }
 
-TEST_CASE("table: a row of another length is named") {
-  CHECK_THROWS_WITH(parse(kHeader + "0.1,0.2,0.3\n"),
-                    "t.csv:2:1: the row has 3 columns; expected 6 as in the header");
+TEST_CASE("table: a row of another length is reported") {
+  CHECK_THROWS_WITH(parse(kHeader + "0.1,0.2,0.3\n"), "t.csv:2:1: the row has 3 columns, the header 6");
 }
 
 TEST_CASE("table: text without header or rows is refused") {
@@ -126,7 +126,7 @@ TEST_CASE("table: text without header or rows is refused") {
   CHECK_THROWS_WITH(parse(kHeader), Catch::Contains("no rows"));
 }
 
-TEST_CASE("column map: unknown presets and columns are answered with the nearest") {
+TEST_CASE("column map: the error for an unknown preset or column names the nearest") {
   CHECK_THROWS_WITH(column_map("sztrajman-2018"), Catch::Contains("did you mean sztrajman-2019?"));
   CHECK_THROWS_WITH(column_map("alpa1=x"), Catch::Contains("did you mean alpha1?"));
 }

@@ -1,4 +1,4 @@
-// Renderers whose pictures are random, that hold widths at a least one, or take narrow ones for a mirror.
+// Renderers with noise, with clamped widths, and with a mirror at narrow widths.
 #include <cmath>
 #include <cstdint>
 
@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// A number of -1 to 1 that only its arguments decide.
+// Returns a number of -1 to 1 that depends on the arguments only.
 double random_number(std::uint64_t seed, std::uint64_t pixel) {
   std::uint64_t x = (seed * 0x9E3779B97F4A7C15u) ^ (pixel + 0xD1B54A32D192ED03u);
   for (int i = 0; i < 3; ++i) x = (x ^ (x >> 31)) * 0xBF58476D1CE4E5B9u;
@@ -24,13 +24,13 @@ double random_number(std::uint64_t seed, std::uint64_t pixel) {
 
 struct Habits {
   double noise = 0.0;                // of a pixel, relative to it: uniform from -noise to noise
-  double least = 0.0, most = 1e300;  // widths beyond are held at these
+  double least = 0.0, most = 1e300;  // widths beyond are clamped to these
   double mirror = 0.0;               // widths up to this have no highlight
-  double paint = 1.0;                // that diffuse is multiplied by
-  bool dark = false;                 // nothing shows
+  double paint = 1.0;                // factor of diffuse
+  bool dark = false;                 // pictures are black
 };
 
-// The built-in models, and beside them those of another program: `strange/ggx`, which is mitsuba/ggx-plain.
+// The built-in models, plus `strange/ggx` of another program, which is mitsuba/ggx-plain with faults.
 class StrangeRenderer final : public DisguisedRenderer {
  public:
   explicit StrangeRenderer(Habits habits) : habits_(habits) {}
@@ -69,7 +69,7 @@ const std::vector<SamplePoint> kSamples = {{0.15, 0.4}, {0.15, 0.8}, {0.4, 0.4},
 
 }  // namespace
 
-TEST_CASE("noise: its level is that of the renderer, whatever the description says") {
+TEST_CASE("noise: its level is measured, whatever the description claims") {
   const StrangeRenderer renderer({0.1});
   const SteadyRenderer steady(renderer, {"strange/ggx", "mitsuba/ggx"}, {60.0, 3.0});
   // Uniform from -0.1 to 0.1: 0.1 / sqrt(3) rms.
@@ -90,14 +90,14 @@ TEST_CASE("noise: its level is that of the renderer, whatever the description sa
   CHECK(std::sqrt(left / power) < 1.2 * kSteadyNoise);
 }
 
-TEST_CASE("noise: pictures without any are taken once, and the table says so") {
+TEST_CASE("noise: pictures without noise are taken once, and the table says so") {
   const Table table = strange_sweep({}, "strange/ggx", "mitsuba/ggx-plain", kSamples);
   CHECK(comment(table, "source_noise") == "0");
   CHECK(comment(table, "source_averaged").empty());
   CHECK(comment(table, "target_noise").empty());
 }
 
-TEST_CASE("noise: a source and a target that have some are matched by means") {
+TEST_CASE("noise: a noisy source or target is matched by mean pictures") {
   const bool is_source = GENERATE(true, false);
   const std::string noisy = "strange/ggx", plain = "mitsuba/ggx-plain";
   const Table table = strange_sweep({0.1}, is_source ? noisy : plain, is_source ? plain : noisy, kSamples);
@@ -111,13 +111,13 @@ TEST_CASE("noise: a source and a target that have some are matched by means") {
   }
 }
 
-TEST_CASE("noise: more than means can take away is refused with the reason") {
+TEST_CASE("noise: more than means can remove is refused with the reason") {
   CHECK_THROWS_WITH(
       strange_sweep({0.9}, "strange/ggx", "mitsuba/ggx-plain", kSamples),
-      Contains("strange/ggx: another seed changes its pictures by 5") && Contains("expected at most 64"));
+      Contains("strange/ggx: pictures of two seeds differ by 5") && Contains("the limit is 64"));
 }
 
-TEST_CASE("widths: those that a renderer holds are found, and their rows marked") {
+TEST_CASE("widths: clamped widths are found, and their rows marked") {
   const std::vector<SamplePoint> samples = {{0.05, 0.5}, {0.1, 0.5}, {0.2, 0.5}, {0.5, 0.5}, {0.9, 0.5}};
   const Table table = strange_sweep({0.0, 0.13, 0.7}, "strange/ggx", "mitsuba/ggx-plain", samples);
   CHECK_THAT(comment(table, "source_effective_alpha"), Contains("0.13") && Contains(" to 0.69"));
@@ -128,7 +128,7 @@ TEST_CASE("widths: those that a renderer holds are found, and their rows marked"
   }
 }
 
-TEST_CASE("widths: a target is not searched where it holds its width, or is a mirror") {
+TEST_CASE("widths: a target is not searched where its width is clamped or a mirror") {
   const std::vector<SamplePoint> samples = {{0.05, 0.5}, {0.2, 0.5}, {0.5, 0.5}};
   for (const Habits& habits : {Habits{0.0, 0.13}, Habits{0.0, 0.0, 1e300, 0.13}}) {
     const Table table = strange_sweep(habits, "mitsuba/ggx-plain", "strange/ggx", samples);
@@ -140,7 +140,7 @@ TEST_CASE("widths: a target is not searched where it holds its width, or is a mi
   }
 }
 
-TEST_CASE("widths: a source that is a mirror shows nothing to match") {
+TEST_CASE("widths: a mirror as the source is flat") {
   const std::vector<SamplePoint> samples = {{0.05, 0.5}, {0.2, 0.5}, {0.5, 0.5}};
   const Table table = strange_sweep({0.0, 0.0, 1e300, 0.13}, "strange/ggx", "mitsuba/ggx-plain", samples);
   CHECK_THAT(comment(table, "source_effective_alpha"), Contains("0.13") && Contains(" to 0.5"));
@@ -148,18 +148,18 @@ TEST_CASE("widths: a source that is a mirror shows nothing to match") {
   CHECK(table.rows[1].status == RowStatus::kOk);
 }
 
-TEST_CASE("sweep: a target that shows nothing is refused") {
+TEST_CASE("sweep: a black target is refused") {
   CHECK_THROWS_WITH(
       strange_sweep({0.0, 0.0, 1e300, 0.0, 1.0, true}, "mitsuba/ggx-plain", "strange/ggx", kSamples),
       Contains("strange/ggx: no width"));
-  // Diffuse that does nothing.
+  // A diffuse parameter without effect.
   Habits black_paint;
   black_paint.paint = 0.0;
   CHECK_THROWS_WITH(strange_sweep(black_paint, "mitsuba/ggx-plain", "strange/ggx", kSamples),
                     Contains("a diffuse picture is black"));
 }
 
-TEST_CASE("widths: a model whose width does nothing is refused") {
+TEST_CASE("widths: a model whose width has no effect is refused") {
   const std::vector<SamplePoint> samples = {{0.05, 0.5}, {0.2, 0.5}, {0.5, 0.5}};
   CHECK_THROWS_WITH(strange_sweep({0.0, 0.3, 0.3}, "strange/ggx", "mitsuba/ggx-plain", samples),
                     Contains("strange/ggx: no width from alpha 0.05 to 0.5 changes its picture"));

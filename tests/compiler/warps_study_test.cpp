@@ -1,6 +1,7 @@
-// The study of warps on small sets: the registration is nearest to the known answer, and what is written has
-// all figures; sets from files are those that were written.
+// The study of warps on small sets: the registration is nearest to the known answer, outputs hold all
+// figures, and sets are read back from files.
 #include <algorithm>
+#include <ctime>
 #include <map>
 
 #include <catch2/catch.hpp>
@@ -56,10 +57,12 @@ TEST_CASE("study warp: the registration is nearest to the known answer, without 
   CHECK(registration.cost->folds == 0.0);
   CHECK(registration.cost->compiled.difference < 3.0);
   CHECK(registration.cost->bytes <= 250000.0);
+  // Processor time of a part of what this process has done.
   CHECK(registration.cost->seconds > 0.0);
+  CHECK(registration.cost->seconds < static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
   REQUIRE(registration.change.has_value());
   CHECK(*registration.change < *summary(WarpGroup::kMethod, "paper").change);
-  // One dimension loses what two keep.
+  // One dimension loses information that two keep.
   CHECK(summary(WarpGroup::kDimensions, "1").figures.mean > 2.0 * registration.figures.mean);
   CHECK(summary(WarpGroup::kDimensions, "2").figures.mean == registration.figures.mean);
 }
@@ -83,13 +86,13 @@ TEST_CASE("study warp: figures of results that are known") {
   const WarpFigures best = measures.of_copy(truth, leaf.strokes[0]);
   CHECK(best.mean < 3.0);  // the noise of texels
   CHECK(best.variation == Approx(1.0).margin(0.2));
-  // All texels alike: no variation, no tears, one bin; the distance is that of any texel to the spread.
+  // Equal texels: no variation, no tears, one bin; the distance is that of one texel to the spread.
   const WarpFigures flat = measures.of_copy(TexelCopy(truth.size(), truth[0]), leaf.strokes[0]);
   CHECK(flat.variation == 0.0);
   CHECK(flat.tears == 0.0);
   CHECK(flat.used < 2.0);
   CHECK(flat.rms > 70.0);
-  // Texels of the template in any order: on average unrelated ones, whose squares add up.
+  // Shuffled texels of the template are unrelated on average, so their squares add.
   TexelCopy mixed(truth.size());
   for (std::size_t i = 0; i < mixed.size(); ++i)
     mixed[i] = static_cast<std::uint32_t>(i * 1627 % mixed.size());
@@ -108,11 +111,11 @@ TEST_CASE("study warp: tables have all rows, pictures all cells") {
     const std::string line = csv.substr(start + 1, csv.find('\n', start + 1) - start - 1);
     CHECK(std::count(line.begin(), line.end(), ',') == 17);
   }
-  // Two copies have no warp, five variants of nodes share one.
+  // Two variants are copies without a warp; five variants of nodes share one warp.
   CHECK(line_count(warp_sensitivity_csv(options, small_result())) == 5 + variants - 7);
   const std::string text = warps_text(options, small_result());
   CHECK_THAT(text, Contains("Sets leaf, 64 x 64 texels, 2 sets of strokes each"));
-  CHECK_THAT(text, Contains("The registration is "));
+  CHECK_THAT(text, Contains("Mean error: registration "));
   CHECK_THAT(warps_plot_script(options, small_result()), Contains("$nodes using 1:2"));
   const std::vector<WarpSheet> sheets = warp_sheets(options, small_result());
   REQUIRE(sheets.size() == 3);

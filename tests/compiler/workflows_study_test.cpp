@@ -1,5 +1,5 @@
-// The study of workflows on small pictures: the floor is below every method, the projection next to it, exact
-// where metallic can say the material; measured materials where they lie beside the repository.
+// The study of workflows on small pictures: the least error is below every method, the projection next to it,
+// and exact for materials that metallic can represent; measured materials if their files are available.
 #include <algorithm>
 #include <cmath>
 
@@ -81,7 +81,7 @@ TEST_CASE("study workflows: metallic materials come back, and their pictures are
       CHECK(pictures.rmse[light] < 0.02);
       CHECK(pictures.ssim[light] > 0.9999);
     }
-  // The floor finds them by pictures alone, or takes the projection's.
+  // The least error finds them by pictures, or starts from the projection.
   for (std::size_t i = 0; i < best.size(); ++i)
     CHECK(best[i].surface.metallic == Approx(projected[i].surface.metallic).margin(0.02));
 }
@@ -98,12 +98,14 @@ TEST_CASE("study workflows: a picture is its reflectances times the basis") {
   REQUIRE(expected.size() == combined.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
     CHECK(combined[i] == Approx(expected[i]).epsilon(1e-4).margin(1e-6));
-  // White diffuse at the nearest point, by the light at the camera: white.
+  // White diffuse is white at the nearest point under a headlight.
   const std::vector<float>& white = lit.basis(0, lit.headlight()).diffuse;
   CHECK(*std::max_element(white.begin(), white.end()) == Approx(1.0).epsilon(0.01));
 }
 
-TEST_CASE("study workflows: on the family the projection is exact, the others as far off as they are") {
+TEST_CASE(
+    "study workflows: on materials of the family the projection is exact, and the others have their known "
+    "errors") {
   const std::vector<FamilyLine> lines = study_family({}, 4000, 1, 0);
   const auto line = [&](const std::string& method) {
     const auto found = std::find_if(lines.begin(), lines.end(),
@@ -123,7 +125,7 @@ TEST_CASE("study workflows: on the family the projection is exact, the others as
   CHECK(line("equation (3), mean, 0.04").errors[0].metallic == Approx(0.035).epsilon(0.15));
   CHECK(line("Khronos, plain").errors[0].metallic == Approx(0.092).epsilon(0.1));
   CHECK(line("Khronos, glTF").errors[0].metallic < 0.02);
-  CHECK_THROWS_WITH(study_family({}, 0, 1, 0), Contains("0 materials"));
+  CHECK_THROWS_WITH(study_family({}, 0, 1, 0), Contains("--family-count must be at least 1"));
 }
 
 TEST_CASE("study workflows: tables, sheets and the same figures for any number of jobs") {
@@ -137,24 +139,24 @@ TEST_CASE("study workflows: tables, sheets and the same figures for any number o
                            (result.comparisons[0].methods.size() + result.comparisons[1].methods.size());
   CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == rows + 6);
   const std::string text = workflows_text(options, result, study_family({}, 100, 1, 1));
-  CHECK_THAT(text, Contains("above what any base color and metallic can do") && !Contains("nan"));
+  CHECK_THAT(text, Contains("above the least that any base color and metallic reach") && !Contains("nan"));
   CHECK_THAT(workflow_summary_csv(options, result), Contains("plain,projection,paint,"));
   CHECK_THAT(workflows_plot_script(options, result), Contains("1 - SSIM"));
   options.jobs = 1;
   CHECK(workflow_materials_csv(options, study_workflows(options)) == csv);
 }
 
-TEST_CASE("study workflows: what makes no sense is refused") {
+TEST_CASE("study workflows: invalid options are refused") {
   WorkflowsOptions options = small_study(1);
   options.alphas.pop_back();
   options.materials.front().alpha = 1;
-  CHECK_THROWS_WITH(study_workflows(options), Contains("width 1 of 1"));
+  CHECK_THROWS_WITH(study_workflows(options), Contains("alpha index 1 is out of range (1 alphas)"));
   options = small_study(1);
   options.alphas[0] = 0.0;
-  CHECK_THROWS_WITH(study_workflows(options), Contains("expected 0.01 to 1"));
+  CHECK_THROWS_WITH(study_workflows(options), Contains("is out of range (0.01 to 1)"));
   options.materials.clear();
-  CHECK_THROWS_WITH(study_workflows(options), Contains("no material"));
-  CHECK_THROWS_WITH(study_materials({{}, 0, 1, 1}), Contains("expected at least one"));
+  CHECK_THROWS_WITH(study_workflows(options), Contains("at least one material, one alpha"));
+  CHECK_THROWS_WITH(study_materials({{}, 0, 1, 1}), Contains("at least one material per group"));
 }
 
 TEST_CASE("study workflows: groups without a file are left out, and a bad file is named") {
@@ -165,7 +167,7 @@ TEST_CASE("study workflows: groups without a file are left out, and a bad file i
   remap::write_file(folder.path() / "ngan_ward.fit",
                     "# comment\nred = Aggregate(Lambertian(albedo = [0.1, x, 0]))\n");
   CHECK_THROWS_WITH(study_materials({folder.path(), 3, 2, 1}),
-                    Contains("ngan_ward.fit:2: has no two albedos"));
+                    Contains("ngan_ward.fit:2: cannot find two albedos"));
   for (const StudyMaterial& material : drawn.materials)
     for (std::size_t c = 0; c < 3; ++c) {
       CHECK((material.surface.diffuse[c] >= 0.0 && material.surface.diffuse[c] <= 1.0));

@@ -82,14 +82,14 @@ TEST_CASE("fit file: complaints about support vectors and networks name the fiel
 TEST_CASE("fit file: complaints name the file and the field") {
   const std::string json = fit_to_json(sample_fit());
   const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
-  CHECK_THROWS_WITH(read("{"), Catch::StartsWith("x.json: is no JSON"));
-  CHECK_THROWS_WITH(read("[]"), Catch::StartsWith("x.json: is []"));
+  CHECK_THROWS_WITH(read("{"), Catch::StartsWith("x.json: invalid JSON"));
+  CHECK_THROWS_WITH(read("[]"), Catch::StartsWith("x.json: expected "));
   CHECK_THROWS_WITH(read(replaced(json, "remap-fit", "other")), Catch::Contains("is no fit file"));
   CHECK_THROWS_WITH(read(replaced(json, "\"version\": 3", "\"version\": 2")),
                     Catch::Contains("format version 2; this program reads version 3"));
   CHECK_THROWS_WITH(read(replaced(json, "\"seed\"", "\"sed\"")), "x.json.split: has no field \"seed\"");
   CHECK_THROWS_WITH(read(replaced(json, "\"a_b_to_c_d\"", "\"a b\"")),
-                    Catch::StartsWith("x.json.id: is \"a b\""));
+                    Catch::StartsWith("x.json.id: expected a C++ identifier"));
   CHECK_THROWS_WITH(read(replaced(json, "\"exponent\"", "\"sharpness\"")),
                     Catch::Contains("x.json.target.roughness"));
   CHECK_THROWS_WITH(read(replaced(json, "\"parametric\"", "\"magic\"")),

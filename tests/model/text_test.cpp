@@ -54,7 +54,7 @@ TEST_CASE("nearest name: a slip is forgiven, another word is not") {
   CHECK(nearest_name("mitsuba/wrad", names) == "mitsuba/ward");
   CHECK(nearest_name("mitsuba/gx", names) == "mitsuba/ggx");
   CHECK(nearest_name("renderman", names).empty());
-  CHECK(suggestion("renderman", names) == "; known: mitsuba/ward, mitsuba/ggx, cycles-5/ggx");
+  CHECK(suggestion("renderman", names) == " (choose mitsuba/ward, mitsuba/ggx, cycles-5/ggx)");
 }
 
 TEST_CASE("write file: replaces the old one whole, and leaves it where it fails") {

@@ -12,7 +12,7 @@ trap 'rm -rf "$project"' EXIT
 cp -r "$source_folder/examples/outside_project/." "$project"
 
 expect_exit 0 cmake --install "$build" --prefix "$prefix"
-for file in bin/remapc bin/texremap include/remap/$id.hpp include/remap/registry.hpp include/remap/LICENSE; do
+for file in bin/remapc bin/texremap include/remap/$id.hpp include/remap/LICENSE; do
   [[ -f $prefix/$file ]] || fail "$file: is not installed"
 done
 ! grep -rlF -e "$source_folder" -e "$build" "$prefix"/lib* "$prefix/include" ||

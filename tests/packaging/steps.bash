@@ -24,3 +24,19 @@ expect_exit 0 script 'step "Read" bash -c "! read -r line"'
 printf '{\n  "rms": 0.25,\n  "max": 1e-06,\n  "rms": -3\n}\n' >"$work/numbers.json"
 expect_exit 0 script "json_number $work/numbers.json rms; json_number $work/numbers.json max; json_number $work/numbers.json rms 2"
 [[ $(xargs <"$work/output") == "0.25 1e-06 -3" ]] || fail "numbers are misread: $(cat "$work/output")"
+
+# A folder of tests as ctest sees them: one of each kind.
+mkdir tests
+cat >tests/CTestTestfile.cmake <<'CMAKE'
+add_test(good true)
+add_test(bad false)
+add_test(skipped bash -c "echo 'skipped: gnuplot: not installed'; exit 77")
+set_tests_properties(skipped PROPERTIES SKIP_RETURN_CODE 77)
+CMAKE
+(cd tests && ctest >"$work/ctest_log" 2>&1) && fail "ctest passes though a test fails"
+expect_exit 0 script "count_tests $work/ctest_log; skip_reasons $work/tests/Testing/Temporary/LastTest.log"
+expect_output "1 1 1 Skipped (tests, reason): 1 gnuplot: not installed"
+expect_exit 0 script "count_tests /dev/null"
+expect_output "0 1 0"
+expect_exit 2 "$source_folder/scripts/test" quik
+expect_output "unknown argument 'quik'; try --help"

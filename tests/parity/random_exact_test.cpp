@@ -15,6 +15,7 @@
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "support/build_speed.hpp"
+#include "support/campaign.hpp"
 #include "support/example_fit.hpp"
 #include "support/random_models.hpp"
 #include "support/temporary_folder.hpp"
@@ -24,7 +25,6 @@ using namespace remap;
 
 namespace {
 
-constexpr int kModels = kSlowBuild ? 20 : 200;
 constexpr int kModelsInFile = 25;
 constexpr std::size_t kTexels = 600;
 constexpr double kRounding =
@@ -64,7 +64,7 @@ Fit random_fit(const std::string& kind, std::uint64_t seed) {
 
 std::vector<Header> exact_headers(const std::string& kind) {
   std::vector<Header> headers;
-  for (std::uint64_t seed = 0; seed < kModels; ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(campaign_length(200)); ++seed) {
     const Fit fit = random_fit(kind, seed);
     const remapc::MappingCode code =
         std::visit([&](const auto& mapping) { return remapc::exact_code(mapping, fit.domain); }, fit.mapping);
@@ -75,10 +75,10 @@ std::vector<Header> exact_headers(const std::string& kind) {
 }
 
 // Those that are not refused.
-std::vector<Header> lowered_headers(const std::string& kind, std::uint64_t models) {
+std::vector<Header> lowered_headers(const std::string& kind, int models) {
   std::vector<Header> headers;
   const LoweringOptions options{1e-3, 1e-3, 2048};
-  for (std::uint64_t seed = 0; seed < models; ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(models); ++seed) {
     const Fit fit = random_fit(kind, seed);
     try {
       const Lowered lowered = lower(fit.mapping, fit.domain, options);
@@ -277,32 +277,34 @@ void check_exact(const std::string& kind) {
   CHECK(share_of_close(headers) >= 0.6);
 }
 
-void check_lowered(const std::string& kind, std::uint64_t models = kModels) {
+void check_lowered(const std::string& kind, int models = campaign_length(200)) {
   const std::vector<Header> headers = lowered_headers(kind, models);
-  CHECK(headers.size() >= models / 2);
+  CHECK(headers.size() >= static_cast<std::size_t>(models) / 2);
   check_headers("lowered " + kind, headers);
 }
 
 }  // namespace
 
-TEST_CASE("exact headers: random parametric fits agree with the interpreter as promised", "[slow]") {
+TEST_CASE("exact headers: random parametric fits agree with the interpreter as promised",
+          "[slow][campaign]") {
   check_exact("parametric");
 }
-TEST_CASE("exact headers: random sums of Gaussians agree with the interpreter as promised", "[slow]") {
+TEST_CASE("exact headers: random sums of Gaussians agree with the interpreter as promised",
+          "[slow][campaign]") {
   check_exact("svr");
 }
-TEST_CASE("exact headers: random networks agree with the interpreter as promised", "[slow]") {
+TEST_CASE("exact headers: random networks agree with the interpreter as promised", "[slow][campaign]") {
   check_exact("mlp");
 }
-TEST_CASE("lowered headers: random parametric fits give the bits of the lowered form", "[slow]") {
+TEST_CASE("lowered headers: random parametric fits give the bits of the lowered form", "[slow][campaign]") {
   check_lowered("parametric");
 }
-TEST_CASE("lowered headers: random sums of Gaussians give the bits of the lowered form", "[slow]") {
+TEST_CASE("lowered headers: random sums of Gaussians give the bits of the lowered form", "[slow][campaign]") {
   check_lowered("svr");
 }
-TEST_CASE("lowered headers: random networks give the bits of the lowered form", "[slow]") {
+TEST_CASE("lowered headers: random networks give the bits of the lowered form", "[slow][campaign]") {
   check_lowered("mlp");
 }
-TEST_CASE("lowered headers: random chains give the bits of the lowered form", "[slow]") {
-  check_lowered("chain", kModels / 5);
+TEST_CASE("lowered headers: random chains give the bits of the lowered form", "[slow][campaign]") {
+  check_lowered("chain", campaign_length(200) / 5);
 }

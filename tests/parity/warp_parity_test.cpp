@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
-#include <iostream>
 #include <limits>
 
 #include <catch2/catch.hpp>
@@ -12,6 +11,7 @@
 #include "convert/warp_kernel.hpp"
 #include "emit/emit.hpp"
 #include "support/random_warp.hpp"
+#include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/warp_rows.hpp"
 #include "system/files.hpp"
@@ -75,10 +75,7 @@ std::vector<WarpMapFit> probed_models() {
 // None where the compiler is not installed.
 const Entry* build(const TemporaryFolder& folder, const std::vector<WarpMapFit>& fits,
                    const std::string& compiler, const std::string& flags) {
-  if (std::system((compiler + " --version >/dev/null 2>&1").c_str()) != 0) {
-    std::cout << "skipped: " << compiler << " is not installed\n";
-    return nullptr;
-  }
+  if (!has_program(compiler)) return nullptr;
   std::string includes, entries;
   for (const WarpMapFit& fit : fits) {
     write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit));
@@ -174,6 +171,5 @@ void check_headers(const std::string& compiler, const std::string& flags, bool f
 TEST_CASE("warp headers: the bits of the library by gcc") { check_headers("g++", "-O2", false); }
 TEST_CASE("warp headers: the bits of the library by clang") { check_headers("clang++", "-O2", false); }
 TEST_CASE("warp headers: rows as single texels where products and sums are fused") {
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    check_headers("g++", "-O2 -march=x86-64-v3", true);
+  if (has_avx2()) check_headers("g++", "-O2 -march=x86-64-v3", true);
 }

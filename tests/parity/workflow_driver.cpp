@@ -1,84 +1,139 @@
-// Runs one header of a workflow conversion over texels from a file: HEADER and CONVERTER come from the
-// command line of the compiler. Says on standard error where the header contradicts itself; writes its rows,
-// then the number of texels outside.
-#include HEADER
-
+// Runs headers of workflow conversions over texels from files. The test writes headers.hpp, which includes
+// them, and entries.inc, a line ENTRY(ID) for each. Says on standard error where a header contradicts itself.
 #include <cstdio>
+#include <cstring>
+#include <string>
 #include <vector>
 
-namespace converter = remap::CONVERTER;
+#include "headers.hpp"
 
 namespace {
 
-constexpr std::size_t kIn = converter::kInputRows, kOut = converter::kOutputRows;
 using Rows = std::vector<std::vector<float>>;
+
+// The entry points of one header.
+struct Converter {
+  const char* id;
+  std::size_t input_rows, output_rows;
+  bool (*self_test)();
+  bool (*in_domain)(const float* in);
+  void (*evaluate)(const float* in, float* out);
+  std::size_t (*evaluate_rows)(std::size_t count, const std::vector<const float*>& in,
+                               const std::vector<float*>& out);
+};
+
+template <typename Input>
+Input input_of(const float* in) {
+  Input texel{};
+  std::memcpy(&texel, in, sizeof texel);
+  return texel;
+}
+
+#define ENTRY(ID)                                                                               \
+  {#ID,                                                                                         \
+   remap::ID::kInputRows,                                                                       \
+   remap::ID::kOutputRows,                                                                      \
+   remap::ID::self_test,                                                                        \
+   [](const float* in) { return remap::ID::in_domain(input_of<remap::ID::Input>(in)); },        \
+   [](const float* in, float* out) {                                                            \
+     static_assert(sizeof(remap::ID::Input) == remap::ID::kInputRows * sizeof(float));          \
+     static_assert(sizeof(remap::ID::Output) == remap::ID::kOutputRows * sizeof(float));        \
+     const remap::ID::Output result = remap::ID::evaluate(input_of<remap::ID::Input>(in));      \
+     std::memcpy(out, &result, sizeof result);                                                  \
+   },                                                                                           \
+   [](std::size_t count, const std::vector<const float*>& in, const std::vector<float*>& out) { \
+     std::array<const float*, remap::ID::kInputRows> from{};                                    \
+     std::array<float*, remap::ID::kOutputRows> to{};                                           \
+     for (std::size_t r = 0; r < from.size(); ++r) from[r] = in[r];                             \
+     for (std::size_t r = 0; r < to.size(); ++r) to[r] = out[r];                                \
+     return remap::ID::evaluate_rows(count, from, to);                                          \
+   }},
+const Converter kConverters[] = {CONVERTERS(ENTRY)};
 
 int fail(const char* what) {
   std::fprintf(stderr, "%s\n", what);
   return 1;
 }
 
-std::size_t run(const Rows& in, Rows& out, std::size_t first, std::size_t count) {
-  std::array<const float*, kIn> from{};
-  std::array<float*, kOut> to{};
-  for (std::size_t r = 0; r < kIn; ++r) from[r] = in[r].data() + first;
-  for (std::size_t r = 0; r < kOut; ++r) to[r] = out[r].data() + first;
-  return converter::evaluate_rows(count, from, to);
+std::size_t run(const Converter& converter, const Rows& in, Rows& out, std::size_t first, std::size_t count) {
+  std::vector<const float*> from;
+  std::vector<float*> to;
+  for (std::size_t r = 0; r < converter.input_rows; ++r) from.push_back(in[r].data() + first);
+  for (std::size_t r = 0; r < converter.output_rows; ++r) to.push_back(out[r].data() + first);
+  return converter.evaluate_rows(count, from, to);
 }
 
+// The rows that the header writes, of the first.
 bool same(const Rows& a, const Rows& b) {
-  for (std::size_t r = 0; r < kOut; ++r)
+  for (std::size_t r = 0; r < a.size() && r < b.size(); ++r)
     if (std::memcmp(a[r].data(), b[r].data(), a[r].size() * sizeof(float)) != 0) return false;
   return true;
 }
 
-}  // namespace
-
-int main(int, char** argv) {
-  static_assert(sizeof(converter::Input) == kIn * sizeof(float));
-  static_assert(sizeof(converter::Output) == kOut * sizeof(float));
-  std::vector<float> texels;
-  std::FILE* input = std::fopen(argv[1], "rb");
-  if (input == nullptr) return fail("cannot read");
-  for (float value = 0.0f; std::fread(&value, sizeof value, 1, input) == 1;) texels.push_back(value);
-  std::fclose(input);
-  const std::size_t count = texels.size() / kIn;
-  Rows in(kIn), all(kOut), parts(kOut), single(kOut);
-  for (std::size_t r = 0; r < kIn; ++r) in[r].assign(&texels[r * count], &texels[r * count] + count);
-  for (Rows* rows : {&all, &parts, &single}) rows->assign(kOut, std::vector<float>(count));
-
-  if (!converter::self_test()) return fail("self-test failed");
-  const std::size_t outside = run(in, all, 0, count);
+// Whether the entry points agree over `in`, whose result goes to `all`. 0 where they do.
+int check(const Converter& converter, const Rows& in, Rows& all, std::size_t& outside) {
+  const std::size_t count = in[0].size(), in_rows = converter.input_rows, out_rows = converter.output_rows;
+  all.assign(out_rows, std::vector<float>(count));
+  Rows parts = all, single = all;
+  if (!converter.self_test()) return fail("self-test failed");
+  outside = run(converter, in, all, 0, count);
   std::size_t sum = 0, outside_one = 0;
   for (std::size_t first = 0, size = 1; first < count; first += size, size = size % 37 + 1)
-    sum += run(in, parts, first, size < count - first ? size : count - first);
+    sum += run(converter, in, parts, first, size < count - first ? size : count - first);
   if (sum != outside) return fail("parts count other texels outside");
   if (!same(parts, all)) return fail("parts differ from the whole");
+  std::vector<float> from(in_rows), to(out_rows);
   for (std::size_t i = 0; i < count; ++i) {
-    float from[kIn], to[kOut];
-    for (std::size_t r = 0; r < kIn; ++r) from[r] = in[r][i];
-    converter::Input texel{};
-    std::memcpy(&texel, from, sizeof texel);
-    const converter::Output result = converter::evaluate(texel);
-    std::memcpy(to, &result, sizeof result);
-    for (std::size_t r = 0; r < kOut; ++r) single[r][i] = to[r];
-    outside_one += converter::in_domain(texel) ? 0 : 1;
+    for (std::size_t r = 0; r < in_rows; ++r) from[r] = in[r][i];
+    converter.evaluate(from.data(), to.data());
+    for (std::size_t r = 0; r < out_rows; ++r) single[r][i] = to[r];
+    outside_one += converter.in_domain(from.data()) ? 0 : 1;
   }
   if (!same(single, all)) return fail("single texels differ from rows");
   if (outside_one != outside) return fail("in_domain disagrees with rows");
 
   Rows in_place = in;
-  in_place.resize(kIn > kOut ? kIn : kOut, std::vector<float>(count));
-  run(in_place, in_place, 0, count);
-  in_place.resize(kOut);
-  if (!same(in_place, all)) return fail("in place differs");
+  if (in_place.size() < out_rows) in_place.resize(out_rows, std::vector<float>(count));
+  run(converter, in_place, in_place, 0, count);
+  return same(in_place, all) ? 0 : fail("in place differs");
+}
 
-  std::FILE* output = std::fopen(argv[2], "wb");
-  if (output == nullptr) return fail("cannot write");
+Rows read(const std::string& path, std::size_t row_count) {
+  std::vector<float> texels;
+  std::FILE* input = std::fopen(path.c_str(), "rb");
+  for (float value = 0.0f; input != nullptr && std::fread(&value, sizeof value, 1, input) == 1;)
+    texels.push_back(value);
+  if (input != nullptr) std::fclose(input);
+  const std::size_t count = texels.size() / row_count;
+  Rows rows(row_count);
+  for (std::size_t r = 0; r < row_count; ++r) rows[r].assign(&texels[r * count], &texels[r * count] + count);
+  return rows;
+}
+
+// Rows one after the other, then the number of texels outside.
+bool write(const std::string& path, const Rows& rows, std::size_t outside) {
+  std::FILE* output = std::fopen(path.c_str(), "wb");
+  if (output == nullptr) return false;
   bool written = true;
-  for (const auto& row : all)
-    written = written && std::fwrite(row.data(), sizeof(float), count, output) == count;
+  for (const auto& row : rows)
+    written = written && std::fwrite(row.data(), sizeof(float), row.size(), output) == row.size();
   const float number = static_cast<float>(outside);
   written = written && std::fwrite(&number, sizeof number, 1, output) == 1;
-  return std::fclose(output) == 0 && written ? 0 : 1;
+  return std::fclose(output) == 0 && written;
+}
+
+}  // namespace
+
+// Usage: workflow_driver FOLDER. Of each header: FOLDER/ID.in to FOLDER/ID.out.
+int main(int argc, char** argv) {
+  if (argc != 2) return fail("usage");
+  for (const Converter& converter : kConverters) {
+    const std::string path = std::string(argv[1]) + "/" + converter.id;
+    Rows all;
+    std::size_t outside = 0;
+    if (check(converter, read(path + ".in", converter.input_rows), all, outside) != 0)
+      return fail(converter.id);
+    if (!write(path + ".out", all, outside)) return fail("cannot write");
+  }
+  return 0;
 }

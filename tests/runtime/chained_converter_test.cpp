@@ -23,7 +23,8 @@ class InTurn final : public Converter {
   explicit InTurn(Steps steps) : Converter(steps.front()->info()), steps_(std::move(steps)) {}
 
   std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out) const override {
+                      float* roughness_out, std::span<float* const> specular_out,
+                      std::uint8_t* flags) const override {
     std::vector<bool> outside(count, false);
     std::vector<const float*> in(specular.begin(), specular.end());
     const float* width = roughness;
@@ -34,6 +35,7 @@ class InTurn final : public Converter {
       width = roughness_out;
       in.assign(specular_out.begin(), specular_out.end());
     }
+    if (flags != nullptr) std::copy(outside.begin(), outside.end(), flags);
     return static_cast<std::size_t>(std::count(outside.begin(), outside.end(), true));
   }
   bool self_test() const override { return true; }
@@ -109,13 +111,13 @@ TEST_CASE("chained converter: gives the bits of its steps one after another, and
   }
 }
 
-TEST_CASE("chained converter: rows around the length of its blocks, and two channels") {
+TEST_CASE("chained converter: rows around the length of its blocks, grey and RGB") {
   const SteppedFits chain(three_fits());
   const auto chained = make_chained_converter(chain.steps);
   const InTurn in_turn(chain.steps);
   const TexelRows texels = odd_and_random_texels(chain.steps.front()->info(), 2000);
   for (const std::size_t count : {511u, 512u, 513u, 1023u, 1024u, 1025u, 2047u, 2049u})
-    for (const std::size_t channels : {1u, 2u, 3u})
+    for (const std::size_t channels : {1u, 3u})
       for (const bool in_place : {false, true}) {
         INFO(count << " texels of " << channels << " channels");
         const Converted a = converted(*chained, texels, 100, count, channels, in_place);

@@ -1,4 +1,4 @@
-// The conversion of buffers in memory against the converter applied texel by texel.
+// The conversion of buffers in memory, compared with the converter applied to each texel.
 #include "texture/convert_maps.hpp"
 
 #include <cmath>
@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::size_t kWidth = 61, kHeight = 37;
 
-// Interleaved texels of roughness, red, green, blue and two values of somebody else's, rows padded.
+// Interleaved texels of roughness, red, green, blue and two foreign values, with padded rows.
 struct Buffer {
   static constexpr std::size_t kValues = 6, kRow = kWidth * kValues + 3;
   std::vector<float> values = std::vector<float>(kRow * kHeight, -7.0f);
 
   float& at(std::size_t x, std::size_t y, std::size_t c) { return values[y * kRow + x * kValues + c]; }
-  // Upside down where asked: the first row is the last in memory.
+  // If `flipped`, the first row is the last in memory.
   ChannelView channel(std::size_t c, bool flipped = false) {
     ChannelView view = float_channel(&at(0, flipped ? kHeight - 1 : 0, c), kWidth, kValues);
     view.row_stride = static_cast<std::ptrdiff_t>(kRow * sizeof(float)) * (flipped ? -1 : 1);
@@ -86,7 +86,7 @@ TEST_CASE("convert_maps: strided, padded, flipped and shared buffers, on any num
   CHECK(result.values.back() == -7.0f);  // padding
 }
 
-TEST_CASE("convert_maps: the mask marks each texel that the converter counts by itself") {
+TEST_CASE("convert_maps: the mask marks each texel that the converter counts as outside") {
   const auto converter = make_interpreted_converter(example_fit());
   Buffer from = noisy_buffer(), to;
   for (std::size_t x = 3; x < kWidth; x += 7) from.at(x, x % kHeight, 0) = 2.0f;
@@ -109,7 +109,7 @@ TEST_CASE("convert_maps: the mask marks each texel that the converter counts by 
   CHECK(statistics.out_of_domain_count == marked);
 }
 
-TEST_CASE("convert_maps: statistics are those of all values, whatever the threads") {
+TEST_CASE("convert_maps: statistics cover all values, for any number of threads") {
   const auto converter = make_interpreted_converter(example_fit());
   Buffer from = noisy_buffer(), to;
   from.at(50, 20, 2) = NAN;
@@ -134,12 +134,12 @@ TEST_CASE("convert_maps: statistics are those of all values, whatever the thread
     CHECK(bins == one.sources.at(Parameter::kSpecular).histogram);
     CHECK(statistics.targets.at(Parameter::kWidth).max == one.targets.at(Parameter::kWidth).max);
   }
-  // Noise is even: every bin holds about its share.
+  // The noise is uniform, so every bin holds about its share.
   for (const std::size_t count : one.sources.at(Parameter::kSpecular).histogram)
     CHECK(static_cast<double>(count) == Approx(3.0 * kWidth * kHeight / 32.0).epsilon(0.3));
 }
 
-TEST_CASE("convert_maps: widths in every encoding are the same widths") {
+TEST_CASE("convert_maps: every encoding of roughness gives the same result") {
   const auto converter = make_interpreted_converter(example_fit());
   const RoughnessConvention own = converter->info().source.roughness,
                             target = converter->info().target.roughness;
@@ -187,10 +187,10 @@ TEST_CASE("convert_maps: dithering keeps the mean and is the same in every run a
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   };
   CHECK(mean(whole) == Approx(exact).margin(0.01));
-  CHECK(std::fabs(mean(plain) - exact) > 0.05);  // or the line before shows nothing
+  CHECK(std::fabs(mean(plain) - exact) > 0.05);  // otherwise the line before proves nothing
 }
 
-TEST_CASE("convert_maps: what does not fit together is refused") {
+TEST_CASE("convert_maps: channels that do not match the converter are refused") {
   const auto converter = make_interpreted_converter(example_fit());
   Buffer from = noisy_buffer(), to;
   const auto refused = [&](auto change, const std::string& message) {
@@ -199,11 +199,11 @@ TEST_CASE("convert_maps: what does not fit together is refused") {
     CHECK_THROWS_WITH(convert_maps(*converter, maps), Contains(message));
   };
   refused([](MapConversion& maps) { maps.sources[Parameter::kWidth].channels.clear(); },
-          "the roughness has no channel");
+          "roughness has no channel");
   refused([](MapConversion& maps) { maps.sources[Parameter::kSpecular].channels.pop_back(); },
           "specular has 2 channels");
   refused([](MapConversion& maps) { maps.targets[Parameter::kSpecular].channels.pop_back(); },
-          "expected the 3 of the source");
+          "but the converter makes 3");
   refused(
       [](MapConversion& maps) {
         maps.sources[Parameter::kSpecular].factors = {1.0f, 2.0f};
@@ -211,7 +211,7 @@ TEST_CASE("convert_maps: what does not fit together is refused") {
       "more factors than channels");
 }
 
-TEST_CASE("copy_channel: bits stay where the types are the same, values where they are not") {
+TEST_CASE("copy_channel: equal types keep bits, other types keep values") {
   const std::vector<std::uint32_t> bits = {0, 0x7fc12345u, 0xffffffffu, 1};  // a NaN with a payload
   std::vector<std::uint32_t> copy(4);
   const auto* first = reinterpret_cast<const std::byte*>(bits.data());
@@ -227,7 +227,7 @@ TEST_CASE("copy_channel: bits stay where the types are the same, values where th
   CHECK(clipped == 2);
 }
 
-TEST_CASE("transfer: sRGB goes back and forth, and meets at its joint") {
+TEST_CASE("transfer: sRGB is invertible and continuous") {
   for (float value = -0.5f; value < 2.0f; value += 0.00711f) {
     float changed = value;
     to_linear(Transfer::kSrgb, {&changed, 1});
@@ -240,7 +240,7 @@ TEST_CASE("transfer: sRGB goes back and forth, and meets at its joint") {
   CHECK(half == Approx(0.5029).margin(1e-4));
 }
 
-TEST_CASE("transfer: widths that no convention has are held") {
+TEST_CASE("transfer: invalid roughness is clamped") {
   float width = -0.5f;
   change_convention(RoughnessConvention::kRoughness, RoughnessConvention::kAlpha, {&width, 1});
   CHECK(width == 0.0f);

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "convert/shipped_converters.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "runtime/texel_rows.hpp"
@@ -38,7 +39,7 @@ TEST_CASE("converter: the interpreted one gives the interpreter's values") {
 }
 
 TEST_CASE("converter: an output row may be its input row") {
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     std::array<float, 2> roughness = {0.2f, 0.9f}, specular = {0.1f, 0.3f}, roughness_out{}, specular_out{};
     const std::array<const float*, 1> in = {specular.data()};
     const std::array<float*, 1> apart = {specular_out.data()}, same = {specular.data()};
@@ -50,9 +51,9 @@ TEST_CASE("converter: an output row may be its input row") {
 }
 
 TEST_CASE("converter: every instruction set computes the same bits") {
-  const auto& baseline = compiled_converters(InstructionSet::kBaseline);
+  const auto& baseline = shipped_converters(InstructionSet::kBaseline);
   for (const InstructionSet set : instruction_sets()) {
-    const auto& converters = compiled_converters(set);
+    const auto& converters = shipped_converters(set);
     REQUIRE(converters.size() == baseline.size());
     for (std::size_t i = 0; i < converters.size(); ++i) {
       INFO(converters[i]->info().id << " on " << instruction_set_name(set));
@@ -65,7 +66,7 @@ TEST_CASE("converter: every instruction set computes the same bits") {
 
 TEST_CASE("converter: compiled ones are sorted, tested and found by their models") {
   std::string last;
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     const ConverterInfo& info = converter->info();
     CHECK(last < info.id);
     last = info.id;
@@ -77,7 +78,7 @@ TEST_CASE("converter: compiled ones are sorted, tested and found by their models
     CHECK(info.image_rms_error.value_or(1.0) > 0.0);
     CHECK(info.steps.empty());
   }
-  CHECK_FALSE(compiled_converters().empty());
+  CHECK_FALSE(shipped_converters().empty());
 }
 
 TEST_CASE("converter: a pair that no converter joins is refused") {
@@ -91,6 +92,6 @@ TEST_CASE("converter: two specular channels are refused") {
   std::array<float, 1> out{};
   const std::array<const float*, 2> in = {row.data(), row.data()};
   const std::array<float*, 2> specular_out = {out.data(), out.data()};
-  for (const auto& converter : compiled_converters())
+  for (const auto& converter : shipped_converters())
     CHECK_THROWS_AS(converter->convert(1, row.data(), in, out.data(), specular_out), Error);
 }

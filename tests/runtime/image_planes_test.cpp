@@ -23,7 +23,7 @@ struct Plane {
   }
 };
 
-// By OpenImageIO alone; no plane: an empty description.
+// Reads with OpenImageIO alone; the description is empty if the plane does not exist.
 Plane read_plane(const fs::path& path, int part, int level) {
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
@@ -88,7 +88,7 @@ MapStatistics convert(const std::string& roughness, const std::string& specular,
 
 }  // namespace
 
-TEST_CASE("image planes: every mip level is converted by itself") {
+TEST_CASE("image planes: every mip level is converted separately") {
   const auto converter = make_interpreted_converter(example_fit());
   const TemporaryFolder folder;
   const std::string extension = GENERATE("exr", "tif");
@@ -121,21 +121,21 @@ TEST_CASE("image planes: every mip level is converted by itself") {
   CHECK(level >= 6);
 }
 
-TEST_CASE("image planes: maps whose levels do not match are refused") {
+TEST_CASE("image planes: maps with different numbers of levels are refused") {
   const auto converter = make_interpreted_converter(example_fit());
   const TemporaryFolder folder;
   write_levels(folder.path() / "r.exr", {"Y"}, 64, 64);
   write_image(folder.path() / "s.exr", test_spec(64, 64, {"R", "G", "B"}, OIIO::TypeHalf), noise);
   CHECK_THROWS_WITH(convert((folder.path() / "r.exr").string(), (folder.path() / "s.exr").string(),
                             folder.path() / "out", *converter),
-                    Contains("s.exr: has 1 mip levels; expected 7"));
+                    Contains("s.exr: number of mip levels is 1, but other maps of the set have 7"));
   CHECK(fs::is_empty(folder.path() / "out"));
-  // A number has every level.
+  // A number serves every mip level.
   CHECK_NOTHROW(convert((folder.path() / "r.exr").string(), "0.5", folder.path() / "out", *converter));
   CHECK(read_plane(folder.path() / "out" / "specular.exr", 0, 3).spec.width == 8);
 }
 
-TEST_CASE("image planes: parts hold parameters, and the others stay") {
+TEST_CASE("image planes: parts with parameters are converted, the others are unchanged") {
   const auto converter = make_interpreted_converter(example_fit());
   const TemporaryFolder folder;
   const std::string extension = GENERATE("exr", "tif");
@@ -153,9 +153,8 @@ TEST_CASE("image planes: parts hold parameters, and the others stay") {
   if (is_exr) {
     convert(path + ":rough.width", path + ":base.R,base.G,base.B", folder.path() / "out", *converter);
   } else {
-    // TIFF names no channels and no parts: its colors are found, one grey part among two is not.
-    CHECK_THROWS_WITH(convert(path, path, folder.path() / "out", *converter),
-                      Contains("several have such channels"));
+    // TIFF has no names of channels or parts: colors are found, one of two grey parts is not.
+    CHECK_THROWS_WITH(convert(path, path, folder.path() / "out", *converter), Contains("have such channels"));
     convert("0.5", path + ":R,G,B", folder.path() / "out", *converter);
   }
   const Plane base = read_plane(file, 0, 0), rough = read_plane(file, 2, 0), base_out = read_plane(out, 0, 0),

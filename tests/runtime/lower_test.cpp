@@ -17,6 +17,7 @@
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "support/build_speed.hpp"
+#include "support/campaign.hpp"
 #include "support/random_models.hpp"
 #include "text/number_text.hpp"
 
@@ -24,7 +25,6 @@ using namespace remap;
 
 namespace {
 
-constexpr int kModels = kSlowBuild ? 20 : 200;
 constexpr int kPoints = kSlowBuild ? 5000 : 100000;
 
 // A texel that a converter may meet: floats within the domain.
@@ -198,7 +198,7 @@ void check_lowered(const RandomModel& model, const Lowered& lowered, std::uint64
 }
 
 // At least `share_met` of the models can be had within the tolerance.
-void check_kind(const std::string& kind, int models = kModels, double share_met = 0.6) {
+void check_kind(const std::string& kind, int models = campaign_length(200), double share_met = 0.6) {
   int met = 0, rising = 0;
   double slowest = 0.0;
   Worst worst;
@@ -227,11 +227,14 @@ void check_kind(const std::string& kind, int models = kModels, double share_met 
 
 }  // namespace
 
-TEST_CASE("lowered parametric fits: random ones keep their proven bound", "[slow]") {
+TEST_CASE("lowered parametric fits: random ones keep their proven bound", "[slow][campaign]") {
   check_kind("parametric");
 }
-TEST_CASE("lowered sums of Gaussians: random ones keep their proven bound", "[slow]") { check_kind("svr"); }
-TEST_CASE("lowered networks: random ones keep their proven bound", "[slow]") { check_kind("mlp"); }
-TEST_CASE("lowered chains: random ones keep their proven bound", "[slow]") {
-  check_kind("chain", kModels / 5, 0.4);  // each takes as long as its steps and all their products
+TEST_CASE("lowered sums of Gaussians: random ones keep their proven bound", "[slow][campaign]") {
+  check_kind("svr");
+}
+TEST_CASE("lowered networks: random ones keep their proven bound", "[slow][campaign]") { check_kind("mlp"); }
+TEST_CASE("lowered chains: random ones keep their proven bound", "[slow][campaign]") {
+  check_kind("chain", campaign_length(200) / 5,
+             0.4);  // each takes as long as its steps and all their products
 }

@@ -1,4 +1,4 @@
-// The field against what it must give where the answer is plain: constants, ramps, holes.
+// The field for cases with a known answer: constants, ramps, holes.
 #include "texture/metallic_field.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kSure = 0.05f, kGuess = 0.5f;
 
-// `texel(x, y)` gives metallic and its width.
+// `texel(x, y)` returns metallic and metallic_width.
 template <typename Texel>
 bool fill(MetallicField& field, std::size_t width, std::size_t height, const Texel& texel) {
   std::vector<float> metallic(width), metallic_width(width);
@@ -37,7 +37,7 @@ using Pair = std::pair<float, float>;
 
 }  // namespace
 
-TEST_CASE("metallic field: one texel that can tell speaks for all") {
+TEST_CASE("metallic field: one reliable texel fills the field") {
   const auto width = GENERATE(as<std::size_t>{}, 1, 5, 77), height = GENERATE(as<std::size_t>{}, 1, 50);
   MetallicField field(width, height);
   REQUIRE(fill(field, width, height, [&](std::size_t x, std::size_t y) {
@@ -47,7 +47,7 @@ TEST_CASE("metallic field: one texel that can tell speaks for all") {
     for (const float value : row(field, y, width)) REQUIRE(value == Approx(0.75f));
 }
 
-TEST_CASE("metallic field: a ramp stays one") {
+TEST_CASE("metallic field: a ramp is preserved") {
   constexpr std::size_t kSize = 256;
   MetallicField field(kSize, kSize);
   REQUIRE(fill(field, kSize, kSize, [](std::size_t x, std::size_t) {
@@ -58,7 +58,7 @@ TEST_CASE("metallic field: a ramp stays one") {
     REQUIRE(values[x] == Approx((static_cast<double>(x) + 0.5) / kSize).margin(1e-4));
 }
 
-TEST_CASE("metallic field: a hole between metal and plastic goes from one to the other without a jump") {
+TEST_CASE("metallic field: a hole between metal and plastic is filled smoothly") {
   constexpr std::size_t kSize = 256, kBegin = 64, kEnd = 192;
   MetallicField field(kSize, kSize);
   REQUIRE(fill(field, kSize, kSize, [](std::size_t x, std::size_t y) {
@@ -75,7 +75,7 @@ TEST_CASE("metallic field: a hole between metal and plastic goes from one to the
   }
 }
 
-TEST_CASE("metallic field: nothing that can tell is said, and masked texels count for nothing") {
+TEST_CASE("metallic field: a field without reliable texels is reported, and masked texels do not count") {
   constexpr std::size_t kSize = 16;
   const float kNan = std::numeric_limits<float>::quiet_NaN();
   MetallicField guesses(kSize, kSize);

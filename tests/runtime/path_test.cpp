@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
 
 using namespace remap;
@@ -18,7 +19,7 @@ class NamedConverter final : public Converter {
  public:
   explicit NamedConverter(ConverterInfo info) : Converter(std::move(info)) {}
   std::size_t convert(std::size_t, const float*, std::span<const float* const>, float*,
-                      std::span<float* const>) const override {
+                      std::span<float* const>, std::uint8_t*) const override {
     throw std::logic_error("a path was run");
   }
   bool self_test() const override { return true; }
@@ -257,17 +258,17 @@ TEST_CASE("path: an unknown model is answered with the nearest") {
   Converters converters;
   converters.add("mitsuba/ward", "mitsuba/as", 0.1);
   CHECK(refusal(converters, {"mitsuba/wrad", "mitsuba/as", {}}) ==
-        "mitsuba/wrad: is no source of a converter; did you mean mitsuba/ward?");
+        "mitsuba/wrad: is no source of a converter (did you mean mitsuba/ward?)");
   CHECK_THAT(refusal(converters, {"mitsuba/ward", "mitsuba/sa", {}}),
              Catch::Contains("mitsuba/sa: is no target of a converter"));
   CHECK_THAT(refusal(converters, {"mitsuba/ward", "mitsuba/as", {"mitsuba/wrd"}}),
-             Catch::Contains("mitsuba/wrd: is no model of a converter; did you mean mitsuba/ward?"));
+             Catch::Contains("mitsuba/wrd: is no model of a converter (did you mean mitsuba/ward?)"));
 }
 
 TEST_CASE("path: of what ships, one step is what one converter gives") {
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     const ConverterInfo& info = converter->info();
-    const auto paths = compiled_graph().find_paths({info.source.model, info.target.model, {}});
+    const auto paths = shipped_graph().find_paths({info.source.model, info.target.model, {}});
     CHECK(paths.front().steps.size() == 1);
     if (info.image_rms_error) CHECK(paths.front().steps.front()->info().id == info.id);
     CHECK(path_models(paths.front()).front() == info.source.model);

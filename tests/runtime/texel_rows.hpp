@@ -1,4 +1,4 @@
-// Rows of texels for tests of converters: at random, on edges, and what no map should hold.
+// Rows of texels for tests of converters: random texels, edges, and invalid values.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct TexelRows {
   std::array<std::vector<float>, 3> specular;
 };
 
-// Every pair of odd values in width and channel, then texels at random over and beyond the domain.
+// Every pair of special values in roughness and channel, then random texels inside and outside the domain.
 inline TexelRows odd_and_random_texels(const ConverterInfo& info, std::size_t random_count) {
   const auto odd_values = [](const Range& range) {
     const float low = static_cast<float>(range.min), high = static_cast<float>(range.max);
@@ -61,8 +61,8 @@ inline TexelRows odd_and_random_texels(const ConverterInfo& info, std::size_t ra
   return rows;
 }
 
-// Converts the first `count` texels, from the texel `first`, on the first `channels` channels; in place in a
-// copy, or into other rows.
+// Converts `count` texels from the texel `first` on, with the first `channels` channels, in place in a copy
+// or into other rows.
 struct Converted {
   TexelRows rows;
   std::size_t out_of_domain = 0;
@@ -87,7 +87,7 @@ inline Converted converted(const Converter& converter, const TexelRows& given, s
   return result;
 }
 
-// Whether every bit is the same; any NaN is as good as another.
+// Whether all bits are equal; all NaN count as equal.
 inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -96,7 +96,7 @@ inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) 
   return true;
 }
 
-// Whether `converter` gives the bits of `expected` on all of `texels`, on rows of many lengths, on one and on
+// Whether `converter` gives the bits of `expected` for all of `texels`, for rows of many lengths, one and
 // three channels, in place and not.
 inline bool same_bits(const Converter& converter, const Converter& expected, const TexelRows& texels) {
   const std::size_t all = texels.roughness.size();

@@ -1,4 +1,4 @@
-// The streaming pass against the converter applied texel by texel.
+// The streaming pass, compared with the converter applied to each texel.
 #include "texture/texture_pass.hpp"
 
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
 #include "support/example_fit.hpp"
 #include "support/temporary_folder.hpp"
@@ -85,7 +86,7 @@ void check_every_texel(const Scene& scene, const Converter& converter) {
 
 }  // namespace
 
-TEST_CASE("texture pass: equals the converter texel by texel, whatever the threads and the bands") {
+TEST_CASE("texture pass: equals the converter for each texel, for any threads and bands") {
   const auto converter = make_interpreted_converter(example_fit());
   const int tile = GENERATE(0, 48);
   const Scene scene(tile);
@@ -107,9 +108,9 @@ TEST_CASE("texture pass: equals the converter texel by texel, whatever the threa
   }
 }
 
-TEST_CASE("texture pass: the compiled converters give in a map what they give alone") {
+TEST_CASE("texture pass: compiled converters give the same results in a map as alone") {
   const Scene scene;
-  for (const auto& converter : compiled_converters()) {
+  for (const auto& converter : shipped_converters()) {
     scene.pass(*converter, {});
     check_every_texel(scene, *converter);
   }
@@ -122,7 +123,7 @@ TEST_CASE("texture pass: whole materials do not depend on threads and bands, smo
     write_image(folder.path() / name, test_spec(kWidth, kHeight, channels, OIIO::TypeFloat), texel);
     return MapName{folder.path() / name, {}};
   };
-  // Dark texels, of which metallic is a guess, in stripes between metal and plastic.
+  // Dark texels, whose metallic is undetermined, in stripes between metal and plastic.
   TextureSetRequest request;
   request.parameters[Parameter::kDiffuse].source = write("d.exr", {"R", "G", "B"}, [](int, int y, int c) {
     return y % 60 < 20 ? 0.0f : y % 60 < 40 ? 0.015f : 0.2f + 0.1f * noise(y, 0, c);
@@ -180,7 +181,7 @@ TEST_CASE("texture pass: odd values are counted by texel") {
   write_image(scene.specular, test_spec(kWidth, kHeight, {"R", "G", "B"}, OIIO::TypeFloat),
               [&](int x, int y, int c) {
                 if (y == 9 && c > 0 && x < 4) return -1.0f;  // two channels of four texels
-                if (y == 7 && c == 0 && x < 4) return NAN;   // three of them have a NaN width, too
+                if (y == 7 && c == 0 && x < 4) return NAN;   // three of them also have a NaN roughness
                 return 0.25f;
               });
   const auto converter = make_interpreted_converter(example_fit());
@@ -198,7 +199,7 @@ TEST_CASE("texture pass: odd values are counted by texel") {
   CHECK(std::isfinite(out.at(0, 8, 1)));
 }
 
-TEST_CASE("texture pass: cancelled, it says so and leaves no file") {
+TEST_CASE("texture pass: a cancelled pass throws and leaves no file") {
   const Scene scene;
   const auto converter = make_interpreted_converter(example_fit());
   const std::atomic<bool> cancelled{true};
@@ -223,7 +224,7 @@ TEST_CASE("texture pass: a roughness map that is not grey is refused with the te
               [](int x, int y, int c) { return x == 12 && y == 300 && c == 2 ? 0.75f : 0.5f; });
   const auto converter = make_interpreted_converter(example_fit());
   CHECK_THROWS_WITH(scene.pass(*converter, {}),
-                    Catch::Matchers::Contains("texel (12, 300) is not grey, R is 0.5 and B is 0.75"));
+                    Catch::Matchers::Contains("texel (12, 300) is not grey: R is 0.5 and B is 0.75"));
 }
 
 TEST_CASE("texture pass: a grey roughness map stays grey in all its channels") {

@@ -1,4 +1,4 @@
-// Which channels of which files a converter gets.
+// The choice of channels and files for the parameters of a converter.
 #include "texture/texture_set.hpp"
 
 #include <catch2/catch.hpp>
@@ -57,10 +57,10 @@ TEST_CASE("texture set: numbers are constants, anything else a file") {
   CHECK(map("a,b.exr").file == "a,b.exr");
   CHECK(map("").file == "");
   for (const char* bad : {"0.5,0.5", "-1", "1,2,3,4", "inf", "nan"})
-    CHECK_THROWS_WITH(constants(bad), Contains("--specular: is ") && Contains("expected a file"));
+    CHECK_THROWS_WITH(constants(bad), Contains("--specular: invalid value ") && Contains("give a file"));
 }
 
-TEST_CASE("texture set: a file and its channels are told apart at the last colon") {
+TEST_CASE("texture set: the last colon separates a file from its channels") {
   CHECK(map("orm.png:G").file == "orm.png");
   CHECK(map("orm.png:G").channels == std::vector<std::string>{"G"});
   CHECK(map("a:b/c.exr:R,G,B").file == "a:b/c.exr");
@@ -69,7 +69,7 @@ TEST_CASE("texture set: a file and its channels are told apart at the last colon
   CHECK(map("layers.exr:base.specular.R").channels == std::vector<std::string>{"base.specular.R"});
   CHECK(map(":G").file == ":G");
   for (const char* bad : {"a.png:", "a.png:R,G", "a.png:R,,B"}) CHECK_THROWS_AS(map(bad), Error);
-  // A file of the whole name comes first.
+  // A file with the whole name takes precedence.
   const Files files;
   const std::string odd = files.image("odd:G.exr", {"Y"}).string();
   CHECK(map(odd).file == odd);
@@ -79,12 +79,12 @@ TEST_CASE("texture set: factors are one or three numbers from 0") {
   CHECK(parse_factors("--specular-factor", "0.5") == std::vector<float>{0.5f});
   CHECK(parse_factors("--specular-factor", "1,0.5,0").size() == 3);
   for (const char* bad : {"x", "-1", "1,2", "inf", ""})
-    CHECK_THROWS_WITH(parse_factors("--specular-factor", bad), Contains("--specular-factor: is "));
+    CHECK_THROWS_WITH(parse_factors("--specular-factor", bad), Contains("--specular-factor: invalid value "));
   const Files files;
   TextureSetRequest request;
   request.parameters[Parameter::kWidth].source = MapName{files.image("r.exr", {"Y"}), {}};
   request.parameters[Parameter::kSpecular] = {kGrey, {1.0f, 1.0f, 1.0f}, std::nullopt};
-  CHECK_THROWS_WITH(open_texture_set(request), Contains("--specular-factor: has 3 values; expected one"));
+  CHECK_THROWS_WITH(open_texture_set(request), Contains("--specular-factor: has 3 values (give one"));
 }
 
 TEST_CASE("texture set: the roughness is the only channel, Y, or equal colors") {
@@ -107,25 +107,26 @@ TEST_CASE("texture set: a packed file is opened once") {
         std::vector<ChannelPlace>{{0, 0}, {0, 1}, {0, 2}});
 }
 
-TEST_CASE("texture set: a missing channel is answered with those that are there") {
+TEST_CASE("texture set: a missing channel is refused with the existing ones") {
   const Files files;
   const auto odd = files.image("odd.exr", {"first", "second"});
   const auto plain = files.image("plain.exr", {"Y"});
   CHECK_THROWS_WITH(opened(MapName{odd, {}}, kGrey),
                     Contains("has the channels first, second") && Contains("FILE:CHANNEL"));
   CHECK_THROWS_WITH(opened(MapName{plain, {}}, MapName{odd, {}}),
-                    Contains("odd.exr: has the channels first, second; expected R, G and B"));
-  CHECK_THROWS_WITH(opened(MapName{odd, {"secand"}}, kGrey), Contains("did you mean second?"));
+                    Contains("odd.exr: has the channels first, second instead of R, G and B"));
+  CHECK_THROWS_WITH(opened(MapName{odd, {"secand"}}, kGrey),
+                    Contains("no channel 'secand' (did you mean second?)"));
 }
 
 TEST_CASE("texture set: maps of different size are refused with both sizes") {
   const Files files;
   CHECK_THROWS_WITH(opened(MapName{files.image("r.exr", {"Y"}, 4, 3), {}},
                            MapName{files.image("s.exr", {"R", "G", "B"}, 8, 6), {}}),
-                    Contains("8 x 6") && Contains("4 x 3"));
+                    Contains("size 8x6 does not match") && Contains("(4x3)"));
 }
 
-TEST_CASE("texture set: color in whole numbers tagged sRGB is read as such, and said") {
+TEST_CASE("texture set: integer color tagged sRGB is read as sRGB, with a remark") {
   const Files files;
   auto spec = test_spec(4, 3, {"R", "G", "B"}, OIIO::TypeUInt8);
   const auto png = files.folder.path() / "s.png";
@@ -135,17 +136,17 @@ TEST_CASE("texture set: color in whole numbers tagged sRGB is read as such, and 
   const TextureSet tagged = opened(MapName{roughness, {}}, MapName{png, {}});
   CHECK(tagged.parameters.at(Parameter::kSpecular).transfer == Transfer::kSrgb);
   REQUIRE(remarks(tagged).size() == 1);
-  CHECK_THAT(remarks(tagged).front(), Contains("is read as color in sRGB"));
-  // One channel of it is data, and so are floats and every roughness.
+  CHECK_THAT(remarks(tagged).front(), Contains("is read as sRGB color"));
+  // A single channel is data, and so are floats and every roughness.
   CHECK(opened(MapName{roughness, {}}, MapName{png, {"G"}}).parameters.at(Parameter::kSpecular).transfer ==
         Transfer::kLinear);
   CHECK(opened(MapName{png, {}}, kGrey).parameters.at(Parameter::kWidth).transfer == Transfer::kLinear);
   CHECK(remarks(opened(MapName{roughness, {}}, MapName{files.image("s.exr", {"R", "G", "B"}), {}})).empty());
 }
 
-TEST_CASE("image reader: folders and parts that are not there are refused with the reason") {
+TEST_CASE("image reader: folders and missing parts are refused with the reason") {
   const Files files;
   CHECK_THROWS_WITH(ImageReader(files.folder.path()), Contains("is a folder"));
   CHECK_THROWS_WITH(ImageReader(files.image("one.exr", {"Y"}), 1),
-                    Contains("has 1 parts; expected a part 1"));
+                    Contains("part 1 not found (number of parts: 1)"));
 }

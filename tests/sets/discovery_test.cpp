@@ -1,4 +1,4 @@
-// Trees as people have them, and what may be wrong with them.
+// Discovery of sets in typical trees, and in trees with errors.
 #include <chrono>
 #include <iostream>
 #include <sys/stat.h>
@@ -10,7 +10,7 @@
 #include "remap/error.hpp"
 #include "sets/set_session.hpp"
 #include "support/shared_data.hpp"
-#include "system/files.hpp"
+#include "support/skip.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ std::vector<std::string> set_paths(const Discovery& discovery) {
   return paths;
 }
 
-// As an ordinary user, while it lives: nothing is unreadable to root.
+// Acts as an ordinary user during its lifetime, because root can read everything.
 class OrdinaryUser {
  public:
   OrdinaryUser() : changed_(::geteuid() == 0 && ::seteuid(65534) == 0) {}
@@ -55,7 +55,7 @@ TEST_CASE("find sets: several in a folder and in a tree, in the order of their p
   CHECK(set_paths(session.find(excluding)) == std::vector<std::string>{"a", "a/x", "b"});
 }
 
-TEST_CASE("find sets: images by extension, whatever its case") {
+TEST_CASE("find sets: images by extension, ignoring case") {
   const SetSession session{"a_rough.EXR", "b_rough.tif", "c_rough.TIFF", "d_rough.Jpg",  "e_rough.jpeg",
                            "f_rough.tga", "g_rough.bmp", "h_rough.hdr",  "i_rough.tx",   "j_rough.png",
                            "k_rough.txt", "l_rough",     "m_rough.psd",  "n_rough.json", "o_rough.png.bak"};
@@ -63,13 +63,13 @@ TEST_CASE("find sets: images by extension, whatever its case") {
         std::vector<std::string>{"a", "b", "c", "d", "e", "f", "g", "h", "i", "j"});
 }
 
-TEST_CASE("find sets: hidden files and unfinished results are left out") {
+TEST_CASE("find sets: hidden files and unfinished results are skipped") {
   const SetSession session{".a_rough.png", ".hidden/b_rough.png", "c_rough.png"};
   session.add(unfinished_name("d_rough.png").string());
   CHECK(set_paths(session.find()) == std::vector<std::string>{"c"});
 }
 
-TEST_CASE("find sets: two candidates for a role are a fault of their set alone") {
+TEST_CASE("find sets: two candidates for a role make only their set faulty") {
   const SetSession session{"a_rough.png",    "a_Roughness.exr", "b_roughness.png", "b_glossiness.png",
                            "c_orm.png",      "c_roughness.png", "d_rough.png",     "d_spec.png",
                            "d_specular.exr", "e_rough.png",     "f_rough_2k.png",  "f_rough_4k.png"};
@@ -81,19 +81,15 @@ TEST_CASE("find sets: two candidates for a role are a fault of their set alone")
     return set.remarks.front();
   };
   CHECK(remark("a") ==
-        "a: 2 maps for the width of the highlight: a_Roughness.exr (roughness), a_rough.png (roughness); "
-        "expected one");
+        "a: 2 roughness maps found: a_Roughness.exr (roughness), a_rough.png (roughness); keep one");
   CHECK(remark("b") ==
-        "b: 2 maps for the width of the highlight: b_glossiness.png (glossiness), b_roughness.png "
-        "(roughness); expected one");
+        "b: 2 roughness maps found: b_glossiness.png (glossiness), b_roughness.png (roughness); keep one");
   CHECK(remark("c") ==
-        "c: 2 maps for the width of the highlight: c_orm.png (roughness in G), c_roughness.png "
-        "(roughness); expected one");
+        "c: 2 roughness maps found: c_orm.png (roughness in G), c_roughness.png (roughness); keep one");
   CHECK(remark("d") ==
-        "d: 2 maps for specular: d_spec.png (specular), d_specular.exr (specular); expected one");
+        "d: 2 specular maps found: d_spec.png (specular), d_specular.exr (specular); keep one");
   CHECK(remark("f") ==
-        "f: 2 maps for the width of the highlight: f_rough_2k.png (roughness), f_rough_4k.png "
-        "(roughness); expected one");
+        "f: 2 roughness maps found: f_rough_2k.png (roughness), f_rough_4k.png (roughness); keep one");
   CHECK(set_at(found, "e").state == SetState::kReady);
   CHECK_FALSE(set_at(found, "a").width);
 }
@@ -104,13 +100,12 @@ TEST_CASE("find sets: a set without roughness or glossiness is skipped with the 
   for (const std::string name : {"rough_wood", "steel"}) {
     const FoundSet& set = set_at(found, name);
     CHECK(set.state == SetState::kSkipped);
-    CHECK(set.remarks ==
-          std::vector<std::string>{name + ": no map of roughness or glossiness; expected one"});
+    CHECK(set.remarks == std::vector<std::string>{name + ": no roughness or glossiness map found"});
   }
   CHECK(set_at(found, "rough_wood").bystanders.size() == 2);
 }
 
-TEST_CASE("find sets: a name that can be read in two ways is read as its neighbours are") {
+TEST_CASE("find sets: an ambiguous name is read like its neighbours") {
   const SetSession session{"dark_metallic_roughness.png",   "dark_metallic_base_color.png",
                            "helmet_metallic_roughness.png", "helmet_base_color.png",
                            "red_coat_roughness.png",        "red_coat_base_color.png",
@@ -126,7 +121,7 @@ TEST_CASE("find sets: a name that can be read in two ways is read as its neighbo
   CHECK(width("car") == "roughness of car_roughness.png");
 }
 
-TEST_CASE("find sets: a word that names things too needs a neighbour, a resolution or capitals") {
+TEST_CASE("find sets: an ordinary word needs a neighbour, a resolution or capitals") {
   const SetSession session{"robot_arm.png",   "left_Arm.png",    "brick_arm.png",  "brick_diff.png",
                            "tile_arm_2k.png", "T_Crate_ARM.png", "water_color.png"};
   const Discovery found = session.find();
@@ -135,7 +130,7 @@ TEST_CASE("find sets: a word that names things too needs a neighbour, a resoluti
   CHECK(use_text(set_at(found, "brick"), set_at(found, "brick").width) == "roughness in G of brick_arm.png");
 }
 
-TEST_CASE("find sets: a number before the word is a resolution, unless it tells sets apart") {
+TEST_CASE("find sets: a number before the word is a resolution, unless it distinguishes sets") {
   const SetSession same{"wood_1024_rough.png", "wood_2048_spec.png", "wood_normal.png"};
   CHECK(set_paths(same.find()) == std::vector<std::string>{"wood"});
   const SetSession apart{"wood_128_rough.png", "wood_256_rough.png", "wood_256_spec.png",
@@ -158,7 +153,7 @@ TEST_CASE("find sets: tiles that one map lacks") {
   CHECK(set.bystanders[1].missing_tiles == std::vector{1002, 1011});
 }
 
-TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are no text") {
+TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are not text") {
   const SetSession session{
       "old wood rough 2K.png", "old wood spec 2K.png", "K\xc3\xb6nig\xe2\x99\x9a_rough.png",
       "\xff\xfe_rough.png",    "a\nb_rough.png",       "a\nb_Roughness.png",
@@ -169,13 +164,12 @@ TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are no text") {
   CHECK(set_at(found, "old wood").specular);
   CHECK(set_at(found, "K\xc3\xb6nig\xe2\x99\x9a").state == SetState::kReady);
   CHECK(set_at(found, "a\nb").remarks.at(0) ==
-        "a\\nb: 2 maps for the width of the highlight: a\\nb_Roughness.png (roughness), a\\nb_rough.png "
-        "(roughness); "
-        "expected one");
+        "a\\nb: 2 roughness maps found: a\\nb_Roughness.png (roughness), a\\nb_rough.png (roughness); keep "
+        "one");
   CHECK(shown("tab\there\x1b") == "tab\\x09here\\x1b");
 }
 
-TEST_CASE("find sets: links that go round end, and a folder is found once, by its own name") {
+TEST_CASE("find sets: circular links end, and a folder is found once, by its own name") {
   const SetSession session{"a_rough.png", "z_real/b_rough.png", "z_real/deep/c_rough.png"};
   fs::create_directory_symlink(session.root(), session.root() / "z_real/deep/up");
   fs::create_directory_symlink(session.root() / "z_real", session.root() / "a_link");
@@ -193,7 +187,7 @@ TEST_CASE("find sets: a folder outside is found through its link") {
   CHECK(set_paths(session.find()) == std::vector<std::string>{"a", "library/b"});
 }
 
-TEST_CASE("find sets: a link to nothing and a pipe are problems, the rest is found") {
+TEST_CASE("find sets: a broken link and a pipe are problems, the rest is found") {
   const SetSession session{"a_rough.png"};
   fs::create_symlink("nowhere.png", session.root() / "b_rough.png");
   REQUIRE(::mkfifo((session.root() / "c_rough.png").c_str(), 0600) == 0);
@@ -212,7 +206,7 @@ TEST_CASE("find sets: an unreadable folder is a problem, the rest is found") {
   {
     const OrdinaryUser user;
     if (::access(session.root().c_str(), R_OK | X_OK) != 0 || ::geteuid() == 0) {
-      std::cout << "skipped: root reads every folder, and this process cannot be anybody else\n";
+      skip("permissions", "root reads every folder, and this process cannot be anybody else");
     } else {
       const Discovery found = session.find();
       CHECK(set_paths(found) == std::vector<std::string>{"a", "open/c"});
@@ -226,7 +220,7 @@ TEST_CASE("find sets: an unreadable folder is a problem, the rest is found") {
   fs::permissions(session.root() / "locked", fs::perms::owner_all);
 }
 
-TEST_CASE("find sets: a root that is none is refused") {
+TEST_CASE("find sets: a missing root is refused") {
   const SetSession session{"a_rough.png"};
   CHECK_THROWS_AS(find_sets(session.root() / "none", {}), Error);
   CHECK_THROWS_AS(find_sets(session.root() / "a_rough.png", {}), Error);

@@ -1,4 +1,4 @@
-// Sets as the tools write them, each with the names that its documentation gives.
+// Sets with the names from the documentation of the tools that write them.
 #include <map>
 
 #include <catch2/catch.hpp>
@@ -163,7 +163,7 @@ TEST_CASE("renderers: short words") {
   CHECK(use_text(steel, steel.specular) == "specular of steel_refl.tif");
 }
 
-TEST_CASE("read name: case and separators matter little") {
+TEST_CASE("read name: case and separators are ignored") {
   for (const std::string name :
        {"a_base_color", "a-Base-Color", "a BASE COLOR", "a.basecolor", "a_baseColor"})
     CHECK(built_in_naming().read(name).at(0).meaning ==
@@ -174,7 +174,7 @@ TEST_CASE("read name: case and separators matter little") {
   CHECK(stem("a_1024_rough") == "a");
 }
 
-TEST_CASE("read name: words inside other words and names of sets are none") {
+TEST_CASE("read name: words inside other words and names of sets do not count") {
   for (const std::string name :
        {"spectrum", "glossary", "through", "a_spectrum", "color_chart", "arms", "armchair_", "normalized_2k",
         "rough_sketch", "trough", "4k", "", "_", "1024"})
@@ -182,7 +182,7 @@ TEST_CASE("read name: words inside other words and names of sets are none") {
   CHECK(reading_text("rough_wood_diff_2k") == "Poly Haven: diffuse");
   CHECK(stem("rough_wood_diff_2k") == "rough_wood");
   CHECK(stem("glossy_tiles_Roughness") == "glossy_tiles");
-  // A capital begins a word only where the habit joins words so.
+  // A capital begins a word only for habits with `camel_case`.
   CHECK(reading_text("heroArm") == "none");
   CHECK(reading_text("heroSpecRough") == "Mari: roughness");
   CHECK(reading_text("rusty_metal_rough_4k") == "Poly Haven: roughness");

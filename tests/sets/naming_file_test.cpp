@@ -1,4 +1,4 @@
-// Files that extend the habits, and the complaints about those that are not of the form.
+// Files that extend the habits, and the errors in such files.
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
@@ -26,7 +26,7 @@ std::string with_rule(const std::string& rule) {
 
 }  // namespace
 
-TEST_CASE("naming file: its words are known beside the built-in ones, and win over them") {
+TEST_CASE("naming file: its words extend the built-in ones and take precedence") {
   const Naming naming = parse_naming(R"({
     "habits": [{"name": "ours", "camel_case": true, "resolution": "after", "rules": [
       {"words": ["srgh"], "role": "roughness"},
@@ -55,35 +55,35 @@ TEST_CASE("naming file: is used by a search for sets") {
   CHECK(use_text(set, set.specular) == "specular of wall_shine.png");
 }
 
-TEST_CASE("naming file: complaints name the field and what was expected") {
+TEST_CASE("naming file: errors name the field and the expected value") {
   CHECK(complaint("[") != "none");
-  CHECK(complaint("[]") == "names.json: is []; expected an object");
+  CHECK(complaint("[]") == "names.json: expected an object, found []");
   CHECK(complaint("{}") == "names.json: has no field \"habits\"");
-  CHECK(complaint(R"({"habits": []})") == "names.json.habits: is []; expected a list of at least 1");
-  CHECK(complaint(R"({"habit": []})") == "names.json: has an unknown field \"habit\"; did you mean habits?");
+  CHECK(complaint(R"({"habits": []})") == "names.json.habits: expected a list of at least 1, found []");
+  CHECK(complaint(R"({"habit": []})") == "names.json: unknown field 'habit' (did you mean habits?)");
   CHECK(complaint(with_rule(R"({"words": ["a"], "role": "rougness"})")) ==
-        "names.json.habits[0].rules[0].role: is no role: \"rougness\"; did you mean roughness?");
+        "names.json.habits[0].rules[0].role: unknown role 'rougness' (did you mean roughness?)");
   CHECK(complaint(with_rule(R"({"words": ["a"], "channels": {"X": "roughness"}})"))
-            .find("channels: has an unknown field \"X\"") != std::string::npos);
+            .find("channels: unknown field 'X'") != std::string::npos);
   CHECK(complaint(with_rule(R"({"words": [], "role": "roughness"})")) ==
-        "names.json.habits[0].rules[0].words: is []; expected a list of at least 1");
+        "names.json.habits[0].rules[0].words: expected a list of at least 1, found []");
   CHECK(complaint(with_rule(R"({"words": ["_"], "role": "roughness"})")) ==
-        "names.json.habits[0].rules[0].words[0]: is \"_\"; expected a word");
-  CHECK(complaint(with_rule(R"({"words": ["4K"], "role": "roughness"})")).find("neither resolution") !=
+        "names.json.habits[0].rules[0].words[0]: expected a word, found \"_\"");
+  CHECK(complaint(with_rule(R"({"words": ["4K"], "role": "roughness"})")).find("neither a resolution") !=
         std::string::npos);
-  CHECK(complaint(with_rule(R"({"words": ["PNG"], "role": "roughness"})")).find("nor format") !=
+  CHECK(complaint(with_rule(R"({"words": ["PNG"], "role": "roughness"})")).find("nor a format") !=
         std::string::npos);
   CHECK(complaint(R"({"habits": [{"name": "", "rules": [{"words": ["a"], "role": "ior"}]}]})") ==
-        "names.json.habits[0].name: is \"\"; expected a name");
+        "names.json.habits[0].name: expected a name, found \"\"");
   CHECK(complaint(
             R"({"habits": [{"name": "x", "resolution": "aftr",
       "rules": [{"words": ["a"], "role": "ior"}]}]})") ==
-        "names.json.habits[0].resolution: is no place of a resolution: \"aftr\"; did you mean after?");
+        "names.json.habits[0].resolution: unknown place of a resolution 'aftr' (did you mean after?)");
   CHECK(complaint(R"({"habits": [{"name": "x", "camel_case": 1,
                              "rules": [{"words": ["a"], "role": "ior"}]}]})") ==
-        "names.json.habits[0].camel_case: is 1; expected true or false");
+        "names.json.habits[0].camel_case: expected true or false, found 1");
   CHECK(complaint(with_rule(R"({"words": ["a"], "ordinary": "no", "role": "ior"})")) ==
-        "names.json.habits[0].rules[0].ordinary: is \"no\"; expected true or false");
+        "names.json.habits[0].rules[0].ordinary: expected true or false, found \"no\"");
 }
 
 TEST_CASE("naming file: a longer word of the built-in habits wins over its words") {
@@ -93,20 +93,21 @@ TEST_CASE("naming file: a longer word of the built-in habits wins over its words
 }
 
 TEST_CASE("naming file: rules that contradict themselves are refused") {
-  CHECK(complaint(with_rule(R"({"words": ["a"]})")).ends_with("expected either \"role\" or \"channels\""));
+  CHECK(complaint(with_rule(R"({"words": ["a"]})")).find("expected either \"role\" or \"channels\"") !=
+        std::string::npos);
   CHECK(complaint(with_rule(R"({"words": ["a"], "role": "ior", "channels": {"R": "ior"}})"))
-            .ends_with("expected either \"role\" or \"channels\""));
+            .find("expected either \"role\" or \"channels\"") != std::string::npos);
   CHECK(complaint(with_rule(R"({"words": ["a"], "channels": {"RGB": "specular", "R": "ior"}})"))
-            .ends_with("expected RGB or its channels one by one"));
+            .find("expected RGB or its channels one by one") != std::string::npos);
   CHECK(complaint(with_rule(R"({"words": ["a"], "channels": {"R": "roughness", "A": "glossiness"}})"))
-            .ends_with("expected at most one of roughness, glossiness and alpha_width"));
+            .find("expected at most one of roughness, glossiness and alpha_width") != std::string::npos);
   CHECK(complaint(with_rule(R"({"words": ["a"], "channels": {"R": "specular", "G": "specular"}})"))
-            .ends_with("expected specular at most once"));
+            .find("expected specular at most once") != std::string::npos);
   CHECK(complaint(with_rule(R"({"words": ["a_b"], "role": "ior"}, {"words": ["A-B"], "role": "height"})")) ==
-        "names.json.habits[0]: has two rules for the word \"ab\"; expected one");
+        "names.json.habits[0]: two rules for the word 'ab' (keep one)");
   CHECK(complaint(with_rule(R"({"words": ["a_b", "aB"], "role": "ior"})")) == "none");
 }
 
-TEST_CASE("naming file: one that is missing says so") {
+TEST_CASE("naming file: a missing file is an error") {
   CHECK_THROWS_AS(read_naming("no/such/names.json"), Error);
 }

@@ -1,4 +1,4 @@
-// Patterns of tiles and frames, and tiles that are recognised without one.
+// Patterns of tiles and frames, and tiles that are recognised without a pattern.
 #include "discovery/tiles.hpp"
 
 #include <fstream>
@@ -33,7 +33,7 @@ std::vector<std::string> group_names(const std::vector<std::string>& names) {
 
 }  // namespace
 
-TEST_CASE("tile pattern: every way to write a place") {
+TEST_CASE("tile pattern: every placeholder") {
   struct Way {
     std::string name;
     int number;
@@ -57,24 +57,24 @@ TEST_CASE("tile pattern: every way to write a place") {
   }
 }
 
-TEST_CASE("tile pattern: names without a place") {
+TEST_CASE("tile pattern: names without a placeholder") {
   for (const std::string name :
        {"a.1001.exr", "a.exr", "100%.png", "a%20b.png", "a%4d.png", "a%00d.png", "<udim>", ""})
     CHECK_FALSE(tile_pattern(name));
 }
 
-TEST_CASE("tile pattern: two places are refused, by name") {
+TEST_CASE("tile pattern: two placeholders are refused, by name") {
   CHECK(complaint("a.<UDIM>.####.exr") ==
-        "a.<UDIM>.####.exr: holds several places for a number, <UDIM> and ####; expected one");
+        "a.<UDIM>.####.exr: has two placeholders, <UDIM> and #### (use one)");
 }
 
-TEST_CASE("tile name: a number that no tile has is refused") {
+TEST_CASE("tile name: an invalid number is refused") {
   CHECK_THROWS_AS(tile_name(*tile_pattern("a.<UDIM>.exr"), 1000), Error);
   CHECK_THROWS_AS(tile_name(*tile_pattern("a.<UVTILE>.exr"), 2000), Error);
   CHECK_THROWS_AS(tile_name(*tile_pattern("a.####.exr"), -1), Error);
 }
 
-TEST_CASE("tile number: only the very name of a tile counts") {
+TEST_CASE("tile number: only the exact name of a tile counts") {
   const TilePattern udim = *tile_pattern("a.<UDIM>.exr");
   for (const std::string name :
        {"a.1000.exr", "a.2000.exr", "a.01001.exr", "a.1001.png", "b.1001.exr", "a..exr", "a.exr",
@@ -89,7 +89,7 @@ TEST_CASE("tile number: only the very name of a tile counts") {
     CHECK_FALSE(tile_number(uv, name));
 }
 
-TEST_CASE("tile number: u and v say the same tile as the UDIM, over all tiles") {
+TEST_CASE("tile number: u and v agree with the UDIM for all tiles") {
   const TilePattern udim = *tile_pattern("<UDIM>"), uv = *tile_pattern("<UVTILE>");
   for (int number = 1001; number <= 1999; ++number) {
     const int u = (number - 1001) % 10, v = (number - 1001) / 10;
@@ -114,7 +114,7 @@ TEST_CASE("group tiles: what is a tile and what is not") {
   CHECK(group_names({"1001.png", "1002.png"}) == std::vector<std::string>{"<UDIM>.png"});
   CHECK(group_names({"a_rough_u1_v1.tif", "a_rough_u2_v1.tif"}) ==
         std::vector<std::string>{"a_rough_<UVTILE>.tif"});
-  // A year, sizes, frames, numbers that are longer or part of a word.
+  // Not tiles: years, sizes, frames, longer numbers, and numbers within a word.
   for (const std::vector<std::string>& names :
        std::vector<std::vector<std::string>>{{"castle_1905_rough.png"},
                                              {"a_rough_1024.png"},
@@ -125,7 +125,7 @@ TEST_CASE("group tiles: what is a tile and what is not") {
                                              {"a.1000.png", "a.2000.png"},
                                              {"a_U1_V1.png"}})
     CHECK(group_names(names) == names);
-  // Beside other tiles 1024 is one.
+  // Next to other tiles, 1024 is a tile.
   CHECK(group_names({"a.1023.png", "a.1024.png"}) == std::vector<std::string>{"a.<UDIM>.png"});
   // Tiles of different formats are two maps.
   CHECK(group_names({"a.1001.exr", "a.1002.png"}).size() == 2);
@@ -136,7 +136,7 @@ TEST_CASE("group tiles: names with newlines and bytes beyond ASCII") {
         std::vector<std::string>{"K\xc3\xb6nig \xff.<UDIM>.png", "a\nb.<UDIM>.png"});
 }
 
-TEST_CASE("group tiles: every name is in one group, which makes it again") {
+TEST_CASE("group tiles: every name is in one group, which reproduces it") {
   const std::vector<std::string> parts = {"a",  "_",  ".",  "-",     "1001", "1002", "1024",
                                           "u1", "v1", "u2", "rough", "\n",   "4k"};
   std::mt19937 random(7);
@@ -159,7 +159,7 @@ TEST_CASE("group tiles: every name is in one group, which makes it again") {
   }
 }
 
-TEST_CASE("existing tiles: those of the folder, by number") {
+TEST_CASE("existing tiles: the tiles of the folder, by number") {
   const TemporaryFolder folder;
   for (const std::string name : {"a.1011.exr", "a.1001.exr", "a.0999.exr", "b.1001.exr", "a.1002.exr.bak"})
     std::ofstream(folder.path() / name).put('x');
@@ -188,7 +188,7 @@ TEST_CASE("existing tiles: the six of a real set") {
   CHECK(groups[0].numbers == numbers);
 }
 
-TEST_CASE("missing tiles: those that another map has, and a hole in all is none") {
+TEST_CASE("missing tiles: tiles that only other maps have; a gap in all maps does not count") {
   const std::vector<std::vector<int>> tiles = {{1001, 1011}, {1001}, {}, {1011, 1013}};
   CHECK(missing_tiles(tiles) == std::vector<std::vector<int>>{{1013}, {1011, 1013}, {}, {1001}});
 }

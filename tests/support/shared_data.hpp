@@ -3,13 +3,14 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <string>
+
+#include "support/skip.hpp"
 
 namespace remap {
 
 // `name` in the folder of shared data: REMAP_SHARED_DATA, or ../shared/data beside the source tree. Where it
-// is missing: an empty path, and a line that says which test is skipped for it.
+// is missing: an empty path, and the test counts as skipped.
 inline std::filesystem::path shared_data(const std::string& name) {
   const char* given = std::getenv("REMAP_SHARED_DATA");
   const std::filesystem::path folder =
@@ -17,7 +18,7 @@ inline std::filesystem::path shared_data(const std::string& name) {
                        : std::filesystem::path(REMAP_SOURCE_DIR) / ".." / "shared" / "data";
   const std::filesystem::path path = folder / name;
   if (std::filesystem::exists(path)) return path;
-  std::cout << "skipped: " << name << " is not in " << folder.lexically_normal().string() << "\n";
+  skip("shared-data", name + " is not in " + folder.lexically_normal().string());
   return {};
 }
 

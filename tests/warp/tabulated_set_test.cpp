@@ -1,4 +1,4 @@
-// Measured BRDFs: a model written in the format of the MERL database comes back as what it is.
+// Measured BRDFs: a model written in the format of the MERL database is read back as the same model.
 #include "warp/input/tabulated_set.hpp"
 
 #include <array>
@@ -16,15 +16,15 @@ using namespace remapc;
 
 namespace {
 
-// Directions of a cell's middle, from half and difference vector (Rusinkiewicz 1998), by rotating vectors:
-// shares nothing with the quadrature.
+// The directions at the center of a cell, from half and difference vector (Rusinkiewicz 1998), by rotation of
+// vectors. This is independent of the quadrature.
 LocalGeometry geometry_of_cell(int half, int difference, int azimuth) {
   using std::numbers::pi;
   const double t = (half + 0.5) / 90.0, theta_h = t * t * pi / 2.0,
                theta_d = (difference + 0.5) / 90.0 * pi / 2.0, phi_d = (azimuth + 0.5) / 180.0 * pi;
   const std::array<double, 3> d = {std::sin(theta_d) * std::cos(phi_d), std::sin(theta_d) * std::sin(phi_d),
                                    std::cos(theta_d)};
-  // The half vector stands in the xz plane: turned about y.
+  // The half vector is in the xz plane, so the rotation is about y.
   const auto turned = [&](const std::array<double, 3>& v) {
     return std::array{std::cos(theta_h) * v[0] + std::sin(theta_h) * v[2], v[1],
                       -std::sin(theta_h) * v[0] + std::cos(theta_h) * v[2]};
@@ -79,13 +79,13 @@ TEST_CASE("MERL: a model written as a measured BRDF is read as that model", "[wa
     squares += std::pow(static_cast<double>(samples[i]) - value, 2.0) * direction.weight;
     total += value * value * direction.weight;
   }
-  CHECK(std::sqrt(squares / total) < 0.03);  // cells of a degree
+  CHECK(std::sqrt(squares / total) < 0.03);  // cells are one degree wide
 }
 
 TEST_CASE("MERL: other files are refused", "[warp]") {
   const remap::TemporaryFolder folder;
   const auto file = folder.path() / "short.binary";
   std::ofstream(file, std::ios::binary) << "short";
-  CHECK_THROWS_WITH(read_merl(file), Catch::Contains("is no BRDF of the MERL database"));
+  CHECK_THROWS_WITH(read_merl(file), Catch::Contains("is not a BRDF of the MERL database"));
   CHECK_THROWS_WITH(read_merl(folder.path() / "none.binary"), Catch::Contains("none.binary"));
 }

@@ -1,4 +1,4 @@
-// Distances without a closed form, and materials that are tables: against the way of parameters, and against
+// Distances without a closed form and tabulated materials, compared with parametric materials and with
 // profiles whose distance is known.
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace remapc;
 
-// The material as a table of what its model gives: every texel an entry.
+// Evaluates a material into a table with one entry per texel.
 TabulatedMaterial tabulated(const WarpMaterial& material) {
   const auto directions = half_vector_quadrature();
   const auto rows = static_cast<Eigen::Index>(directions.size());
@@ -39,7 +39,7 @@ TabulatedMaterial tabulated(const WarpMaterial& material) {
   return table;
 }
 
-// RMS distance of the copies from the truth, as a share of the template's spread, by the relative distance.
+// RMS distance of the copies from the truth by the relative distance, relative to the template's spread.
 double error_of(const WarpSet& set, const AppearanceMatch& match, const MaterialRef& source,
                 const MaterialRef& target) {
   const FeaturePair features = appearance_features(set.source, set.target);
@@ -59,8 +59,7 @@ WarpOptions by(AppearanceDistance distance) {
   return options;
 }
 
-// Profiles exp(-r / length) of the albedo `albedo`, which scatter to it over the plane: albedo exp(-r / l) /
-// (2 pi l^2).
+// Profiles albedo * exp(-r / l) / (2 pi l^2), whose integral over the plane is the albedo.
 TabulatedMaterial profiles(const std::vector<double>& radii,
                            const std::vector<std::array<double, 2>>& albedo_and_length) {
   TabulatedMaterial material;
@@ -118,7 +117,7 @@ TEST_CASE("distances without a closed form find the same correspondence", "[warp
     for (const auto distance : {AppearanceDistance::kCubeRoot, AppearanceDistance::kLog}) {
       const WarpFit fit = fit_warp(set.source, set.target, strokes, by(distance));
       const double error = error_of(set, fit, set.source, set.target);
-      CAPTURE(set.name, distance_name(distance), error, fit.diagnostics.coordinates_error);
+      CAPTURE(set.name, static_cast<int>(distance), error, fit.diagnostics.coordinates_error);
       CHECK(fit.diagnostics.coordinates_error < 0.03);
       CHECK(error < 0.35);  // unrelated texels: 1.41
       CHECK(fit.diagnostics.fold_share == 0.0);
@@ -134,7 +133,7 @@ TEST_CASE("dielectrics: exact Fresnel reflectance is near Schlick's, and finds t
   const MapModel model = builtin_map_model("mitsuba/ggx-dielectric");
   exact.target.model = model.lobe;
   exact.target.is_dielectric = model.is_dielectric;
-  // By plain distances, which need no reference, of one texel in both ways.
+  // Compares the features of the same texel by the plain distance, which needs no reference.
   const FeaturePair pair = appearance_features(set.target, exact.target, AppearanceDistance::kPlain);
   const remap::WarpTexel texel = set.target.texels[1234];
   const Eigen::VectorXd by_schlick = features_of(pair.source, texel),
@@ -151,16 +150,16 @@ TEST_CASE("dielectrics: exact Fresnel reflectance is near Schlick's, and finds t
   CHECK(fit.diagnostics.coordinates_error < 0.03);
 }
 
-TEST_CASE("models for maps: all of the renderer but conductors", "[warp]") {
+TEST_CASE("models for maps: all models of the renderer except conductors", "[warp]") {
   CHECK(builtin_map_model("mitsuba/as-ior").lobe == BrdfModel{Brdf::kAs, Fresnel::kSchlick});
   CHECK(builtin_map_model("mitsuba/ward-conserving").lobe == BrdfModel{Brdf::kWard, Fresnel::kNone});
   CHECK(builtin_map_model("mitsuba/beckmann-metallic").lobe == BrdfModel{Brdf::kBeckmann, Fresnel::kSchlick});
   CHECK(builtin_map_model("mitsuba/beckmann-dielectric").is_dielectric);
-  CHECK_THROWS_WITH(builtin_map_model("mitsuba/ggx-conductor"), Catch::Contains("is a conductor"));
+  CHECK_THROWS_WITH(builtin_map_model("mitsuba/ggx-conductor"), Catch::Contains("the index of a conductor"));
   CHECK_THROWS_WITH(builtin_map_model("mitsuba/gxx"), Catch::Contains("mitsuba/ggx"));
 }
 
-TEST_CASE("tables: a material tabulated lies where its parameters do", "[warp]") {
+TEST_CASE("tables: a tabulated material has the positions of its parameters", "[warp]") {
   const WarpSet set = leaf_set(48);
   const auto strokes = strokes_of(set, 0);
   const TabulatedMaterial source = tabulated(set.source), target = tabulated(set.target);
@@ -173,7 +172,7 @@ TEST_CASE("tables: a material tabulated lies where its parameters do", "[warp]")
   for (const double error : {from_table, to_table, both}) CHECK(std::abs(error - by_parameters) < 0.03);
 }
 
-TEST_CASE("profiles: the distance of section 4, on radii of their own", "[warp]") {
+TEST_CASE("profiles: the distance of section 4, for different radii", "[warp]") {
   const auto coarse = even_radii(0.02, 400), fine = even_radii(0.013, 700);
   const TabulatedMaterial a = profiles(coarse, {{0.8, 0.5}, {0.5, 0.3}}),
                           b = profiles(fine, {{0.6, 0.4}, {0.2, 0.7}});
@@ -182,7 +181,7 @@ TEST_CASE("profiles: the distance of section 4, on radii of their own", "[warp]"
   const auto& to = std::get<SampledFeatures>(pair.target);
   const Eigen::VectorXd first = features_of_samples(from, samples_of(from, a, 0)),
                         second = features_of_samples(to, samples_of(to, b, 0));
-  // The integral of (p exp(-r / l) - q exp(-r / m))^2 r dr, three channels alike.
+  // The integral of (p exp(-r / l) - q exp(-r / m))^2 r dr, the same for three channels.
   const double l = 0.5, m = 0.4, p = 0.8 / (2.0 * std::numbers::pi * l * l),
                q = 0.6 / (2.0 * std::numbers::pi * m * m);
   const double joint = 1.0 / l + 1.0 / m;
@@ -191,7 +190,7 @@ TEST_CASE("profiles: the distance of section 4, on radii of their own", "[warp]"
 }
 
 TEST_CASE("profiles: retargeted by strokes", "[warp]") {
-  // Two latents: albedo and length, which differ between both waxes by monotone laws.
+  // Two latent variables, albedo and length, which differ between the waxes by monotone functions.
   const auto radii = even_radii(0.05, 80);
   constexpr std::size_t kEdge = 24;
   std::vector<std::array<double, 2>> source, target;
@@ -226,13 +225,13 @@ TEST_CASE("profiles: retargeted by strokes", "[warp]") {
   CHECK(match.diagnostics.fold_share < 0.02);
 }
 
-TEST_CASE("tables: what does not go together is refused", "[warp]") {
+TEST_CASE("tables: incompatible materials are refused", "[warp]") {
   const WarpSet set = leaf_set(32);
   const TabulatedMaterial wax = profiles(even_radii(0.1, 20), {{0.8, 0.5}, {0.5, 0.3}});
   CHECK_THROWS_WITH(appearance_features(set.source, wax, AppearanceDistance::kPlain),
-                    Catch::Contains("one holds scattering profiles and the other reflectance"));
+                    Catch::Contains("one contains scattering profiles and the other reflectance"));
   CHECK_THROWS_WITH(appearance_features(wax, wax, AppearanceDistance::kRelative),
-                    Catch::Contains("expected plain"));
+                    Catch::Contains("choose plain"));
   TabulatedMaterial damaged = wax;
   damaged.samples(3, 1) = -1.0f;
   CHECK_THROWS_WITH(match_appearances(damaged, wax, {{{0}, {0}}}, by(AppearanceDistance::kPlain)),

@@ -1,4 +1,5 @@
-// Warps against truth that is known, quadrature by brute force, and cases that have an exact answer.
+// Tests warps on materials with a known result, with a brute-force quadrature, and on cases with an exact
+// result.
 #include "warp/warp.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace {
 
 using namespace remapc;
 
-// Distance by the quadrature itself, with the BRDF evaluated at both widths: shares nothing with the tables.
+// The distance by direct quadrature of the BRDF at both alphas, which is independent of the tables.
 double brute_distance(const Eigen::VectorXd& weights, const remap::WarpTexel& a, const remap::WarpTexel& b) {
   const auto directions = half_vector_quadrature();
   const auto reflectance = [](const remap::WarpTexel& texel, std::size_t c, const LocalGeometry& geometry) {
@@ -38,10 +39,10 @@ double brute_distance(const Eigen::VectorXd& weights, const remap::WarpTexel& a,
   return std::sqrt(sum);
 }
 
-// Of a fit on a set, in % of the template's spread where not said otherwise.
+// Figures of a fit on a set, in % of the template's spread unless stated otherwise.
 struct Figures {
-  double error = 0.0;        // exact copy against the truth
-  double table_error = 0.0;  // compiled converter against the exact copy
+  double error = 0.0;        // exact copy to the truth
+  double table_error = 0.0;  // compiled converter to the exact copy
   double bins = 0.0;         // share of the template's occupied bins that the copy uses
   double folds = 0.0;        // share of texels
   std::vector<Eigen::VectorXd> result;
@@ -82,8 +83,8 @@ Figures measure(const WarpSet& set, const WarpFit& fit) {
   return figures;
 }
 
-// Share of texels whose neighbour in the source's appearance space lands more than a quarter of the spread
-// apart.
+// The share of texels for which the results of the texel and of its neighbor in the source's appearance space
+// are more than a quarter of the spread apart.
 double tears(const WarpSet& set, const WarpFit& fit) {
   const FeaturePair features = appearance_features(set.source, set.target);
   const auto copy = copy_exactly(fit, set.source, set.target);
@@ -110,14 +111,14 @@ WarpSet small_leaf() { return leaf_set(64); }
 
 }  // namespace
 
-TEST_CASE("features: distances are those of the quadrature", "[warp]") {
+TEST_CASE("features: distances equal those of the quadrature", "[warp]") {
   const WarpSet set = rust_set(64);
   const FeaturePair features = appearance_features(set.source, set.target);
   const Eigen::VectorXd weights = direction_weights(set.source, set.target, AppearanceDistance::kRelative);
   for (std::size_t i = 0; i < 40; ++i) {
     const auto &a = set.source.texels[97 * i], &b = set.target.texels[53 * i + 7];
     const double distance = (features_of(features.source, a) - features_of(features.target, b)).norm();
-    // Straight lines between the 64 nodes of alpha err by 1e-3 of a lobe, the basis of 14 by less.
+    // Interpolation between the 64 nodes of alpha has an error of 1e-3 of a lobe; the basis of 14 has less.
     CHECK(distance == Approx(brute_distance(weights, a, b)).epsilon(5e-3));
   }
 }
@@ -144,11 +145,11 @@ TEST_CASE("coordinates: closed form is the projection of features", "[warp]") {
   CHECK(leaf_space.stress[1] < 0.03);
 }
 
-TEST_CASE("affine: strokes that an affine map joins give that map", "[warp]") {
+TEST_CASE("affine: strokes related by an affine map give that map", "[warp]") {
   PointSets sets;
   sets.common_axes = Eigen::MatrixXd::Identity(2, 2);
   sets.source_centres = Points(4, 2);
-  sets.source_centres << -90, -80, 100, -70, -60, 110, 80, 90;  // large, so that the prior does not count
+  sets.source_centres << -90, -80, 100, -70, -60, 110, 80, 90;  // large, so that the prior is negligible
   Eigen::MatrixXd linear(2, 2);
   linear << 0.5, 1.25, -2.0, 0.75;
   const Eigen::RowVectorXd offset = Eigen::RowVector2d(3.0, -4.0);
@@ -158,7 +159,7 @@ TEST_CASE("affine: strokes that an affine map joins give that map", "[warp]") {
   CHECK((found.offset - offset).norm() < 1e-2);
 }
 
-TEST_CASE("affine: one stroke leaves the common axes", "[warp]") {
+TEST_CASE("affine: with one stroke the map follows the common axes", "[warp]") {
   PointSets sets;
   sets.common_axes = Eigen::MatrixXd::Identity(2, 2);
   sets.source_centres = Eigen::RowVector2d(0.5, 0.25);
@@ -179,7 +180,7 @@ TEST_CASE("warp: near the truth, without tears and folds", "[warp]") {
       CHECK(figures.back().folds == 0.0);
       CHECK(tears(set, fit) <= 0.01);
       CHECK(figures.back().table_error <
-            3.0);  // few texels: neighbours are farther apart than in a map of 256^2
+            3.0);  // few texels: neighbors are farther apart than in a map of 256^2
       CHECK(remap::byte_count(fit.compiled) <= 250000);
       error += figures.back().error / 3.0;
       bins += figures.back().bins / 3.0;
@@ -193,7 +194,7 @@ TEST_CASE("warp: near the truth, without tears and folds", "[warp]") {
   }
 }
 
-TEST_CASE("warp: nearer than histogram matching and affine, over both sets", "[warp]") {
+TEST_CASE("warp: more accurate than histogram matching and affine on both sets", "[warp]") {
   const std::array sets = {leaf_set(128), rust_set(128)};
   const auto error_by = [&](WarpMethod method) {
     WarpOptions options;
@@ -226,7 +227,7 @@ TEST_CASE("simplex search: the valley of Rosenbrock and a paraboloid", "[warp]")
   CHECK(counted(found) < 1.0);
 }
 
-TEST_CASE("paper: the simplex search lowers the printed energy and moves the result little", "[warp]") {
+TEST_CASE("paper: the simplex search lowers the published energy and changes the result little", "[warp]") {
   const WarpSet set = leaf_set(128);
   const auto strokes = strokes_of(set, 0);
   WarpOptions options;
@@ -246,7 +247,7 @@ TEST_CASE("paper: the simplex search lowers the printed energy and moves the res
   CHECK(std::abs(searched - initial) < 0.5);
 }
 
-TEST_CASE("paper: where both sets are one and strokes are, too, nothing is left to search", "[warp]") {
+TEST_CASE("paper: with equal sets and equal strokes the search changes nothing", "[warp]") {
   PointSets sets;
   sets.source.points = Points(36, 2);
   for (Eigen::Index i = 0; i < 36; ++i)
@@ -265,7 +266,7 @@ TEST_CASE("paper: where both sets are one and strokes are, too, nothing is left 
   CHECK((images - sets.source.points).cwiseAbs().maxCoeff() < 0.05);
 }
 
-TEST_CASE("warp: the same bits every time", "[warp]") {
+TEST_CASE("warp: results are bit-identical in every run", "[warp]") {
   const WarpSet set = small_leaf();
   const auto strokes = strokes_of(set, 0);
   CHECK(fit_warp(set.source, set.target, strokes).compiled ==
@@ -279,7 +280,7 @@ TEST_CASE("warp: other BRDF models keep the appearance", "[warp]") {
   CHECK(measure(set, fit).folds == 0.0);
 }
 
-TEST_CASE("warp: an exact table gives texels of the template only, about as near the copy as blends",
+TEST_CASE("warp: an exact table gives only texels of the template, about as near to the copy as blends",
           "[warp]") {
   const WarpSet set = leaf_set(128);
   const auto strokes = strokes_of(set, 0);
@@ -303,7 +304,7 @@ TEST_CASE("warp: an exact table gives texels of the template only, about as near
   CHECK(of_copies < 2.0 * of_blends);
 }
 
-TEST_CASE("warp: the error of the table is that of positions measured one by one", "[warp]") {
+TEST_CASE("warp: the error of the table equals that of individually measured positions", "[warp]") {
   const WarpSet set = small_leaf();
   const WarpFit fit = fit_warp(set.source, set.target, strokes_of(set, 0));
   const auto copy = copy_exactly(fit, set.source, set.target);
@@ -318,7 +319,7 @@ TEST_CASE("warp: the error of the table is that of positions measured one by one
         Approx(std::sqrt(squares / static_cast<double>(copy.size()))));
 }
 
-TEST_CASE("warp: texels that are not finite take no part", "[warp]") {
+TEST_CASE("warp: texels that are not finite are skipped", "[warp]") {
   WarpSet set = small_leaf();
   const auto strokes = strokes_of(set, 0);
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -331,17 +332,17 @@ TEST_CASE("warp: texels that are not finite take no part", "[warp]") {
   CHECK(std::isnan(remap::evaluate_warp(fit.compiled, set.source.texels[5])[0]));
 }
 
-TEST_CASE("warp: one stroke leaves directions open and says so", "[warp]") {
+TEST_CASE("warp: one stroke does not determine all directions, with a warning", "[warp]") {
   const WarpSet set = small_leaf();
   const WarpFit fit = fit_warp(set.source, set.target, {strokes_of(set, 0)[0]});
   CHECK(fit.diagnostics.fixed_directions == 0);
   const auto warnings = warnings_of(fit.diagnostics);
   CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
-    return warning.find("strokes do not fix direction 1 of 2") != std::string::npos;
+    return warning.find("strokes do not determine direction 1 of 2") != std::string::npos;
   }));
 }
 
-TEST_CASE("warp: input that cannot be used is refused", "[warp]") {
+TEST_CASE("warp: invalid input is refused", "[warp]") {
   const WarpSet set = small_leaf();
   const auto strokes = strokes_of(set, 0);
   const auto message = [](const auto& call) {
@@ -353,11 +354,12 @@ TEST_CASE("warp: input that cannot be used is refused", "[warp]") {
     return std::string();
   };
   using Catch::Contains;
-  CHECK_THAT(message([&] { fit_warp(set.source, set.target, {}); }), Contains("no stroke"));
+  CHECK_THAT(message([&] { fit_warp(set.source, set.target, {}); }),
+             Contains("at least one pair of strokes"));
   CHECK_THAT(message([&] {
                fit_warp(set.source, set.target, {{{}, {1}}});
              }),
-             Contains("stroke 1: marks no texel"));
+             Contains("stroke 1: the stroke marks no texel"));
   CHECK_THAT(message([&] { fit_warp(set.source, set.target, {{{1}, {99999}}}); }), Contains("texel 99999"));
   CHECK_THAT(message([&] {
                fit_warp(set.source, set.target, {{{1, 2}, {1}}, {{2}, {7}}});
@@ -367,16 +369,16 @@ TEST_CASE("warp: input that cannot be used is refused", "[warp]") {
   for (auto& texel : black.texels) texel = {0, 0, 0, 0, 0, 0, 0.3f};
   for (auto& texel : plain.texels) texel = plain.texels[0];
   CHECK_THAT(message([&] { fit_warp(black, set.target, strokes); }),
-             Contains("leaf source: all texels look alike"));
+             Contains("leaf source: all texels look the same"));
   CHECK_THAT(message([&] { fit_warp(set.source, plain, strokes); }),
-             Contains("leaf template: all texels look alike"));
+             Contains("leaf template: all texels look the same"));
   WarpOptions options;
   options.dimensions = 4;
   CHECK_THAT(message([&] { fit_warp(set.source, set.target, strokes, options); }),
-             Contains("expected 1 to 3"));
+             Contains("is out of range (1 to 3"));
 }
 
-TEST_CASE("warp fits: files hold every bit, and damaged ones are refused", "[warp]") {
+TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", "[warp]") {
   const WarpSet set = small_leaf();
   remap::WarpMapFit fit;
   fit.id = "leaf";
@@ -415,7 +417,7 @@ TEST_CASE("warp fits: files hold every bit, and damaged ones are refused", "[war
     }
 }
 
-TEST_CASE("warp fits: numbers that cannot be a table are refused", "[warp]") {
+TEST_CASE("warp fits: invalid tables are refused", "[warp]") {
   const auto refused = [](const remap::CompiledWarp& warp, const std::string& message) {
     CHECK_THROWS_WITH(remap::require_valid(warp, "leaf"), Catch::Contains("leaf: " + message));
   };

@@ -1,4 +1,4 @@
-// worker-check finds each fault of the fake worker, and none where there is none.
+// worker-check finds each fault of the fake worker, and none in a correct one.
 #include "worker/conformance.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::vector<WorkerFinding> findings_of(const std::string& fault) {
   return check_worker(worker, 32);
 }
 
-// The words of all checks that found something wrong, `check: words`, a line each.
+// Returns the results of all failed checks, `check: words`, a line each.
 std::string wrong_words(const std::string& fault) {
   std::string text;
   for (const WorkerFinding& finding : findings_of(fault))
@@ -38,13 +38,13 @@ TEST_CASE("worker check: a good worker passes every check") {
   }
 }
 
-TEST_CASE("worker check: each fault is named in words") {
+TEST_CASE("worker check: each fault is explained") {
   const std::vector<std::pair<std::string, std::string>> faults = {
-      {"bright", "light scale: diffuse light is 3.142 times as strong as expected, which is pi"},
+      {"bright", "light scale: diffuse light is 3.142 times as strong as it should be (pi)"},
       {"no-square", "inverse square: a light twice as far is 1 times as bright"},
       {"gamma", "linearity: half the diffuse gives 0.73"},
-      {"eight-bit", "precision: values are of 8 bits"},
-      {"grey-background", "background: pixels beside the sphere are up to 0.0"},
+      {"eight-bit", "precision: values have 8 bits"},
+      {"grey-background", "background: pixels outside the sphere are up to 0.0"},
       {"mirrored", "orientation: a light at +60 degrees lights the left of the picture"},
       {"transposed", "rows and columns are exchanged"},
       {"shifted", "symmetry: under a headlight the upper and lower halves differ"},
@@ -60,7 +60,7 @@ TEST_CASE("worker check: each fault is named in words") {
   }
 }
 
-TEST_CASE("worker check: one that breaks ends the checks with what it broke at") {
+TEST_CASE("worker check: a worker that dies ends the checks with the failed request") {
   CHECK_THAT(wrong_words("die"),
              Contains("answer: worker fake, request fake/ggx") && Contains("died with signal 9"));
 }

@@ -1,4 +1,4 @@
-// What the tests of workers share: the fake worker with a fault, in a folder of its own.
+// Shared by the tests of workers: the fake worker with a fault, in its own folder.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@
 
 namespace remapc {
 
-// Gone, or dead and not yet collected by whoever adopted it.
+// Whether the process has ended, or is a zombie of its adoptive parent.
 inline bool is_gone(pid_t id) {
   std::ifstream file("/proc/" + std::to_string(id) + "/stat");
   std::string text;
@@ -56,7 +56,7 @@ class FakeSession {
   }
   std::size_t pictures() const { return log_lines("picture").size(); }
 
-  // Waits for the end of every process that the workers logged; false where one stays for ten seconds.
+  // Waits for the end of every process in the workers' log; false if one runs for ten more seconds.
   bool nobody_is_left() const {
     for (const std::string& id : log_lines("process")) {
       int tries = 0;
@@ -78,7 +78,7 @@ inline Material fake_material(double alpha = 0.2) {
 
 inline constexpr Scene kSmallScene{32, 1, {}};
 
-// The message of the error that `work` throws; of another kind than kInput it fails the test.
+// Returns the message of the kInput error that `work` throws; another kind fails the test.
 template <typename Work>
 std::string input_error(const Work& work) {
   try {

@@ -1,5 +1,5 @@
-// A worker that fails in every way that workers fail in: the built-in renderer's GGX behind the protocol, and
-// one fault of choice. It shares no code with the side that it talks to.
+// A worker with a chosen fault: it renders the built-in GGX behind the protocol. It shares no protocol code
+// with the worker side under test.
 //
 //   fake_worker [--fault NAME] [--after N] [--version TEXT] [--log FILE]
 //
@@ -53,7 +53,7 @@ json description(const json& request) {
           {"meshes", has_fault("meshes")}};
 }
 
-// What is wrong with a picture, by the name of the fault.
+// Applies the fault to a picture.
 void spoil(const json& request, remapc::Image* image) {
   auto& values = image->values;
   const auto side = static_cast<std::size_t>(image->width),
@@ -87,9 +87,8 @@ void spoil(const json& request, remapc::Image* image) {
     move([&](std::size_t row, std::size_t column) { return (row + 1) % side * side + column; });
 }
 
-// The mesh of a scene, read as the protocol has it: its counts, and how far its vertices are from the torus
-// that `shape` means (radii 0.68 and 0.3, its axis 40 degrees from +z to +y), and its normals from that of
-// the torus.
+// Reads the mesh of a scene and reports whether its counts are complete, and its vertices and normals those
+// of the torus (radii 0.68 and 0.3, its axis 40 degrees from +z to +y).
 std::string mesh_report(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string line;
@@ -138,7 +137,7 @@ remapc::Image picture(const json& request) {
   if (has_fault("jitter") && place.samples_per_axis == 1) place.samples_per_axis = 2;  // no centre among them
   if (has_fault("no-square")) place.light.distance = 3.0;
   remapc::Material material{"mitsuba/ggx-plain", {}};
-  if (request.at("model") != "fake/ggx") throw std::runtime_error("the model is unknown; expected fake/ggx");
+  if (request.at("model") != "fake/ggx") throw std::runtime_error("unknown model (choose fake/ggx)");
   for (const char* name : {"alpha", "specular", "diffuse"})
     material.parameters[name] = values.at(name).get<std::vector<double>>();
   values.at("tint");
@@ -157,7 +156,7 @@ remapc::Image picture(const json& request) {
   return image;
 }
 
-// Faults of the process and of the conversation. True where an answer has been given.
+// Applies faults of the process and of the protocol. Returns true if it has answered.
 bool misbehave(const json& request) {
   std::cerr << "rendering number " << rendered << std::endl;
   if (has_fault("die")) ::raise(SIGKILL);
@@ -197,7 +196,7 @@ void answer(const json& request) {
   }
 }
 
-// A helper of its own, as a renderer may have: it outlives whoever does not care for it.
+// Starts a child process, as renderers do; it keeps running unless remapc ends it.
 void start_child() {
   const pid_t child = ::fork();
   if (child == 0) {

@@ -1,4 +1,4 @@
-// Pictures are rendered once: by version, by request, through damage and by several threads.
+// The picture cache: versions, requests, damaged files and threads.
 #include <catch2/catch.hpp>
 
 #include "system/parallel.hpp"
@@ -21,7 +21,7 @@ std::vector<fs::path> pictures_below(const fs::path& folder) {
 
 }  // namespace
 
-TEST_CASE("picture cache: a picture is rendered once, in this run and in the next") {
+TEST_CASE("picture cache: a picture is rendered once over several runs") {
   const FakeSession session;
   std::vector<float> first;
   for (int run = 0; run < 2; ++run) {
@@ -49,17 +49,17 @@ TEST_CASE("picture cache: every part of a request counts") {
   CHECK(renderer.pictures().cached == 0);
 }
 
-TEST_CASE("picture cache: another version of the renderer renders anew, and says so") {
+TEST_CASE("picture cache: another version of the renderer renders again, and reports it") {
   const FakeSession session;
   { WorkerRenderer(session.entry(), session.settings(true)).render(fake_material(), kSmallScene); }
   const WorkerRenderer renderer(session.entry("", "--version 2"), session.settings(true));
   renderer.render(fake_material(), kSmallScene);
   CHECK(session.pictures() == 2);
   REQUIRE(renderer.remarks().size() == 1);
-  CHECK_THAT(renderer.remarks()[0], Contains("has pictures of Fake-1-") && Contains("this is Fake 2"));
+  CHECK_THAT(renderer.remarks()[0], Contains("pictures of Fake-1-") && Contains("this is Fake 2"));
 }
 
-TEST_CASE("picture cache: a file that was cut off or changed is rendered again") {
+TEST_CASE("picture cache: a truncated or changed file is rendered again") {
   const FakeSession session;
   { WorkerRenderer(session.entry(), session.settings(true)).render(fake_material(), kSmallScene); }
   const auto files = pictures_below(session.path("cache"));
@@ -74,7 +74,7 @@ TEST_CASE("picture cache: a file that was cut off or changed is rendered again")
   CHECK(session.pictures() == 3);
 }
 
-TEST_CASE("picture cache: threads that want one picture render it once") {
+TEST_CASE("picture cache: threads that need the same picture render it once") {
   const FakeSession session;
   const WorkerRenderer renderer(session.entry(), session.settings(true));
   remap::run_parallel(8, 8, [&](std::size_t) { renderer.render(fake_material(), kSmallScene); });
@@ -82,12 +82,12 @@ TEST_CASE("picture cache: threads that want one picture render it once") {
   CHECK(renderer.pictures().cached == 7);
 }
 
-TEST_CASE("renderer set: a worker is started when one of its models is asked for") {
+TEST_CASE("renderer set: a worker is started when one of its models is requested") {
   const FakeSession session;
   const RendererSet renderers({session.entry()}, session.settings());
   CHECK(find_model(renderers, "mitsuba/ggx").name == "mitsuba/ggx");
   CHECK(session.log_lines("process").empty());
-  CHECK_THROWS_WITH(find_model(renderers, "fakee/ggx"), Contains("nor of a worker"));
+  CHECK_THROWS_WITH(find_model(renderers, "fakee/ggx"), Contains("and of the workers"));
   CHECK(find_model(renderers, "fake/ggx").name == "fake/ggx");
   CHECK(session.log_lines("process").size() == 1);
   CHECK(renderers.version_of("fake/ggx") == "Fake 1");
@@ -96,7 +96,7 @@ TEST_CASE("renderer set: a worker is started when one of its models is asked for
   CHECK(renderers.pictures().rendered == 1);
 }
 
-TEST_CASE("worker list: own entries come before shipped ones, and mistakes are named") {
+TEST_CASE("worker list: the user's entries precede shipped ones, and errors name the place") {
   const FakeSession session;
   const fs::path list = session.path("workers.json");
   remap::write_file(list, R"({"workers": [{"name": "ours", "command": "run", "install": "ask"}]})");
@@ -107,8 +107,8 @@ TEST_CASE("worker list: own entries come before shipped ones, and mistakes are n
   remap::write_file(list, R"({"workers": [{"name": "a/b", "command": "run"}]})");
   CHECK_THROWS_WITH(read_worker_list(list),
                     Contains("workers[0].name: is \"a/b\"; expected a name without /"));
-  CHECK_THROWS_WITH(parse_worker("ours"), Contains("expected NAME=COMMAND"));
-  CHECK_THROWS_WITH(known_workers({"a=b", "a=c"}), Contains("a was given before"));
+  CHECK_THROWS_WITH(parse_worker("ours"), Contains("cannot be read as NAME=COMMAND"));
+  CHECK_THROWS_WITH(known_workers({"a=b", "a=c"}), Contains("a was given twice"));
   const auto known = known_workers({"mitsuba3=mine --fast"});
   const auto mine =
       std::find_if(known.begin(), known.end(), [](const auto& entry) { return entry.name == "mitsuba3"; });

@@ -1,15 +1,15 @@
 // The proof: real renderers against the built-in hub. Skipped, with a message, where one is not installed
-// (scripts/renderers). REMAP_REQUIRE_RENDERERS names those whose absence is a failure.
+// (scripts/renderers); REMAP_REQUIRE names those whose absence is a failure.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
+#include "support/skip.hpp"
 #include "sweep/sweep.hpp"
 #include "worker/renderer_set.hpp"
 #include "worker/worker_list.hpp"
@@ -24,31 +24,26 @@ WorkerSettings settings() {
   return settings;
 }
 
-bool is_required(const std::string& name) {
-  const char* required = std::getenv("REMAP_REQUIRE_RENDERERS");
-  return required != nullptr && std::string(required).find(name) != std::string::npos;
-}
-
-// Where a model of the worker `name` can be rendered. Else says so, once a test.
+// Where a model of the worker `name` can be rendered. Else skips.
 bool is_here(const RendererSet& renderers, const std::string& name, const std::string& model) {
   try {
     find_model(renderers, name + "/" + model);
     return true;
   } catch (const remap::Error& error) {
-    if (error.kind() != remap::ErrorKind::kInput || is_required(name)) throw;
-    std::cout << "skipped: " << error.what() << "\n";
+    if (error.kind() != remap::ErrorKind::kInput) throw;
+    remap::skip(name, error.what());
     return false;
   }
 }
 
-// Of two pictures, relative to the brightest pixel of `b`.
+// Differences of two pictures, relative to the brightest pixel of `b`.
 struct Disagreement {
   double rms = 0.0;      // over the whole picture
   double inside = 0.0;   // largest, where the view is not grazing
   double largest = 0.0;  // anywhere
 };
 
-// At the silhouette a cosine of 1e-3 comes out of floats with an error of 1e-4 of itself.
+// At the silhouette, floats compute a cosine of 1e-3 with a relative error of 1e-4.
 constexpr float kGrazing = 0.1f;
 
 Disagreement disagreement(const Renderer& renderers, const Material& found, const Material& expected,
@@ -80,7 +75,7 @@ Table small_sweep(const Renderer& renderers, const std::string& source, const st
   return run_sweep(renderers, options, {});
 }
 
-// Largest change of alpha, and of specular relative to it, over rows that end within the target's range.
+// Checks the largest change of alpha, and the relative one of specular, over rows within the target's range.
 void check_identity(const Table& table, double alpha_tolerance, double specular_tolerance) {
   for (const TableRow& row : table.rows) {
     INFO("alpha " << row.alpha1 << " specular " << row.specular1);
@@ -133,7 +128,7 @@ TEST_CASE("real renderers: Mitsuba 3 shows the torus, from its mesh, as the hub 
   };
   for (const double angle : {0.0, 60.0}) {
     const Scene scene{128, 1, {angle, 3.0}, 0, Shape::kTorus};
-    // Facets of 1e-4, and pixels at edges of the shape and of its shadow that fall to the other side.
+    // The margin covers facets (1e-4), and pixels at the edges of the shape and of its shadow.
     CHECK(disagreement(renderers, material("mitsuba3/ggx"), material("mitsuba/ggx-plain"), scene).rms < 5e-3);
   }
 }
@@ -146,14 +141,14 @@ TEST_CASE("real renderers: hub to Mitsuba 3 is the identity") {
                  1e-4);
 }
 
-TEST_CASE("real renderers: Radiance's plastic is the hub's balanced Ward") {
+TEST_CASE("real renderers: Radiance's plastic equals the hub's balanced Ward") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "radiance", "plastic")) return;
   check_identity(small_sweep(renderers, "radiance/plastic", "mitsuba/ward-balanced", {0.03, 0.9}), 1e-5,
                  1e-5);
 }
 
-TEST_CASE("real renderers: Cycles 3.4's GGX is the hub's") {
+TEST_CASE("real renderers: Cycles 3.4's GGX equals the hub's") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "cycles-3.4", "ggx")) return;
   check_identity(small_sweep(renderers, "cycles-3.4/ggx", "mitsuba/ggx-plain", {0.03, 0.9}), 1e-4, 1e-3);

@@ -1,4 +1,4 @@
-// Workers that fail, and what is said then; nothing of them may stay behind.
+// Failing workers: their error messages, and that no process or file remains.
 #include <catch2/catch.hpp>
 
 #include "system/parallel.hpp"
@@ -23,7 +23,7 @@ const std::string kPlace =
 
 }  // namespace
 
-TEST_CASE("worker: a picture is that of the renderer, in one channel and in three") {
+TEST_CASE("worker: a picture equals the renderer's, in one channel and in three") {
   const FakeSession session;
   const WorkerRenderer renderer(session.entry(), session.settings());
   CHECK(renderer.version() == "Fake 1");
@@ -38,7 +38,7 @@ TEST_CASE("worker: a picture is that of the renderer, in one channel and in thre
   CHECK(colored.values[3 * (32 * 16 + 20)] == expected.values[32 * 16 + 20]);
 }
 
-TEST_CASE("worker: one that dies is named, with its request and the end of its log") {
+TEST_CASE("worker: the error for one that dies has its request and the end of its log") {
   const FakeSession session;
   const std::string message = render_error(session, "die");
   CHECK_THAT(message, Contains(kPlace + "died with signal 9; last lines of its log: rendering number 0"));
@@ -46,36 +46,35 @@ TEST_CASE("worker: one that dies is named, with its request and the end of its l
   CHECK(session.nobody_is_left());
 }
 
-TEST_CASE("worker: one that hangs is killed after its time, with its children") {
+TEST_CASE("worker: one that hangs is killed after the timeout, with its children") {
   const FakeSession session;
-  CHECK_THAT(render_error(session, "hang", 0.5), Contains(kPlace + "no answer after 0.5 s"));
+  CHECK_THAT(render_error(session, "hang", 0.5), Contains(kPlace + "no answer within 0.5 s"));
   CHECK(session.nobody_is_left());
 }
 
-TEST_CASE("worker: one that says nothing at the start is killed too") {
+TEST_CASE("worker: one that does not answer describe is killed") {
   const FakeSession session;
-  CHECK_THAT(render_error(session, "mute", 0.5), Contains("request describe: no answer after 0.5 s"));
+  CHECK_THAT(render_error(session, "mute", 0.5), Contains("request describe: no answer within 0.5 s"));
   CHECK(session.nobody_is_left());
 }
 
-TEST_CASE("worker: answers against the protocol are shown") {
+TEST_CASE("worker: answers that violate the protocol are reported") {
   const FakeSession session;
   CHECK_THAT(render_error(session, "garbage"),
-             Contains(kPlace + "answered \"Saved: picture.exr\"; expected a line of JSON"));
-  CHECK_THAT(render_error(session, "wrong-id"), Contains("expected the id 2 of the request"));
+             Contains(kPlace + "answered \"Saved: picture.exr\", which is not a line of JSON"));
+  CHECK_THAT(render_error(session, "wrong-id"), Contains("without the id 2 of the request"));
   CHECK_THAT(render_error(session, "flood"), Contains("wrote a line of more than 16 MB"));
-  CHECK_THAT(render_error(session, "no-file"), Contains("wrote no picture"));
+  CHECK_THAT(render_error(session, "no-file"), Contains("the picture was not written"));
   CHECK_THAT(render_error(session, "short"),
-             Contains("the picture has 4092 bytes; expected 4096, 32 x 32 pixels of 1 floats"));
+             Contains("the picture has 4092 bytes; expected 4096 (32 x 32 pixels of 1 floats)"));
   CHECK_THAT(render_error(session, "nan"), Contains("the picture is nan in row 16, column 16"));
-  CHECK_THAT(render_error(session, "protocol"),
-             Contains("answer.protocol") || Contains("protocol: is 2; expected 1"));
+  CHECK_THAT(render_error(session, "protocol"), Contains("protocol: is version 2; expected 1"));
   CHECK_THAT(render_error(session, "prefix"), Contains("is \"other/ggx\"; expected fake/MODEL"));
   CHECK_THAT(render_error(session, "convention"), Contains("expected alpha, roughness, exponent"));
   CHECK(session.nobody_is_left());
 }
 
-TEST_CASE("worker: an error that it reports is passed on, and it is asked again") {
+TEST_CASE("worker: a reported error is passed on, and the worker stays in use") {
   const FakeSession session;
   const WorkerRenderer renderer(session.entry("refuse", "--after 0"), session.settings());
   for (int i = 0; i < 2; ++i)
@@ -83,7 +82,7 @@ TEST_CASE("worker: an error that it reports is passed on, and it is asked again"
   CHECK(session.log_lines("process").size() == 1);
 }
 
-TEST_CASE("worker: after one that died another is started") {
+TEST_CASE("worker: after one died, another is started") {
   const FakeSession session;
   const WorkerRenderer renderer(session.entry("die", "--after 1"), session.settings());
   renderer.render(fake_material(0.1), kSmallScene);
@@ -93,7 +92,7 @@ TEST_CASE("worker: after one that died another is started") {
   CHECK(session.log_lines("process").size() == 2);
 }
 
-TEST_CASE("worker: a command that is none says what the shell said, and how to install it") {
+TEST_CASE("worker: the error for a missing command has the shell's message and how to install it") {
   const FakeSession session;
   const std::string message = input_error([&] {
     WorkerRenderer({"fake", "/no/such/program", "", "scripts/renderers fake"}, session.settings());
@@ -108,7 +107,7 @@ TEST_CASE("worker: banners before the first answer are skipped") {
   CHECK(renderer.render(fake_material(), kSmallScene).width == 32);
 }
 
-TEST_CASE("worker: children of a worker go with it, and so does one that will not end") {
+TEST_CASE("worker: children of a worker are killed with it, and so is one that does not end") {
   const FakeSession session;
   {
     const WorkerRenderer renderer(session.entry("child"), session.settings());
@@ -120,7 +119,7 @@ TEST_CASE("worker: children of a worker go with it, and so does one that will no
   CHECK(session.nobody_is_left());
 }
 
-TEST_CASE("worker: a thread that ends takes no worker with it") {
+TEST_CASE("worker: the end of a thread does not end a worker") {
   const FakeSession session;
   const WorkerRenderer renderer(session.entry(), session.settings());
   const auto render_some = [&](double offset) {
@@ -134,7 +133,7 @@ TEST_CASE("worker: a thread that ends takes no worker with it") {
   CHECK(session.log_lines("process").size() <= 2);
 }
 
-TEST_CASE("worker: another shape comes as a mesh, where a worker takes meshes") {
+TEST_CASE("worker: another shape is sent as a mesh to a worker that accepts meshes") {
   const FakeSession session;
   const Scene scene{32, 1, {45.0, 3.0}, 0, Shape::kTorus};
   const WorkerRenderer renderer(session.entry("meshes"), session.settings());
@@ -146,14 +145,15 @@ TEST_CASE("worker: another shape comes as a mesh, where a worker takes meshes") 
 
   const WorkerRenderer sphere_only(session.entry(), session.settings());
   CHECK_THROWS_WITH(sphere_only.render(fake_material(), scene),
-                    "worker fake: renders spheres only; expected no torus");
+                    "worker fake: renders spheres only, not a torus");
 }
 
-TEST_CASE("worker: materials are checked before it is asked") {
+TEST_CASE("worker: materials are checked before a request") {
   const FakeSession session;
   const WorkerRenderer renderer(session.entry(), session.settings());
   Material material = fake_material(2.0);
-  CHECK_THROWS_WITH(renderer.render(material, kSmallScene), "fake/ggx: alpha = 2; expected 1e-04 to 1");
+  CHECK_THROWS_WITH(renderer.render(material, kSmallScene),
+                    "fake/ggx: alpha = 2 is out of range (1e-04 to 1)");
   material = fake_material();
   material.parameters["speculer"] = {1.0};
   CHECK_THROWS_WITH(renderer.render(material, kSmallScene), Contains("did you mean specular?"));

@@ -20,7 +20,7 @@ using remap::ErrorKind;
 
 constexpr double kLargestDeviation = 1e-3;
 
-// A row as the network takes and gives it.
+// The inputs and outputs of the network for one row.
 struct MaterialRow {
   std::array<double, 6> specular{};  // diffuse, F0
   std::array<double, 4> metallic{};  // base color, metallic
@@ -30,9 +30,8 @@ std::size_t place_of(const MaterialTable& table, const std::vector<std::string>&
                      const std::string& name) {
   const auto found = std::find(columns.begin(), columns.end(), name);
   if (found == columns.end())
-    throw Error(ErrorKind::kInput,
-                table.name + ": has no column " + name +
-                    "; expected a table of remapc sample from a metallic model to a specular one");
+    throw Error(ErrorKind::kInput, table.name + ": missing column " + name +
+                                       " (use a table of remapc sample from a metallic to a specular model)");
   return static_cast<std::size_t>(found - columns.begin());
 }
 
@@ -55,9 +54,16 @@ std::vector<MaterialRow> material_rows(const MaterialTable& table) {
     rows.push_back(material);
   }
   if (rows.empty())
-    throw Error(ErrorKind::kInput, table.name + ": has no row of status ok; expected some thousand");
+    throw Error(ErrorKind::kInput,
+                table.name + ": no row has status ok (a network needs some thousand rows)");
   return rows;
 }
+
+// The RMS deviation of a table from equation (2), in F0 and diffuse.
+struct FamilyDeviation {
+  double dielectric_f0 = 0.0;  // the value that fits the rows best, to six digits
+  double f0 = 0.0, diffuse = 0.0;
+};
 
 FamilyDeviation deviation_of(const std::vector<MaterialRow>& rows) {
   double products = 0.0, squares = 0.0;
@@ -86,15 +92,14 @@ FamilyDeviation deviation_of(const std::vector<MaterialRow>& rows) {
 std::string comment_of(const MaterialTable& table, const std::string& key) {
   for (const auto& [name, value] : table.comments)
     if (name == key) return value;
-  throw Error(ErrorKind::kInput,
-              table.name + ": has no comment " + key + "; expected one, as remapc sample writes it");
+  throw Error(ErrorKind::kInput, table.name + ": missing comment " + key + " (remapc sample writes it)");
 }
 
 remap::RoughnessConvention width_of(const MaterialTable& table, const std::string& key) {
   const std::string name = comment_of(table, key);
   const auto convention = remap::convention_from_name(name);
   if (!convention)
-    throw Error(ErrorKind::kInput, table.name + ": " + key + " is " + name + "; expected a convention");
+    throw Error(ErrorKind::kInput, table.name + ": unknown convention '" + name + "' in the comment " + key);
   return *convention;
 }
 
@@ -140,7 +145,7 @@ MaterialSplit split_materials(const MaterialTable& table, const std::vector<Mate
   return split;
 }
 
-// Errors of what the converter gives: outputs held in 0 to 1.
+// Computes the errors of the converter, whose outputs are clamped to 0 to 1.
 void judge(const remap::Network& network, const std::vector<MaterialRow>& rows,
            remap::NetworkTraining* training) {
   std::vector<double> colors, metals;
@@ -156,8 +161,6 @@ void judge(const remap::Network& network, const std::vector<MaterialRow>& rows,
 
 }  // namespace
 
-FamilyDeviation family_deviation(const MaterialTable& table) { return deviation_of(material_rows(table)); }
-
 remap::WorkflowFit fit_material_network(const MaterialTable& table, std::string_view bytes,
                                         const MaterialNetworkOptions& options, const FitProgress& progress) {
   const std::vector<MaterialRow> rows = material_rows(table);
@@ -165,9 +168,8 @@ remap::WorkflowFit fit_material_network(const MaterialTable& table, std::string_
   if (deviation.f0 > kLargestDeviation || deviation.diffuse > kLargestDeviation)
     throw Error(ErrorKind::kInput, table.name + ": rows differ from equation (2) by " +
                                        remap::number_text(std::max(deviation.f0, deviation.diffuse)) +
-                                       " rms; expected no more than " +
-                                       remap::number_text(kLargestDeviation) +
-                                       ", models of one BRDF and plain diffuse");
+                                       " (rms), more than " + remap::number_text(kLargestDeviation) +
+                                       " (both models must have the same BRDF and plain diffuse)");
   remap::WorkflowFit fit;
   fit.conversion = conversion_of(table, deviation.dielectric_f0);
   fit.id = fit_id(options.id, fit.conversion.specular.model, fit.conversion.metallic.model);

@@ -1,4 +1,4 @@
-// The small network of sections 5.1 and 8 (Sztrajman et al. 2019), one for each output of a texel.
+// The small networks of sections 5.1 and 8 (Sztrajman et al. 2019), one for each output.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@ namespace remapc {
 struct MlpOptions {
   std::vector<std::size_t> hidden = {8, 8};  // units of each hidden layer
   remap::Activation activation = remap::Activation::kTanh;
-  std::uint64_t seed = 1;  // of initial weights and of the validation rows
-  std::size_t starts = 4;  // independent trainings, of which the best on the validation rows is kept
-  unsigned jobs = 0;       // threads; 0: one a processor. The result does not depend on it
+  std::uint64_t seed = 1;  // of the initial weights and the validation rows
+  std::size_t starts = 4;  // independent trainings; the best on the validation rows is kept
+  unsigned jobs = 0;       // threads; 0: one per core. The result does not depend on it
 };
 
-// Fits `rows` (all of status ok, finite) with raw alpha and specular as inputs. Roughness is regressed from
-// roughness alone unless alpha_needs_specular(). Training stops by validation rows drawn from `rows`; the
-// figures in `method` are root mean squares in units of alpha and specular, over the rows that trained and
-// over the validation rows before they joined the training. Throws kInput for fewer than 10 rows or where an
-// input is constant, kUsage for a layer without units, kNumeric where no start converges, and what
-// `progress` throws.
+// Fits `rows` (all of status ok, finite) with alpha and specular as inputs. Target alpha is fitted from
+// source alpha alone unless alpha_needs_specular(). Validation rows drawn from `rows` determine when the
+// training stops. The figures in `method` are RMS errors in units of alpha and specular, over the training
+// rows and over the validation rows before they joined the training. Throws kInput for fewer than 10 rows or
+// a constant input, kUsage for a layer without units, kNumeric if no start converges, and the exceptions of
+// `progress`.
 Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
                    const FitProgress& progress = {});
 

@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using remap::Activation;
 
-// Derivative of the activation at x, where it has the value y.
+// The derivative of the activation at x, where its value is y.
 double activation_slope(Activation activation, double x, double y) {
   switch (activation) {
     case Activation::kRelu:

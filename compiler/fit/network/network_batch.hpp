@@ -1,5 +1,5 @@
-// A fully connected network over many samples at once: outputs, gradient and Jacobian by backpropagation.
-// What the optimisers (network_optimisers.hpp) and the tests see of a network while it is trained.
+// Evaluates a fully connected network on many samples: outputs, gradient and Jacobian by backpropagation. The
+// optimisers (network_optimisers.hpp) use it during training.
 #pragma once
 
 #include <cstddef>
@@ -15,39 +15,39 @@ struct NetworkShape {
   remap::Activation activation = remap::Activation::kTanh;
   std::vector<std::size_t> sizes;  // inputs, units of each hidden layer, outputs; at least two
 
-  // Weights and biases of all layers: the length of a parameter vector.
+  // The number of weights and biases: the length of a parameter vector.
   std::size_t parameter_count() const noexcept;
 };
 
-// Parameter vectors hold layer after layer: the weights as in remap::Layer, then the biases.
+// A parameter vector contains for each layer the weights, in the order of remap::Layer, then the biases.
 std::vector<remap::Layer> layers_from_parameters(const NetworkShape& shape, const double* parameters);
 
-// 1 where a parameter is a weight, 0 where it is a bias.
+// 1 for each weight and 0 for each bias of a parameter vector.
 Eigen::VectorXd weight_mask(const NetworkShape& shape);
 
-// A network of `shape` bound to normalised inputs. Not for several threads at once: the activations of the
-// last forward pass are kept for the backward passes that follow.
+// A network of `shape` with normalised inputs. Not thread-safe: it keeps the activations of the last forward
+// pass for the backward passes.
 class NetworkBatch {
  public:
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  // `inputs`: one column a sample, shape.sizes.front() rows.
+  // `inputs`: one column per sample, shape.sizes.front() rows.
   NetworkBatch(NetworkShape shape, Eigen::MatrixXd inputs);
 
   Eigen::Index sample_count() const noexcept { return values_.front().cols(); }
 
-  // Other samples, as many as before or not.
+  // Replaces the samples. Their number may differ.
   void set_inputs(Eigen::MatrixXd inputs);
 
-  // Normalised outputs at `parameters`, one column a sample; valid until the next call.
+  // Returns the normalised outputs at `parameters`, one column per sample; valid until the next call.
   const Eigen::MatrixXd& forward(const double* parameters);
 
-  // Of the last forward pass, at the same `parameters`: derivatives of output k of sample n by all
-  // parameters, in row n * outputs + k.
+  // Computes the derivatives of output k of sample n by all parameters, in row n * outputs + k. `parameters`
+  // must be those of the last forward pass.
   void jacobian(const double* parameters, Eigen::Ref<RowMajor> jacobian) const;
 
-  // Of the last forward pass: derivative by all parameters of a function whose derivatives by the outputs are
-  // `by_outputs` (one column a sample). `gradient` has parameter_count() numbers.
+  // Computes the derivative by all parameters of a function whose derivatives by the outputs of the last
+  // forward pass are `by_outputs` (one column per sample). `gradient`: parameter_count() numbers.
   void gradient(const double* parameters, const Eigen::MatrixXd& by_outputs, double* gradient) const;
 
  private:
@@ -58,7 +58,7 @@ class NetworkBatch {
 
   Eigen::Index size(std::size_t layer) const { return static_cast<Eigen::Index>(shape_.sizes[layer]); }
   Eigen::Map<const RowMajor> weights(const double* parameters, std::size_t layer) const;
-  // Derivatives by the sums of `layer` from those by the sums of the layer behind it.
+  // Derivatives by the sums of `layer`, from those by the sums of the following layer.
   Eigen::MatrixXd before(const double* parameters, std::size_t layer, const Eigen::MatrixXd& behind) const;
 };
 

@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Keeps the parameters with the least validation error and says when to give up.
+// Keeps the parameters with the least validation error and decides when to stop.
 class ValidationWatch {
  public:
   ValidationWatch(const NetworkShape& shape, const NetworkSamples& samples, const OptimiserSettings& settings)
@@ -27,7 +27,7 @@ class ValidationWatch {
     best_.validation_rms = std::numeric_limits<double>::infinity();
   }
 
-  // False where too many iterations brought nothing better.
+  // Returns false after too many iterations without an improvement.
   bool observe(const VectorXd& parameters, int iteration) {
     const double rms = rms_difference(batch_.forward(parameters.data()), expected_);
     best_.iterations = iteration;
@@ -48,13 +48,13 @@ class ValidationWatch {
   OptimisedNetwork best_;
 };
 
-// Residuals of all samples and outputs, and one of each weight for the decay, with their Jacobian.
+// Residuals of all samples and outputs and one residual per weight for the decay, with their Jacobian.
 class NetworkResiduals : public ceres::CostFunction {
  public:
   NetworkResiduals(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)
       : batch_(shape, samples.training_inputs),
         expected_(samples.training_outputs),
-        // The cost is half the sum of squares, the loss their mean.
+        // Ceres minimizes half the sum of squares; the loss is their mean.
         decay_(std::sqrt(weight_decay * static_cast<double>(expected_.size())) * weight_mask(shape)) {
     const auto count = static_cast<int>(shape.parameter_count());
     set_num_residuals(static_cast<int>(expected_.size()) + (weight_decay > 0.0 ? count : 0));
@@ -79,12 +79,12 @@ class NetworkResiduals : public ceres::CostFunction {
   }
 
  private:
-  mutable NetworkBatch batch_;  // Ceres evaluates on one thread here
+  mutable NetworkBatch batch_;  // Ceres uses one thread here
   const MatrixXd& expected_;
   VectorXd decay_;
 };
 
-// The same loss as one number with its gradient.
+// The same loss as a single number with its gradient.
 class NetworkLoss : public ceres::FirstOrderFunction {
  public:
   NetworkLoss(const NetworkShape& shape, const NetworkSamples& samples, double weight_decay)
@@ -112,7 +112,7 @@ class NetworkLoss : public ceres::FirstOrderFunction {
   VectorXd decay_;
 };
 
-// Lets the watch and the report see the parameters after each iteration of Ceres.
+// Passes the parameters to the watch and the report after each iteration of Ceres.
 class IterationWatch : public ceres::IterationCallback {
  public:
   IterationWatch(ValidationWatch& watch, const VectorXd& parameters, int iterations, const StepReport& report)
@@ -131,7 +131,7 @@ class IterationWatch : public ceres::IterationCallback {
   const StepReport& report_;
 };
 
-// The tolerances only end what cannot move any more; the validation error decides.
+// The tolerances end only searches that have come to rest, because the validation error decides when to stop.
 template <typename Options>
 void set_limits(Options& options, const OptimiserSettings& settings, ceres::IterationCallback& callback) {
   options.max_num_iterations = settings.iterations;
@@ -182,7 +182,7 @@ OptimisedNetwork run_lbfgs(const NetworkShape& shape, const NetworkSamples& samp
 
 OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& samples, const VectorXd& start,
                           const OptimiserSettings& settings, const StepReport& report) {
-  constexpr double kFirst = 0.9, kSecond = 0.999, kFloor = 1e-8;  // as published
+  constexpr double kFirst = 0.9, kSecond = 0.999, kFloor = 1e-8;  // the published values
   const VectorXd decay = settings.weight_decay * weight_mask(shape);
   const Index count = samples.training_inputs.cols();
   const Index batch_size = std::min<Index>(settings.batch, count);

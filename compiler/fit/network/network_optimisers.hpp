@@ -1,5 +1,5 @@
-// The optimisers of network_training.hpp: one training from one set of initial parameters. The only part of
-// the networks that touches Ceres.
+// The optimisers of network_training.hpp: one training from one set of initial parameters. Only this part of
+// the networks uses Ceres.
 #pragma once
 
 #include <cstdint>
@@ -12,43 +12,44 @@ namespace remapc {
 
 struct OptimiserSettings {
   // The loss is the mean squared error of the normalised outputs plus weight_decay times the sum of the
-  // squared weights (biases are free).
+  // squared weights, without biases.
   double weight_decay = 0.0;
-  int iterations = 300;    // at most
-  int patience = 100;      // iterations without a better validation error before it stops
-  int batch = 128;         // samples a step, of run_adam
-  double step = 3e-3;      // largest step, of run_adam
-  std::uint64_t seed = 1;  // order of the samples, of run_adam
+  int iterations = 300;    // maximum
+  int patience = 100;      // stops after so many iterations without a better validation error
+  int batch = 128;         // samples per step of run_adam
+  double step = 3e-3;      // largest step of run_adam
+  std::uint64_t seed = 1;  // of the sample order of run_adam
 };
 
 struct OptimisedNetwork {
-  Eigen::VectorXd parameters;   // those with the least validation error that was seen
-  double validation_rms = 0.0;  // infinity where no finite error was seen
+  Eigen::VectorXd parameters;   // those with the least validation error
+  double validation_rms = 0.0;  // infinity if no error was finite
   int iterations = 0;
   int best_iteration = 0;
 };
 
-// Called after each iteration with the share that is done, 0 to 1. Must not throw; false stops the training.
+// Called after each iteration with the share of the work done, 0 to 1. Must not throw; false stops the
+// training.
 using StepReport = std::function<bool(double share)>;
 
-// Levenberg-Marquardt with the dense analytic Jacobian; for networks of up to some hundreds of parameters.
-// Time for each iteration grows with samples times parameters squared.
+// Levenberg-Marquardt with a dense analytic Jacobian, for networks of up to some hundred parameters. The time
+// of an iteration is proportional to samples times parameters squared.
 OptimisedNetwork run_levenberg_marquardt(const NetworkShape& shape, const NetworkSamples& samples,
                                          const Eigen::VectorXd& start, const OptimiserSettings& settings,
                                          const StepReport& report);
 
-// Adam (Kingma and Ba 2015) on mini-batches: the step rises over the first twentieth of the iterations and
-// falls to 0 along a cosine. An iteration is a pass over the samples.
+// Adam (Kingma and Ba 2015) on mini-batches: the step increases over the first twentieth of the iterations
+// and then decreases to 0 along a cosine. An iteration is one pass over the samples.
 OptimisedNetwork run_adam(const NetworkShape& shape, const NetworkSamples& samples,
                           const Eigen::VectorXd& start, const OptimiserSettings& settings,
                           const StepReport& report);
 
-// L-BFGS on all samples at once.
+// L-BFGS on all samples.
 OptimisedNetwork run_lbfgs(const NetworkShape& shape, const NetworkSamples& samples,
                            const Eigen::VectorXd& start, const OptimiserSettings& settings,
                            const StepReport& report);
 
-// Root mean square of the differences of normalised outputs.
+// RMS difference of normalised outputs.
 double rms_difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected);
 
 }  // namespace remapc

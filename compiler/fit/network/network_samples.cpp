@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <random>
 #include <utility>
+
+#include "fit/rows/split.hpp"
 
 namespace remapc {
 namespace {
@@ -16,19 +16,19 @@ using remap::Scaling;
 
 constexpr std::size_t kMostValidationRows = 2048;
 
-// One column a row of samples.
+// One column per sample.
 Eigen::Map<const MatrixXd> columns_of(const std::vector<double>& values, std::size_t width) {
   return {values.data(), static_cast<Index>(width), static_cast<Index>(values.size() / width)};
 }
 
-// To [-1, 1].
+// Scales values to [-1, 1].
 Scaling range_scaling(const VectorXd& values) {
   const double low = values.minCoeff(), high = values.maxCoeff();
   if (!(high > low)) return {low, 1.0};
   return {low + 0.5 * (high - low), 2.0 / (high - low)};
 }
 
-// To mean 0 and variance 1.
+// Scales values to mean 0 and variance 1.
 Scaling variance_scaling(const VectorXd& values) {
   if (!(values.maxCoeff() > values.minCoeff())) return {values[0], 1.0};
   const double mean = values.mean();
@@ -62,11 +62,7 @@ NormalisedSamples normalised_samples(const Samples& samples, std::uint64_t seed)
   for (Index i = 0; i < inputs.rows(); ++i) result.input_scalings.push_back(range_scaling(inputs.row(i)));
   for (Index i = 0; i < outputs.rows(); ++i)
     result.output_scalings.push_back(variance_scaling(outputs.row(i)));
-  // Fisher and Yates by hand: std::shuffle is not the same in every standard library.
-  std::vector<Index> order(samples.count());
-  std::iota(order.begin(), order.end(), Index{0});
-  std::mt19937_64 random(mixed_seed(seed, 0));
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+  const std::vector<std::size_t> order = seeded_order(samples.count(), mixed_seed(seed, 0));
   result.inputs = normalised_columns(inputs, result.input_scalings)(Eigen::all, order);
   result.outputs = normalised_columns(outputs, result.output_scalings)(Eigen::all, order);
   return result;

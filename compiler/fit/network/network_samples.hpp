@@ -1,5 +1,5 @@
-// Samples on their way into a training: normalised, in a seeded order, split into those that train and those
-// that judge.
+// Prepares samples for a training: normalises and shuffles them, and splits them into training and validation
+// samples.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,26 @@ namespace remapc {
 
 struct NormalisedSamples {
   std::vector<remap::Scaling> input_scalings, output_scalings;
-  Eigen::MatrixXd inputs, outputs;  // one column a sample, in an order drawn by the seed
+  Eigen::MatrixXd inputs, outputs;  // one column per sample, in random order
 };
 
-// Inputs to [-1, 1], outputs to mean 0 and variance 1 over all samples; what is constant is only shifted.
+// Scales inputs to [-1, 1] and outputs to mean 0 and variance 1 over all samples. Constant values are only
+// shifted.
 NormalisedSamples normalised_samples(const Samples& samples, std::uint64_t seed);
 
-// Normalised samples, one column each. Training adjusts the parameters, validation says when to stop.
+// Normalised samples, one column each. Validation samples determine when the training stops.
 struct NetworkSamples {
   Eigen::MatrixXd training_inputs, training_outputs;
   Eigen::MatrixXd validation_inputs, validation_outputs;
 };
 
-// The first `validation_fraction` of the samples judge (at least one, at most 4096), the next train, at most
-// `most_training` of them. With a fraction of 0 those that train judge.
+// Splits the samples: the first `validation_fraction` of them (1 to 2048) are validation samples, the
+// following ones (at most `most_training`) training samples. With a fraction of 0 the training samples are
+// also the validation samples.
 NetworkSamples split_columns(const NormalisedSamples& all, double validation_fraction,
                              std::size_t most_training);
 
-// A seed of its own for each purpose `stream` (splitmix64, Steele et al. 2014).
+// Derives a seed for each purpose `stream` (splitmix64, Steele et al. 2014).
 std::uint64_t mixed_seed(std::uint64_t seed, std::uint64_t stream);
 
 }  // namespace remapc

@@ -28,15 +28,16 @@ using remap::ErrorKind;
 
 constexpr std::size_t kFewestRows = 10;
 constexpr std::size_t kLevenbergParameters = 600;
-// Levenberg-Marquardt takes residuals times parameters squared operations an iteration, which these keep to
-// about 0.05 s; small networks spend theirs on the Jacobian, in proportion to the residuals.
+// Limits the time of a Levenberg-Marquardt iteration, which is proportional to residuals times parameters
+// squared, to about 0.05 s. Small networks need most of it for the Jacobian, which is proportional to the
+// residuals.
 constexpr double kLevenbergWork = 1e8;
 constexpr double kFewestResiduals = 1500.0, kMostResiduals = 3000.0;
 constexpr int kLevenbergIterations = 300;
 constexpr int kLevenbergPatience = 80;
 constexpr int kRefitIterations = 60;
 constexpr double kStartsShare = 0.95;  // of the progress; the rest is the refit
-// Adam: passes over the samples as this many multiplications allow, within bounds.
+// The number of multiplications that determines the number of Adam passes, within bounds.
 constexpr double kAdamWork = 1e10;
 constexpr double kFewestPasses = 10.0, kMostPasses = 400.0;
 constexpr int kLbfgsIterations = 300;
@@ -50,24 +51,24 @@ void require_sound(const Samples& samples, const TrainingOptions& options) {
       samples.outputs.size() != count * samples.output_count)
     throw Error(ErrorKind::kInput, "network: " + std::to_string(samples.inputs.size()) + " inputs and " +
                                        std::to_string(samples.outputs.size()) +
-                                       " outputs; expected whole rows of both, equally many");
+                                       " outputs do not form equally many whole rows");
   if (count < kFewestRows)
-    throw Error(ErrorKind::kInput, "network: " + std::to_string(count) + " rows; expected at least " +
-                                       std::to_string(kFewestRows));
+    throw Error(ErrorKind::kInput, "network: too few rows (" + std::to_string(count) + ", at least " +
+                                       std::to_string(kFewestRows) + " are required)");
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(samples.inputs.begin(), samples.inputs.end(), finite) ||
       !std::all_of(samples.outputs.begin(), samples.outputs.end(), finite))
-    throw Error(ErrorKind::kInput, "network: a row holds NaN or infinity; expected finite numbers");
+    throw Error(ErrorKind::kInput, "network: a row contains a number that is not finite");
   if (std::find(options.hidden.begin(), options.hidden.end(), std::size_t{0}) != options.hidden.end())
-    throw Error(ErrorKind::kUsage, "network: a hidden layer of 0 units; expected at least 1");
-  if (options.starts == 0) throw Error(ErrorKind::kUsage, "network: 0 starts; expected at least 1");
+    throw Error(ErrorKind::kUsage, "network: every hidden layer must have at least 1 unit");
+  if (options.starts == 0) throw Error(ErrorKind::kUsage, "network: at least 1 start is required");
   if (!(options.validation_fraction >= 0.0 && options.validation_fraction <= 0.5))
     throw Error(ErrorKind::kUsage, "network: validation share " +
                                        remap::number_text(options.validation_fraction) +
-                                       "; expected 0 to 0.5");
+                                       " is out of range (0 to 0.5)");
   if (!(options.weight_decay >= 0.0 && std::isfinite(options.weight_decay)))
-    throw Error(ErrorKind::kUsage,
-                "network: weight decay " + remap::number_text(options.weight_decay) + "; expected 0 or more");
+    throw Error(ErrorKind::kUsage, "network: weight decay " + remap::number_text(options.weight_decay) +
+                                       " must be finite and at least 0");
 }
 
 NetworkShape shape_of(const Samples& samples, const TrainingOptions& options) {
@@ -77,8 +78,8 @@ NetworkShape shape_of(const Samples& samples, const TrainingOptions& options) {
   return shape;
 }
 
-// Uniform weights, after Glorot and Bengio (2010) for tanh and after He et al. (2015) for the others; hidden
-// biases uniform in [-1, 1], so that units bend at different places of the inputs' range.
+// Uniform weights after Glorot and Bengio (2010) for tanh and after He et al. (2015) for other activations.
+// Hidden biases are uniform in [-1, 1], so that the units bend at different positions of the input range.
 VectorXd initial_parameters(const NetworkShape& shape, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
@@ -97,14 +98,14 @@ VectorXd initial_parameters(const NetworkShape& shape, std::uint64_t seed) {
   return parameters;
 }
 
-// The shares of all starts as one that never falls. An exception does not pass through Ceres: it is kept,
-// ends every start and is thrown when all have ended.
+// Combines the progress of all starts into a share that never decreases. Exceptions must not pass through
+// Ceres, so an exception is stored, ends every start and is rethrown after all have ended.
 class StartsProgress {
  public:
   StartsProgress(std::size_t starts, const FitProgress& progress)
       : shares_(starts, 0.0), progress_(progress) {}
 
-  // False where the training has to end.
+  // Returns false if the training must end.
   bool report(std::size_t start, double share) noexcept {
     if (stopped_) return false;
     const std::lock_guard lock(mutex_);
@@ -131,7 +132,7 @@ class StartsProgress {
   std::atomic<bool> stopped_ = false;  // read without the lock
 };
 
-// One training of network and rows as they are, from seeded weights.
+// One training from initial weights given by a seed.
 using Training = std::function<OptimisedNetwork(std::uint64_t seed, const StepReport& report)>;
 
 std::vector<OptimisedNetwork> run_starts(const Training& train, const TrainingOptions& options,
@@ -153,8 +154,8 @@ std::size_t best_of(const std::vector<OptimisedNetwork>& results) {
   for (std::size_t i = 1; i < results.size(); ++i)
     if (results[i].validation_rms < results[best].validation_rms) best = i;
   if (!std::isfinite(results[best].validation_rms))
-    throw Error(ErrorKind::kNumeric, "network: none of " + std::to_string(results.size()) +
-                                         " starts gave finite errors; expected at least one to converge");
+    throw Error(ErrorKind::kNumeric,
+                "network: none of " + std::to_string(results.size()) + " starts gave finite errors");
   return best;
 }
 
@@ -164,7 +165,7 @@ std::string shape_text(const NetworkShape& shape) {
   return text + " " + std::string(remap::activation_name(shape.activation));
 }
 
-// What the two ways of training have in common with their result.
+// The result of either way of training.
 struct Outcome {
   OptimisedNetwork best;
   NetworkSamples samples;
@@ -201,7 +202,7 @@ Outcome train_small(const NetworkShape& shape, const NormalisedSamples& all, con
   outcome.method = "Levenberg-Marquardt, " + starts_text(options, outcome.best_start, outcome.best);
   if (options.validation_fraction == 0.0) return outcome;
 
-  // A refit that is short against the training stays where validation left it and gains the rows.
+  // A short refit stays near the validated parameters and uses the additional rows.
   NetworkSamples& samples = outcome.samples;
   const Index used = samples.training_inputs.cols() + samples.validation_inputs.cols();
   samples.training_inputs = all.inputs.leftCols(used);
@@ -223,7 +224,7 @@ Outcome train_large(const NetworkShape& shape, const NormalisedSamples& all, con
   Outcome outcome;
   outcome.samples = split_columns(all, options.validation_fraction, std::numeric_limits<std::size_t>::max());
   const NetworkSamples part = split_columns(all, options.validation_fraction, kMostLbfgsRows);
-  // A pass takes about three multiplications a parameter and sample.
+  // A pass takes about three multiplications per parameter and sample.
   const double pass_work = 3.0 * static_cast<double>(shape.parameter_count()) *
                            static_cast<double>(outcome.samples.training_inputs.cols());
   OptimiserSettings adam;
@@ -274,7 +275,8 @@ TrainedNetwork train_network(const Samples& samples, const TrainingOptions& opti
   trained.training_rms = rms_difference(batch.forward(parameters), outcome.samples.training_outputs);
   trained.validation_rms = outcome.best.validation_rms;
   trained.best_start = outcome.best_start;
-  const bool shares_rows = options.validation_fraction == 0.0 || is_small;  // training holds validation rows
+  const bool shares_rows =
+      options.validation_fraction == 0.0 || is_small;  // the training rows include the validation rows
   trained.rows = static_cast<std::size_t>(outcome.samples.training_inputs.cols() +
                                           (shares_rows ? 0 : outcome.samples.validation_inputs.cols()));
   trained.method = shape_text(shape) + ", " + outcome.method + ", " + std::to_string(trained.rows) + " of " +

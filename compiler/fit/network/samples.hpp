@@ -1,4 +1,4 @@
-// Samples that a network learns from.
+// The samples that a network is trained on.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace remapc {
 
-// Rows of samples: `input_count` numbers a row, `output_count` numbers a row.
+// Rows of `input_count` inputs and `output_count` outputs.
 struct Samples {
   std::size_t input_count = 0;
   std::size_t output_count = 0;

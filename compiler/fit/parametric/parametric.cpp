@@ -28,7 +28,7 @@ double grid_value(const Range& range, int i, int steps) {
   return i == steps ? range.max : range.min + (range.max - range.min) * i / steps;
 }
 
-// Where a quantity that has to be positive is least.
+// The least value of a quantity that must be positive, and its place.
 struct Least {
   double value = 1e300;
   double alpha = 0.0;
@@ -77,9 +77,9 @@ void require_rising_alpha(const Parametric& form, const remap::Domain& domain) {
     }
   }
   if (least.value > 0.0) return;
-  throw Error(ErrorKind::kNumeric, "fit: the roughness curve bends: its slope is " + place(least, !flat) +
-                                       "; expected a rising curve on " + number_text(domain.alpha.min) +
-                                       " to " + number_text(domain.alpha.max));
+  throw Error(ErrorKind::kNumeric,
+              "fit: the roughness curve does not increase from " + number_text(domain.alpha.min) + " to " +
+                  number_text(domain.alpha.max) + ": its slope is " + place(least, !flat));
 }
 
 void require_rising_specular(const Parametric& form, const remap::Domain& domain, double least_specular) {
@@ -95,12 +95,11 @@ void require_rising_specular(const Parametric& form, const remap::Domain& domain
   }
   if (!(slope.value > 0.0))
     throw Error(ErrorKind::kNumeric,
-                proportional ? "fit: k(alpha) is " + place(slope, false) + "; expected a positive factor"
-                             : "fit: specular2 falls: its slope over specular1 is " + place(slope, true) +
-                                   "; expected a rising curve");
+                proportional
+                    ? "fit: k(alpha) is not positive: it is " + place(slope, false)
+                    : "fit: specular2 does not increase with specular1: its slope is " + place(slope, true));
   if (!(value.value >= 0.0))
-    throw Error(ErrorKind::kNumeric,
-                "fit: specular2 is " + place(value, true) + "; expected a number from 0");
+    throw Error(ErrorKind::kNumeric, "fit: specular2 is negative: it is " + place(value, true));
 }
 
 double least_positive_specular(const std::vector<TableRow>& rows) {
@@ -126,9 +125,9 @@ std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(basis);
   if (qr.rank() < basis.cols())
-    throw Error(ErrorKind::kInput, "fit: the training rows have too few different samples for the form " +
-                                       std::string(form.name) + "; expected at least " +
-                                       std::to_string(basis.cols()) + " that differ in alpha1 and specular1");
+    throw Error(ErrorKind::kInput, "fit: the training rows have too few distinct samples for the form " +
+                                       std::string(form.name) + " (at least " + std::to_string(basis.cols()) +
+                                       " that differ in alpha1 and specular1 are required)");
   const Eigen::VectorXd solution = qr.solve(target);
   std::vector<std::vector<double>> coefficients;
   const double* next = solution.data();

@@ -1,4 +1,4 @@
-// Which form of the parametric kind the rows call for.
+// Chooses the form of the parametric kind for a set of rows.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -18,11 +18,11 @@ namespace {
 
 using remap::Parametric;
 
-// Rows that the choice is made on; more of them would not change it, only take longer.
+// Rows used for the choice. More rows take longer and do not change the result.
 constexpr std::size_t kMostRows = 4000;
 
-// What cross-validation found about the forms of one output, in their order; none for a form that the rows
-// cannot carry.
+// The cross-validation results of the forms of one output, in their order; empty for a form that the rows do
+// not determine.
 using Scores = std::vector<std::optional<CrossValidated>>;
 
 struct Task {
@@ -66,7 +66,7 @@ std::optional<CrossValidated> score_or_none(const Task& task, const Form& form) 
   }
 }
 
-// The simplest form within one standard error of the best; the first where no form has a score.
+// The simplest form within one standard error of the best; the first if no form has a score.
 template <typename Form>
 const Form* choose(std::span<const Form> forms, const Scores& scores) {
   double best = 1e300, bound = 1e300;
@@ -112,7 +112,7 @@ Regression fit_parametric_best(const std::vector<TableRow>& rows, const remap::D
   const std::size_t count = roughness.size() + specular.size();
   std::atomic<std::size_t> done{0};
   remap::run_parallel(count, options.jobs, [&](std::size_t i) {
-    // The dearest first, so that no thread is left with it at the end.
+    // The slowest forms start first, so that the threads end at about the same time.
     const std::size_t form = count - 1 - i;
     if (form < roughness.size())
       alpha_scores[form] = score_or_none(task, roughness[form]);

@@ -14,26 +14,26 @@ const std::vector<RoughnessForm> kRoughnessForms = {
     {"quartic-s", "degree 4, and a cubic times specular", {4, 3}},
     {"sextic-s", "degree 6, and a cubic times specular", {6, 3}},
     {"sextic-s2", "degree 6, and cubics times powers of specular up to 2", {6, 3, 3}},
-    {"sextic-s4", "the same up to power 4", {6, 3, 3, 3, 3}},
-    // A rim that does not fade with specular moves the match by about 1 / specular, which takes many powers.
-    {"sextic-s6", "the same up to power 6", {6, 3, 3, 3, 3, 3, 3}},
+    {"sextic-s4", "like sextic-s2, with powers up to 4", {6, 3, 3, 3, 3}},
+    // A rim that does not fade with specular shifts the match by about 1 / specular, which needs many powers.
+    {"sextic-s6", "like sextic-s2, with powers up to 6", {6, 3, 3, 3, 3, 3, 3}},
 };
 
-// A pole is what the authors' scripts add to section 7. An offset is the rim that a target with Fresnel shows
-// at reflectance 0; curvature is what three.js does to its specular. A slope of two curves follows k(alpha)
-// where one leaves a wave of 1e-3.
+// The authors' scripts add the pole to section 7. An offset models the rim that a target with Fresnel shows
+// at reflectance 0; curvature models the specular of three.js. A sum of two curves removes the residual wave
+// of 1e-3 that one curve leaves in k(alpha).
 const std::vector<SpecularForm> kSpecularForms = {
     {"slope", "k(alpha) specular", {1}, false},
-    {"slope+pole", "the same with c5 / alpha in k", {1}, true},
+    {"slope+pole", "slope with c5 / alpha in k", {1}, true},
     {"double", "k(alpha) specular, k the sum of two curves", {1, 1}, false},
     {"affine", "offset(alpha) + k(alpha) specular", {0, 1}, false},
-    {"affine+pole", "the same with c5 / alpha in k", {0, 1}, true},
+    {"affine+pole", "affine with c5 / alpha in k", {0, 1}, true},
     {"affine-double", "offset(alpha) + k(alpha) specular, k the sum of two curves", {0, 1, 1}, false},
     {"quadratic", "k(alpha) specular + curvature(alpha) specular^2", {1, 2}, false},
-    {"quadratic+pole", "the same with c5 / alpha in k", {1, 2}, true},
-    {"quadratic-double", "the same, k the sum of two curves", {1, 1, 2}, false},
+    {"quadratic+pole", "quadratic with c5 / alpha in k", {1, 2}, true},
+    {"quadratic-double", "quadratic, k the sum of two curves", {1, 1, 2}, false},
     {"full", "offset + k specular + curvature specular^2", {0, 1, 2}, false},
-    {"full-double", "the same, k the sum of two curves", {0, 1, 1, 2}, false},
+    {"full-double", "full, k the sum of two curves", {0, 1, 1, 2}, false},
 };
 
 constexpr std::size_t kCurveCoefficients = 5;  // start, ramp, its rate, bump, its rate
@@ -89,10 +89,11 @@ ParametricForm find_form(const std::string& name) {
     for (const SpecularForm& specular : kSpecularForms)
       known.push_back(std::string(roughness.name) + "/" + std::string(specular.name));
   const std::string nearest = remap::nearest_name(name, known);
-  throw remap::Error(remap::ErrorKind::kUsage,
-                     "form " + name + ": is not known; expected paper, paper+pole or ROUGHNESS/SPECULAR of " +
-                         names_of(kRoughnessForms) + " / " + names_of(kSpecularForms) +
-                         (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+  throw remap::Error(remap::ErrorKind::kUsage, "unknown form '" + name + "' (" +
+                                                   (nearest.empty() ? "" : "did you mean " + nearest + "? ") +
+                                                   "choose paper, paper+pole or ROUGHNESS/SPECULAR of " +
+                                                   names_of(kRoughnessForms) + " / " +
+                                                   names_of(kSpecularForms) + ")");
 }
 
 std::string form_list() {

@@ -1,5 +1,5 @@
-// The forms that the parametric kind can take, as data: which coefficients are free. Roughness and specular
-// are regressed apart, so a form is one of each.
+// The forms of the parametric kind, as data: which coefficients are free. Roughness and specular are fitted
+// separately, so a form consists of one of each.
 #pragma once
 
 #include <span>
@@ -13,24 +13,24 @@ namespace remapc {
 // degrees[j].
 struct RoughnessForm {
   std::string_view name;
-  std::string_view summary;  // for people
+  std::string_view summary;  // shown to users
   std::vector<int> degrees;
   std::size_t coefficient_count() const;
 };
 
-// specular2 = sum over `powers` p of specular1^p times a curve of alpha1 (remap::AlphaCurve). A power that
-// stands twice has the sum of two curves.
+// specular2 = sum over `powers` p of specular1^p times a curve of alpha1 (remap::AlphaCurve). A repeated
+// power has the sum of two curves.
 struct SpecularForm {
   std::string_view name;
   std::string_view summary;
-  std::vector<int> powers;  // never falling, with 1 among them
+  std::vector<int> powers;  // in increasing order, repetitions allowed; includes 1
   bool pole = false;        // whether the factor of specular1 has the term pole / alpha1
-  // Whether the term adds to the one before it, which then holds the constant of both.
+  // Whether the term repeats the power of the term before it, which then holds the constant of both.
   bool is_repeated(std::size_t term) const;
   std::size_t coefficient_count() const;
 };
 
-// From the paper's (Sztrajman et al. 2019, section 7), which is the first, to the richest.
+// All forms, in order of complexity. The first is that of the paper (Sztrajman et al. 2019, section 7).
 std::span<const RoughnessForm> roughness_forms();
 std::span<const SpecularForm> specular_forms();
 
@@ -39,13 +39,13 @@ struct ParametricForm {
   const SpecularForm* specular = nullptr;
 };
 
-// `paper` for the paper's, else `<roughness>/<specular>`.
+// `paper` for the form of the paper, otherwise `<roughness>/<specular>`.
 std::string form_name(const ParametricForm& form);
 
-// The form of that name; `paper+pole` is `quartic/slope+pole`. Throws kUsage with the names there are.
+// Returns the form with this name; `paper+pole` is `quartic/slope+pole`. Throws kUsage for an unknown name.
 ParametricForm find_form(const std::string& name);
 
-// All of them, a line each, for the help of a command.
+// Lists all forms for help texts, one per line.
 std::string form_list();
 
 }  // namespace remapc

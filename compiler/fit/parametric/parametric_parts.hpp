@@ -1,4 +1,4 @@
-// The halves of the parametric regression, for the code that chooses a form for each.
+// The two halves of the parametric regression, for the code that chooses a form for each.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace remapc {
 
-// Coefficients of least squares in alpha2. Throws kInput where the rows do not determine them.
+// The least squares coefficients for alpha2. Throws kInput if the rows do not determine them.
 std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows, const RoughnessForm& form);
 
-// Throws kNumeric, with the place, where alpha2 does not rise with alpha1 everywhere in `domain`.
+// Throws kNumeric with the place if alpha2 does not increase with alpha1 everywhere in `domain`.
 void require_rising_alpha(const remap::Parametric& form, const remap::Domain& domain);
 
-// Throws kNumeric, with the place, where a proportional factor is not positive, or else where specular2 does
-// not rise with specular1 or is negative at `least_specular`.
+// Throws kNumeric with the place if a proportional factor is not positive, or otherwise if specular2 does not
+// increase with specular1 or is negative at `least_specular`.
 void require_rising_specular(const remap::Parametric& form, const remap::Domain& domain,
                              double least_specular);
 

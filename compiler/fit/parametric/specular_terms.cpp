@@ -26,23 +26,24 @@ using remap::rise;
 using remap::SpecularTerm;
 
 constexpr std::size_t kFewestAlphas = 6;
-// Rates that the search starts from: from straight lines over the domain to the narrowest bump a grid shows.
+// Rates at which the search starts, from straight lines over the domain to the narrowest bump that a table
+// resolves.
 constexpr std::array<double, 12> kStartRates = {0.0, 0.25, 0.5,  1.0,  2.0,   4.0,
                                                 8.0, 16.0, 32.0, 64.0, 256.0, 1024.0};
-// The largest rate of a table: at its second smallest alpha an exponential has fallen to exp(-this). One that
-// falls faster would follow the rows of the smallest alpha alone.
+// Limits the rates: at the second smallest alpha of a table, an exponential is at least exp(-kLargestDecay).
+// A faster one would only follow the rows of the smallest alpha.
 constexpr double kLargestDecay = 5.0;
-// What a contribution of 1 at the largest alpha costs in rms error: nothing against what a fit leaves, but
-// too much for curves of 1000 that cancel each other.
+// The cost in rms error of a contribution of 1 at the largest alpha. It is negligible compared with the error
+// of a fit, but prevents curves of magnitude 1000 that cancel each other.
 constexpr double kContributionPenalty = 1e-6;
 constexpr std::size_t kPolishedStarts = 4;
-constexpr std::size_t kStartAlphas = 256;  // widths that the grid of starts looks at, evenly drawn
+constexpr std::size_t kStartAlphas = 256;  // alphas for the grid of starts, evenly drawn
 
-// The rows with those of one alpha put together: |weights f - target|^2, f the values of the curves at alpha,
-// is the squared error of the rows up to a constant. Exact, by a QR of the powers of specular.
+// The rows of one alpha, combined: with f the values of the curves at alpha, |weights f - target|^2 is their
+// squared error up to a constant. Exact, by a QR decomposition of the powers of specular.
 struct Samples {
   VectorXd alpha;
-  MatrixXd weights;  // one column a term
+  MatrixXd weights;  // one column per term
   VectorXd target;
   double row_count = 0.0;
   double first_alpha = 0.0, second_alpha = 0.0, last_alpha = 0.0;
@@ -86,16 +87,16 @@ Samples join_rows(const std::map<double, std::vector<const TableRow*>>& by_alpha
   return samples;
 }
 
-// d/d rate of phi(rate, x); the series where the closed form is 0 / 0.
+// The derivative of phi(rate, x) by the rate; uses the series where the closed form is 0 / 0.
 double rise_derivative(double rate, double x) {
   const double y = rate * x;
   if (y < 1e-3) return -x * x * (1.0 / 2.0 - y * (1.0 / 3.0 - y * (1.0 / 8.0 - y / 30.0)));
   return (y * std::exp(-y) + std::expm1(-y)) / (rate * rate);
 }
 
-// The squared error as a function of the rates alone: the linear coefficients are those of least squares for
-// them (Golub and Pereyra 1973; Jacobian after Kaufman 1975, whose gradient is exact).
-// Rates: ramp_rate and bump_rate of the first term, of the second, and so on.
+// The squared error as a function of the rates alone, with the least squares coefficients for them (Golub and
+// Pereyra 1973; Jacobian after Kaufman 1975, whose gradient is exact). The rates are ramp_rate and bump_rate
+// of each term in turn.
 class Projection {
  public:
   Projection(const Samples& samples, const SpecularForm& form)
@@ -115,7 +116,7 @@ class Projection {
                                     form_.powers.begin());
   }
 
-  // One row a sample, then one a column for the penalty.
+  // One row per sample, then one row per column for the penalty.
   MatrixXd basis(const std::vector<double>& rates) const {
     const Index terms = samples_.weights.cols(), count = sample_count();
     MatrixXd columns = MatrixXd::Zero(size(), column_count());
@@ -147,7 +148,7 @@ class Projection {
     return (columns * coefficients - target_).squaredNorm();
   }
 
-  // Residuals, and, where asked, their derivatives by each rate.
+  // Computes the residuals and, if `jacobian` is given, their derivatives by each rate.
   void evaluate(const std::vector<double>& rates, double* residuals, double* jacobian) const {
     const MatrixXd columns = basis(rates);
     const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
@@ -182,7 +183,7 @@ class Projection {
   Index sample_count() const { return samples_.alpha.size(); }
   Index column_count() const { return 3 * samples_.weights.cols() + (form_.pole ? 1 : 0); }
 
-  // Of the column that rate `r` shapes.
+  // The derivative of the column that depends on rate `r`.
   VectorXd column_derivative(Index r, double rate) const {
     const Index count = sample_count();
     const auto argument = [&](double alpha) { return r % 2 == 1 ? alpha * alpha : alpha; };
@@ -236,7 +237,7 @@ Rates polish(const Projection& projection, Rates rates) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 500;
-  // A cost that falls by less than this share in a step has reached what its rounding leaves.
+  // A smaller relative decrease per step is rounding.
   options.function_tolerance = 1e-7;
   options.parameter_tolerance = 1e-9;
   options.gradient_tolerance = 1e-14;
@@ -248,7 +249,7 @@ Rates polish(const Projection& projection, Rates rates) {
   return rates;
 }
 
-// Rates from the grid, term by term, the slope first: the best few pairs of one term are each tried with
+// Searches rates on the grid term by term, the slope first: the best few pairs of one term are combined with
 // every pair of the next.
 std::vector<Rates> search_starts(const Projection& projection) {
   std::vector<Rates> beams = {{std::vector<double>(2 * projection.term_count(), 0.0)}};
@@ -284,22 +285,22 @@ Rates best_of(const Projection& projection, const std::vector<Rates>& starts) {
     if (candidate.cost < best.cost) best = candidate;
   }
   if (!std::isfinite(best.cost))
-    throw Error(ErrorKind::kNumeric,
-                "fit: the rates of k(alpha) did not converge from any start; look at the table with remapc "
-                "check");
+    throw Error(
+        ErrorKind::kNumeric,
+        "fit: the rates of k(alpha) did not converge from any start (check the table with remapc check)");
   return best;
 }
 
 void require_samples(std::size_t alpha_count, std::size_t specular_count, const SpecularForm& form) {
   if (alpha_count < kFewestAlphas)
-    throw Error(ErrorKind::kInput, "fit: the training rows have " + std::to_string(alpha_count) +
-                                       " different alpha1; expected at least " +
-                                       std::to_string(kFewestAlphas));
+    throw Error(ErrorKind::kInput, "fit: the training rows have too few distinct alpha1 (" +
+                                       std::to_string(alpha_count) + ", at least " +
+                                       std::to_string(kFewestAlphas) + " are required)");
   if (specular_count < form.powers.size())
-    throw Error(ErrorKind::kInput, "fit: the training rows have " + std::to_string(specular_count) +
-                                       " different specular1; expected at least " +
-                                       std::to_string(form.powers.size()) + " for the form " +
-                                       std::string(form.name));
+    throw Error(ErrorKind::kInput, "fit: the training rows have too few distinct specular1 (" +
+                                       std::to_string(specular_count) + ", the form " +
+                                       std::string(form.name) + " requires at least " +
+                                       std::to_string(form.powers.size()) + ")");
 }
 
 }  // namespace

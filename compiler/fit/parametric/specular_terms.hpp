@@ -1,5 +1,5 @@
-// The specular half of the parametric regression: curves of exponentials over alpha, one for each power of
-// specular, all at once.
+// The specular half of the parametric regression: fits curves of exponentials over alpha, one for each power
+// of specular, together.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace remapc {
 
-// The terms of `form` that minimise the squared error in specular2 over the rows. Linear coefficients by
-// least squares for given rates, rates by a grid of starts and Ceres (variable projection). `near`: terms of
-// the same form whose rates are the only start, for rows that are much like those that gave them. Throws
-// kInput for rows with too few different alpha1 (6) or specular1 (one a power), kNumeric where no start
+// Returns the terms of `form` that minimize the squared error in specular2 over the rows, by variable
+// projection: Ceres searches the rates from a grid of starts, and least squares gives the linear coefficients
+// for them. `near`: terms of the same form, fitted to similar rows, whose rates are the only start. Throws
+// kInput for rows with too few distinct alpha1 (6) or specular1 (one per power), kNumeric if no start
 // converges.
 std::vector<remap::SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows,
                                                     const SpecularForm& form,

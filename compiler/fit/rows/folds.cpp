@@ -4,28 +4,17 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <random>
 #include <utility>
 
+#include "fit/rows/split.hpp"
+
 namespace remapc {
-namespace {
-
-// Fisher and Yates by hand: std::shuffle is not the same in every standard library.
-std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::mt19937_64 random(seed);
-  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-  return order;
-}
-
-}  // namespace
 
 std::vector<std::size_t> draw_folds(const std::vector<TableRow>& rows, std::size_t fold_count,
                                     std::uint64_t seed) {
   std::map<std::pair<double, double>, std::size_t> samples;
   for (const TableRow& row : rows) samples.try_emplace({row.alpha1, row.specular1}, samples.size());
-  const std::vector<std::size_t> order = shuffled(samples.size(), seed);
+  const std::vector<std::size_t> order = seeded_order(samples.size(), seed);
   std::vector<std::size_t> fold_of_row;
   fold_of_row.reserve(rows.size());
   for (const TableRow& row : rows)
@@ -43,7 +32,7 @@ Fold select_fold(const std::vector<TableRow>& rows, const std::vector<std::size_
 
 std::vector<TableRow> draw_rows(const std::vector<TableRow>& rows, std::size_t count, std::uint64_t seed) {
   if (rows.size() <= count) return rows;
-  std::vector<std::size_t> order = shuffled(rows.size(), seed);
+  std::vector<std::size_t> order = seeded_order(rows.size(), seed);
   order.resize(count);
   std::sort(order.begin(), order.end());
   std::vector<TableRow> drawn;

@@ -10,7 +10,7 @@
 namespace remapc {
 namespace {
 
-constexpr double kSmallestSpread = 2e-4;  // of alpha; below it nobody sees a difference
+constexpr double kSmallestSpread = 2e-4;  // of alpha; a smaller spread is not visible
 constexpr double kTimesScatter = 2.0;
 constexpr std::size_t kFewestRows = 10;
 
@@ -18,14 +18,14 @@ constexpr std::size_t kFewestRows = 10;
 
 void require_variety(const std::vector<TableRow>& rows, const std::string& kind) {
   if (rows.size() < kFewestRows)
-    throw remap::Error(remap::ErrorKind::kInput, kind + ": " + std::to_string(rows.size()) +
-                                                     " rows; expected at least " +
-                                                     std::to_string(kFewestRows));
+    throw remap::Error(remap::ErrorKind::kInput, kind + ": too few rows (" + std::to_string(rows.size()) +
+                                                     ", at least " + std::to_string(kFewestRows) +
+                                                     " are required)");
   const auto require = [&](double TableRow::*input, const std::string& name) {
     const double first = rows.front().*input;
     if (std::all_of(rows.begin(), rows.end(), [&](const TableRow& row) { return row.*input == first; }))
       throw remap::Error(remap::ErrorKind::kInput, kind + ": " + name + " is " + remap::number_text(first) +
-                                                       " in every row; expected at least two values of it");
+                                                       " in every row (at least two values are required)");
   };
   require(&TableRow::alpha1, "alpha1");
   require(&TableRow::specular1, "specular1");
@@ -34,7 +34,7 @@ void require_variety(const std::vector<TableRow>& rows, const std::string& kind)
 bool alpha_needs_specular(const std::vector<TableRow>& rows) {
   std::map<double, std::vector<const TableRow*>> by_alpha;
   for (const TableRow& row : rows) by_alpha[row.alpha1].push_back(&row);
-  // Within each alpha1 the straight line over specular: what it explains against what it leaves.
+  // Sums over the straight lines over specular, one for each alpha1: explained variation and residuals.
   double explained = 0.0, left = 0.0, degrees = 0.0, count = 0.0;
   for (const auto& [alpha, group] : by_alpha) {
     if (group.size() < 3) continue;
@@ -67,7 +67,7 @@ std::string fit_id(const std::string& id, const std::string& source_model, const
   if (!remap::is_valid_id(chosen))
     throw remap::Error(
         remap::ErrorKind::kUsage,
-        "id: \"" + chosen + "\"; expected a C++ identifier without leading or doubled underscore");
+        "id: '" + chosen + "' is not valid (use a C++ identifier without a leading or double underscore)");
   return chosen;
 }
 

@@ -1,4 +1,4 @@
-// What every regression gives: a mapping, and how it was found.
+// The result of every regression: a mapping and how it was found.
 #pragma once
 
 #include <functional>
@@ -13,23 +13,23 @@ namespace remapc {
 
 struct Regression {
   remap::MappingKind mapping;
-  std::map<std::string, std::string> method;  // for the model card: hyper-parameters, search, starts
+  std::map<std::string, std::string> method;  // recorded in the fit: hyper-parameters, search, starts
 };
 
-// Called now and then with the share of the work that is done, 0 to 1, from any thread. Throwing from it ends
-// the regression. May be empty.
+// Called repeatedly with the share of the work done, 0 to 1, from any thread. An exception from it ends the
+// regression. May be empty.
 using FitProgress = std::function<void(double share)>;
 
-// Throws kInput, the message opened by `kind`, for fewer than 10 rows, or where alpha1 or specular1 is the
-// same in all.
+// Throws kInput for fewer than 10 rows, or if alpha1 or specular1 is constant. The message starts with
+// `kind`.
 void require_variety(const std::vector<TableRow>& rows, const std::string& kind);
 
-// Whether target alpha varies with specular at fixed source alpha by more than its own scatter: the spread of
-// alpha2 over the rows of one alpha1, against what a smooth curve over alpha1 leaves. Decides whether
-// roughness is fitted from roughness alone.
+// Whether target alpha varies with specular at fixed source alpha by more than its scatter: compares the
+// variation of alpha2 that straight lines over specular explain, one for each alpha1, with their residuals.
+// If not, target alpha is fitted from source alpha alone.
 bool alpha_needs_specular(const std::vector<TableRow>& rows);
 
-// `id`, or where it is empty that of a converter between the models. Throws kUsage where it is no identifier.
+// Returns `id`, or the id of a converter between the models if it is empty. Throws kUsage for an invalid id.
 std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model);
 
 }  // namespace remapc

@@ -13,7 +13,7 @@
 namespace remapc {
 
 std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed) {
-  // Fisher and Yates by hand: std::shuffle is not the same in every standard library.
+  // A Fisher-Yates shuffle, because std::shuffle differs between standard libraries.
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::mt19937_64 random(seed);
@@ -24,7 +24,7 @@ std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed) {
 void require_held_out_share(double fraction) {
   if (!(fraction >= 0.0 && fraction <= 0.9))
     throw remap::Error(remap::ErrorKind::kUsage,
-                       "held-out share: " + remap::number_text(fraction) + "; expected 0 to 0.9");
+                       "held-out share: " + remap::number_text(fraction) + " is out of range (0 to 0.9)");
 }
 
 std::size_t held_out_count(double fraction, std::size_t rows) {

@@ -1,4 +1,4 @@
-// Which rows train and which judge, and how the judges' verdict is put in figures.
+// The split into training rows and held-out rows, and the error figures over rows.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 namespace remapc {
 
-// The places of `count` rows in an order of that seed, the same on every machine: the first of it judge.
+// A random permutation of `count` indices that depends only on `seed`, not on the machine. The first ones are
+// held out.
 std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed);
-// Throws kUsage for a share of judges outside [0, 0.9].
+// Throws kUsage for a fraction outside [0, 0.9].
 void require_held_out_share(double fraction);
 std::size_t held_out_count(double fraction, std::size_t rows);
 
@@ -22,16 +23,16 @@ struct RowSplit {
   remap::Split record;
 };
 
-// Rows of status ok in `domain`, `held_out_fraction` of them (rounded) drawn by `seed` and kept apart; others
-// are counted by their status, or as `beyond the domain`. The same split on every machine. Throws kUsage for
-// a fraction outside [0, 0.9].
+// Splits the rows of status ok in `domain`; `held_out_fraction` of them (rounded), drawn by `seed`, are held
+// out. Other rows are counted by their status, or as `beyond the domain`. The split does not depend on the
+// machine. Throws kUsage for a fraction outside [0, 0.9].
 RowSplit split_rows(const Table& table, const remap::Domain& domain, std::uint64_t seed,
                     double held_out_fraction);
 
-// Root mean square, 99th percentile (nearest rank) and largest of absolute values. Zeros for none.
+// RMS, 99th percentile (nearest rank) and maximum of absolute values. Zeros for an empty list.
 remap::ErrorFigures error_figures(std::vector<double> errors);
 
-// An error as people compare it: two significant digits, rounded away from 0, always as `7.2e-04`; `0` for 0.
+// Formats an error with two significant digits, rounded away from 0: `7.2e-04`; `0` for 0.
 std::string error_text(double error);
 
 }  // namespace remapc

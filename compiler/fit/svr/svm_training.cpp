@@ -1,4 +1,4 @@
-// From samples to a sum of Gaussians: libsvm's data structures on the way in, plain numbers on the way out.
+// Converts samples to libsvm's data structures, trains, and converts the model to a sum of Gaussians.
 #include "fit/svr/svm_training.hpp"
 
 #include <algorithm>
@@ -16,11 +16,12 @@
 namespace remapc {
 namespace {
 
-constexpr long kIterationBound = 10'000'000;  // libsvm's own (svm.cpp, Solver::Solve)
-constexpr double kLargestTolerance = 1e-3;    // of the optimality conditions; libsvm's default
-constexpr double kToleranceOfEpsilon = 3.0;   // a looser one costs accuracy, a tighter one only time
+constexpr long kIterationBound = 10'000'000;  // the limit of libsvm (svm.cpp, Solver::Solve)
+constexpr double kLargestTolerance = 1e-3;    // of the optimality conditions; the default of libsvm
+constexpr double kToleranceOfEpsilon = 3.0;   // a larger value costs accuracy, a smaller one only time
 
-// libsvm reports through one function for all threads; the number of iterations is told nowhere else.
+// The number of iterations, parsed from libsvm's messages. libsvm does not report it in another way, and its
+// print function is shared by all threads.
 thread_local long iteration_count = 0;
 
 void listen(const char* message) {
@@ -36,9 +37,10 @@ struct ModelDeleter {
   void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
 };
 
-// The samples as libsvm wants them: one list of (index, value) a sample, ended by index -1.
-struct Problem {
-  Problem(const SvrSamples& samples, const std::vector<remap::Scaling>& scalings) : outputs(samples.outputs) {
+// The samples in libsvm's format: one list of (index, value) per sample, terminated by index -1.
+struct OwnedProblem {
+  OwnedProblem(const SvrSamples& samples, const std::vector<remap::Scaling>& scalings)
+      : outputs(samples.outputs) {
     const std::size_t width = samples.input_count + 1;
     nodes.reserve(samples.count() * width);
     for (std::size_t i = 0; i < samples.count(); ++i) {
@@ -51,8 +53,8 @@ struct Problem {
     for (std::size_t i = 0; i < samples.count(); ++i) lists.push_back(&nodes[i * width]);
     problem = {static_cast<int>(samples.count()), outputs.data(), lists.data()};
   }
-  Problem(const Problem&) = delete;
-  Problem& operator=(const Problem&) = delete;
+  OwnedProblem(const OwnedProblem&) = delete;
+  OwnedProblem& operator=(const OwnedProblem&) = delete;
 
   std::vector<double> outputs;
   std::vector<svm_node> nodes;
@@ -60,7 +62,7 @@ struct Problem {
   svm_problem problem{};
 };
 
-// Alpha to [0, 1] over the samples, through the pole; specular to its span.
+// Scales alpha, transformed by the pole, to [0, 1] over the samples, and specular by its span.
 std::vector<remap::Scaling> input_scalings(const SvrSamples& samples, const SvrHyperParameters& parameters) {
   double low = samples.inputs[0], high = low;
   for (std::size_t i = 0; i < samples.inputs.size(); i += samples.input_count) {
@@ -111,13 +113,13 @@ std::optional<remap::KernelExpansion> train_expansion(const SvrSamples& samples,
   std::call_once(listening, [] { svm_set_print_string_function(listen); });
 
   const std::vector<remap::Scaling> scalings = input_scalings(samples, parameters);
-  const Problem problem(samples, scalings);
+  const OwnedProblem problem(samples, scalings);
   const svm_parameter settings = parameters_of(parameters);
   if (const char* refusal = svm_check_parameter(&problem.problem, &settings); refusal != nullptr)
     throw remap::Error(remap::ErrorKind::kUsage,
-                       std::string("libsvm: ") + refusal + "; expected hyper-parameters above 0");
+                       std::string("libsvm refused the hyper-parameters: ") + refusal);
   iteration_count = 0;
-  // The model refers to the lists of `problem`.
+  // The model refers to the lists of `problem`, which must outlive it.
   const std::unique_ptr<svm_model, ModelDeleter> model(svm_train(&problem.problem, &settings));
   if (iteration_count >= kIterationBound) return std::nullopt;
   remap::KernelExpansion expansion = expansion_of(*model, scalings);

@@ -1,4 +1,4 @@
-// From rows to samples, from samples to two trained expansions, and the record of how they came about.
+// Converts rows to samples, trains one expansion per output and records the method.
 #include "fit/svr/svr.hpp"
 
 #include <algorithm>
@@ -19,26 +19,26 @@ using remap::Error;
 using remap::ErrorKind;
 using remap::number_text;
 
-constexpr std::size_t kLargestTraining = 2000;  // samples; the time grows faster than their square
-constexpr int kSoftenings = 3;                  // C a tenth each, where the final training does not converge
+constexpr std::size_t kLargestTraining = 2000;  // samples; time grows faster than their square
+constexpr int kSoftenings = 3;  // reductions of C to a tenth if the final training does not converge
 constexpr double kSoftening = 0.1;
 
 // One output of the table with its scalings.
 struct Problem {
-  std::string name;  // "alpha" or "specular", as in `method`
+  std::string name;  // `alpha` or `specular`, as in `method`
   SvrSamples samples;
   std::vector<remap::Scaling> inputs;
   remap::Scaling output;
 };
 
-// To [0, 1] over `values`; a constant becomes 0.
+// Scales `values` to [0, 1]; constant values become 0.
 remap::Scaling scaling_of(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double range = *high - *low;
   return {*low, range > 0.0 && std::isfinite(1.0 / range) ? 1.0 / range : 1.0};
 }
 
-// Mean output of the rows of each input, in the order of inputs.
+// Computes the mean output of the rows with the same inputs, sorted by inputs.
 Problem make_problem(const std::string& name, const std::vector<TableRow>& rows, std::size_t input_count,
                      double TableRow::*output) {
   struct Mean {
@@ -57,7 +57,7 @@ Problem make_problem(const std::string& name, const std::vector<TableRow>& rows,
     outputs.push_back(mean.sum / mean.count);
   }
   Problem problem{name, {input_count, {}, {}}, {}, scaling_of(outputs)};
-  problem.inputs.push_back({});  // alpha stays raw: training normalises it
+  problem.inputs.push_back({});  // alpha is not scaled, because the training normalises it
   if (input_count > 1) problem.inputs.push_back(scaling_of(inputs[1]));
   const auto normalised = [](const remap::Scaling& scaling, double value) {
     return (value - scaling.offset) * scaling.scale;
@@ -75,15 +75,15 @@ void require_in_range(const SvrHyperParameters& parameters, const std::string& n
   if (!positive(parameters.cost) || !positive(parameters.gamma) || !positive(parameters.epsilon) ||
       !(parameters.specular_span > 0.0 && parameters.specular_span <= 1.0) ||
       !(parameters.alpha_pole >= 0.0 && std::isfinite(parameters.alpha_pole)))
-    throw Error(ErrorKind::kUsage, "svr " + name + ": C " + number_text(parameters.cost) + ", gamma " +
-                                       number_text(parameters.gamma) + ", epsilon " +
-                                       number_text(parameters.epsilon) + ", specular_span " +
-                                       number_text(parameters.specular_span) + ", alpha_pole " +
-                                       number_text(parameters.alpha_pole) +
-                                       "; expected numbers above 0, a span up to 1 and a pole from 0");
+    throw Error(ErrorKind::kUsage,
+                "svr " + name + ": invalid C " + number_text(parameters.cost) + ", gamma " +
+                    number_text(parameters.gamma) + ", epsilon " + number_text(parameters.epsilon) +
+                    ", specular_span " + number_text(parameters.specular_span) + ", alpha_pole " +
+                    number_text(parameters.alpha_pole) +
+                    " (C, gamma and epsilon must be above 0, the span above 0 to 1, the pole at least 0)");
 }
 
-// Trains on `samples`; C falls until libsvm converges where it was searched for.
+// Trains on `samples`. If C was searched, it is reduced until libsvm converges.
 remap::KernelExpansion train(const std::string& name, const SvrSamples& samples, bool is_given,
                              SvrHyperParameters& parameters) {
   for (int softening = 0; softening <= (is_given ? 0 : kSoftenings); ++softening) {
@@ -93,7 +93,7 @@ remap::KernelExpansion train(const std::string& name, const SvrSamples& samples,
   throw Error(ErrorKind::kNumeric, "svr " + name + ": libsvm did not converge on " +
                                        std::to_string(samples.count()) + " samples with C " +
                                        number_text(parameters.cost) + ", gamma " +
-                                       number_text(parameters.gamma) + "; expected a smaller C");
+                                       number_text(parameters.gamma) + " (use a smaller C)");
 }
 
 remap::KernelExpansion fit_output(const Problem& problem, const std::optional<SvrHyperParameters>& given,
@@ -130,7 +130,7 @@ remap::KernelExpansion fit_output(const Problem& problem, const std::optional<Sv
   return expansion;
 }
 
-// `progress` as a part of the whole, never falling whichever thread is first.
+// Combines the progress of both outputs into a share that never decreases.
 class RisingProgress {
  public:
   explicit RisingProgress(const FitProgress& progress) : progress_(progress) {}
@@ -154,8 +154,7 @@ std::optional<double> recorded_number(const std::map<std::string, std::string>& 
   const auto found = method.find(key);
   if (found == method.end()) return std::nullopt;
   const auto number = remap::parse_number(found->second);
-  if (!number)
-    throw Error(ErrorKind::kInput, "method." + key + ": \"" + found->second + "\"; expected a number");
+  if (!number) throw Error(ErrorKind::kInput, "method." + key + ": '" + found->second + "' is not a number");
   return number;
 }
 
@@ -165,8 +164,7 @@ std::optional<SvrHyperParameters> recorded_parameters(const std::map<std::string
              epsilon = recorded_number(method, name + ".epsilon");
   if (!cost && !gamma && !epsilon) return std::nullopt;
   if (!cost || !gamma || !epsilon)
-    throw Error(ErrorKind::kInput,
-                "method." + name + ": has only some of C, gamma, epsilon; expected all three or none");
+    throw Error(ErrorKind::kInput, "method." + name + ": C, gamma and epsilon must be given together");
   return SvrHyperParameters{*cost, *gamma, *epsilon,
                             recorded_number(method, name + ".specular_span").value_or(1.0),
                             recorded_number(method, name + ".alpha_pole").value_or(0.0)};

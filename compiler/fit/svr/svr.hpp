@@ -1,5 +1,5 @@
 // Support vector regression (Sztrajman et al. 2019, section 5.1) with libsvm: epsilon-SVR, radial basis
-// functions, one model an output.
+// functions, one model per output.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,25 @@
 
 namespace remapc {
 
-// Fits `rows` (all of status ok, finite). Roughness is regressed from roughness alone unless
-// alpha_needs_specular(). Rows with the same inputs count as one sample with their mean output: the published
-// table holds some twenty rows of target alpha for each alpha1, and their mean says the same in a hundredth
-// of the time. Hyper-parameters are chosen by cross-validation inside `rows` (svr_search.hpp); the model is
-// then trained on all samples, or on 2000 drawn evenly where there are more (`method` says so).
-// Throws kInput for fewer than 10 rows or where an input is constant, kUsage for hyper-parameters out of
-// range, kNumeric where libsvm refuses or does not converge with given hyper-parameters; searched ones are
-// softened until it does. libsvm then writes a line of its own to standard error, which it cannot be asked
-// not to.
-// What `progress` throws ends the fit after the trainings that are under way, a few seconds.
+// Fits `rows` (all of status ok, finite). Target alpha is fitted from source alpha alone unless
+// alpha_needs_specular(). Rows with the same inputs are combined to one sample with their mean output: the
+// published table has about twenty rows of target alpha for each alpha1, and their mean gives the same fit in
+// a hundredth of the time. Hyper-parameters are chosen by cross-validation within `rows` (svr_search.hpp).
+// The model is then trained on all samples, or on 2000 evenly drawn samples if there are more (recorded in
+// `method`). Throws kInput for fewer than 10 rows or a constant input, kUsage for hyper-parameters out of
+// range, kNumeric if libsvm does not converge with given hyper-parameters. If they were searched, C is
+// reduced until it converges, and libsvm prints a warning to standard error, which cannot be disabled. An
+// exception from `progress` ends the fit after the current trainings, within a few seconds.
 //
-// `method` holds for each output, after "alpha." or "specular.": C, gamma, epsilon, specular_span,
-// alpha_pole, inputs, vectors, trained_samples, and of a search folds, candidates, search_samples and
-// cross_validation_rms (in the output's own unit).
+// `method` contains for each output, with the prefix `alpha.` or `specular.`: C, gamma, epsilon,
+// specular_span, alpha_pole, inputs, vectors, trained_samples; and after a search folds, candidates,
+// search_samples and cross_validation_rms (in the unit of the output).
 Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
                    const FitProgress& progress = {});
 
-// The hyper-parameters that a fitted mapping's `method` records, for fitting other rows with them, number for
-// number; those that it does not record stay as in `base`. Throws kInput where it records half of them or no
-// number.
+// Reads the hyper-parameters from `method` of a fit, exactly, so that other rows can be fitted with them.
+// Outputs without recorded hyper-parameters keep those of `base`. Throws kInput if a record is incomplete or
+// invalid.
 SvrOptions options_from_method(const std::map<std::string, std::string>& method, const SvrOptions& base);
 
 }  // namespace remapc

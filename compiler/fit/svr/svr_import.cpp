@@ -1,4 +1,4 @@
-// From a description and two model files to a fit.
+// Builds a fit from a description and two model files.
 #include "fit/svr/svr_import.hpp"
 
 #include <algorithm>
@@ -22,38 +22,38 @@ using Json = nlohmann::ordered_json;
 using remap::Error;
 using remap::ErrorKind;
 
-[[noreturn]] void fail(const std::string& place, const std::string& found, const std::string& expected) {
-  throw Error(ErrorKind::kInput, place + ": " + found + "; expected " + expected);
+[[noreturn]] void fail(const std::string& place, const std::string& what) {
+  throw Error(ErrorKind::kInput, place + ": " + what);
 }
 
-// Exactly the fields `names`; those of `optional` may be missing.
+// Requires an object with exactly the fields `names`; fields of `optional` may be missing.
 void require_fields(const Json& json, const std::string& place, const std::vector<std::string>& names,
                     const std::vector<std::string>& optional = {}) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  if (!json.is_object()) fail(place, "is no object", "one with the fields " + list);
+  if (!json.is_object()) fail(place, "must be an object with the fields " + list);
   for (const auto& [key, value] : json.items())
     if (std::find(names.begin(), names.end(), key) == names.end() &&
         std::find(optional.begin(), optional.end(), key) == optional.end())
-      fail(place, "has an unknown field \"" + key + "\"", list);
+      fail(place, "unknown field \"" + key + "\" (known: " + list + ")");
   for (const std::string& name : names)
-    if (!json.contains(name)) fail(place, "has no field \"" + name + "\"", list);
+    if (!json.contains(name)) fail(place, "missing field \"" + name + "\" (required: " + list + ")");
 }
 
 std::string text_of(const Json& json, const std::string& place) {
-  if (!json.is_string()) fail(place, "is no text", "a text");
+  if (!json.is_string()) fail(place, "must be a string");
   return json.get<std::string>();
 }
 
 double number_of(const Json& json, const std::string& place) {
-  if (!json.is_number() || !std::isfinite(json.get<double>())) fail(place, "is no number", "a finite number");
+  if (!json.is_number() || !std::isfinite(json.get<double>())) fail(place, "must be a finite number");
   return json.get<double>();
 }
 
 remap::Scaling scaling_of(const Json& json, const std::string& place) {
   const remap::Scaling scaling{number_of(json["offset"], place + ".offset"),
                                number_of(json["scale"], place + ".scale")};
-  if (scaling.scale == 0.0) fail(place + ".scale", "is 0", "a factor that is not 0");
+  if (scaling.scale == 0.0) fail(place + ".scale", "must not be 0");
   return scaling;
 }
 
@@ -64,19 +64,18 @@ struct Input {
 
 std::vector<Input> inputs_of(const Json& json, const std::string& place) {
   if (!json.is_array() || json.empty() || json.size() > 2)
-    fail(place, "is no list of one or two", "alpha, or alpha and specular");
+    fail(place, "must be a list of alpha, or of alpha and specular");
   std::vector<Input> inputs;
   for (std::size_t i = 0; i < json.size(); ++i) {
     const std::string here = place + "[" + std::to_string(i) + "]";
     require_fields(json[i], here, {"name", "offset", "scale"});
     const std::string name = text_of(json[i]["name"], here + ".name");
     if (name != "alpha" && name != "specular")
-      fail(here + ".name", "is \"" + name + "\"", "alpha or specular");
+      fail(here + ".name", "unknown input \"" + name + "\" (use alpha or specular)");
     inputs.push_back({name, scaling_of(json[i], here)});
   }
   const auto is_alpha = [](const Input& input) { return input.name == "alpha"; };
-  if (std::count_if(inputs.begin(), inputs.end(), is_alpha) != 1)
-    fail(place, "names alpha not once", "alpha, or alpha and specular");
+  if (std::count_if(inputs.begin(), inputs.end(), is_alpha) != 1) fail(place, "must contain alpha once");
   return inputs;
 }
 
@@ -89,7 +88,7 @@ remap::KernelExpansion output_of(const Json& json, const std::filesystem::path& 
   remap::KernelExpansion expansion = read_svm_model(folder / file, inputs.size());
   for (std::size_t i = 0; i < inputs.size(); ++i) expansion.inputs[i] = inputs[i].scaling;
   expansion.output = scaling_of(json["output"], place + ".output");
-  if (inputs.front().name == "specular") {  // a fit has alpha first
+  if (inputs.front().name == "specular") {  // in a fit, alpha comes first
     std::swap(expansion.inputs[0], expansion.inputs[1]);
     for (std::size_t i = 0; i < expansion.vectors.size(); i += 2)
       std::swap(expansion.vectors[i], expansion.vectors[i + 1]);
@@ -97,7 +96,7 @@ remap::KernelExpansion output_of(const Json& json, const std::filesystem::path& 
   return expansion;
 }
 
-// Models, domain and id are read by the reader of fit files, and judged by its rules.
+// The reader of fit files parses and checks models, domain and id.
 remap::Fit fit_around(const Json& description, const std::string& place) {
   remap::Fit blank;
   blank.id = "blank";
@@ -119,7 +118,7 @@ remap::Fit import_svr(const std::filesystem::path& path) {
   try {
     json = Json::parse(remap::read_file(path));
   } catch (const Json::exception& failure) {
-    fail(place, std::string("is no JSON: ") + failure.what(), "a description of a regression");
+    fail(place, std::string("invalid JSON: ") + failure.what());
   }
   require_fields(json, place, {"source", "target", "domain", "alpha", "specular"}, {"id"});
   remap::Fit fit = fit_around(json, place);

@@ -1,4 +1,4 @@
-// The stages of the search, and the threads' shares of it: a task is one candidate on one fold.
+// The stages of the search. Threads work on tasks of one candidate and one fold.
 #include "fit/svr/svr_search.hpp"
 
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::size_t kFewestSamples = 8;
 constexpr std::size_t kFolds = 5;
-constexpr std::size_t kFirstFolds = 2;  // that a candidate has to survive
-constexpr double kHopeless = 1.5;       // times the error of the best on the same folds
-constexpr double kProgress = 0.99;      // an error has to fall below that share to be called smaller
-constexpr double kWorthTime = 0.9;  // the same for a tube a third as wide, which trains three times as long
+constexpr std::size_t kFirstFolds = 2;  // after which hopeless candidates are dropped
+constexpr double kHopeless = 1.5;       // error relative to the best on the same folds
+constexpr double kProgress = 0.99;      // relative error that counts as an improvement
+constexpr double kWorthTime = 0.9;  // the same for a tube a third as wide, which takes three times as long
 constexpr std::size_t kNeverJudges = kFolds;
 
 // Measured on the published table: more samples change the choice little, and the time of a training grows
@@ -31,19 +31,20 @@ constexpr std::size_t kGridSamples = 250;
 constexpr std::size_t kPatternSamples = 400;
 constexpr std::size_t kTubeSamples = 600;
 
-// Hyper-parameters as steps of a quarter of a decade; poles as steps of half a decade.
+// The axes of the search. Steps are a quarter of a decade, for poles half a decade.
 enum Axis { kCost, kGamma, kSpan, kPole, kEpsilon, kAxes };
 using Point = std::array<int, kAxes>;
 
 struct Interval {
   int low, high;
 };
-// C up to 100: beyond it libsvm needs minutes where the kernel is wide. Gamma 0.1 to 3200; a span down to
-// 0.01 of specular; a pole down to 0.01 in alpha.
+// C is at most 100, because libsvm needs minutes for a larger C and a wide kernel. Gamma is 0.1 to 3200, the
+// span at least 0.01, the pole at least 0.01.
 constexpr std::array<Interval, kAxes> kBounds = {{{0, 8}, {-4, 14}, {-8, 0}, {0, 5}, {-16, -4}}};
 constexpr int kStartCost = 4;
 constexpr int kFirstStep = 2, kLargestRounds = 8;
-// The tube: a narrower one takes longer to train, in proportion, which only small problems can afford.
+// The training time is inversely proportional to the width of the tube, so only small problems use narrow
+// tubes.
 constexpr std::size_t kSmallProblem = 100;
 struct TubeRange {
   int start, narrowest;
@@ -52,7 +53,7 @@ constexpr TubeRange tube_range(std::size_t sample_count) {
   return sample_count <= kSmallProblem ? TubeRange{-16, -16} : TubeRange{-12, -14};
 }
 
-// 10^(step / 4) to two digits, so that records are short.
+// 10^(step / 4), rounded to two digits to keep records short.
 double value_of(int step) {
   constexpr std::array<double, 4> kDigits = {10.0, 18.0, 32.0, 56.0};
   const int decade = (step + 40) / 4 - 10;
@@ -60,7 +61,7 @@ double value_of(int step) {
   return decade >= 1 ? digits * std::pow(10.0, decade - 1) : digits / std::pow(10.0, 1 - decade);
 }
 
-// The further from 0, the more room for small alpha.
+// A larger step gives more resolution at small alpha.
 double pole_of(int step) { return step == 0 ? 0.0 : value_of(2 * (1 - step)); }
 
 SvrHyperParameters parameters_at(const Point& point) {
@@ -70,7 +71,7 @@ SvrHyperParameters parameters_at(const Point& point) {
 
 struct FoldedSamples {
   SvrSamples samples;
-  std::vector<std::size_t> fold;  // in which each judges, or kNeverJudges
+  std::vector<std::size_t> fold;  // in which each sample is held out, or kNeverJudges
 };
 
 FoldedSamples fold_samples(SvrSamples samples, std::uint64_t seed) {
@@ -78,7 +79,7 @@ FoldedSamples fold_samples(SvrSamples samples, std::uint64_t seed) {
   std::vector<std::size_t> fold(samples.count());
   std::array<std::size_t, kFolds> order{};
   for (std::size_t i = 0; i < fold.size(); ++i) {
-    if (i % kFolds == 0) {  // each five neighbours go to the five folds in an order of their own
+    if (i % kFolds == 0) {  // five neighbors go to the five folds in random order
       for (std::size_t k = 0; k < kFolds; ++k) order[k] = k;
       for (std::size_t k = kFolds; k > 1; --k) std::swap(order[k - 1], order[random() % k]);
     }
@@ -152,13 +153,14 @@ struct Candidate {
   }
 };
 
-// The candidates of one stage, each judged once.
+// The candidates of one stage. Each point is evaluated once.
 class Contest {
  public:
   Contest(FoldedSamples folded, unsigned jobs, FitProgress progress)
       : folded_(std::move(folded)), jobs_(jobs), progress_(std::move(progress)) {}
 
-  // Judges those of `points` that are new: all on the first folds, then those that have a chance on the rest.
+  // Evaluates the new points of `points` on the first folds, then those that are not hopeless on the other
+  // folds.
   void enter(const std::vector<Point>& points) {
     std::vector<Candidate*> entered;
     for (const Point& point : points) {
@@ -175,19 +177,20 @@ class Contest {
     if (progress_) progress_(1.0);
   }
 
-  // The smallest error among the finished, the first of equals in the order of points.
+  // The finished candidate with the smallest error; the first in the order of points if several are equal.
   const Candidate& best() const {
     const Candidate* best = nullptr;
     for (const auto& [point, candidate] : candidates_)
       if (candidate.is_finished() && (best == nullptr || candidate.rms() < best->rms())) best = &candidate;
     if (best == nullptr || !std::isfinite(best->rms()))
-      throw remap::Error(remap::ErrorKind::kNumeric,
-                         "svr: no candidate of the search converged; expected a table without extreme "
-                         "outliers (remapc check)");
+      throw remap::Error(
+          remap::ErrorKind::kNumeric,
+          "svr: no candidate of the search converged (check the table for outliers with remapc "
+          "check)");
     return *best;
   }
 
-  // The smoothest that is within one standard error of the best.
+  // The smoothest candidate within one standard error of the best.
   const Candidate& smoothest() const {
     const Candidate* choice = &best();
     const double limit = choice->rms() + choice->standard_error();
@@ -207,7 +210,7 @@ class Contest {
   void report_to(FitProgress progress) { progress_ = std::move(progress); }
 
  private:
-  // Brings each of `entered` to `fold_count` folds.
+  // Evaluates each of `entered` on `fold_count` folds.
   void run(const std::vector<Candidate*>& entered, std::size_t fold_count) {
     if (entered.empty()) return;
     const std::size_t begin = entered.front()->folds.size(), folds = fold_count - begin;
@@ -239,7 +242,7 @@ std::vector<Point> grid(std::size_t input_count, int epsilon) {
   return points;
 }
 
-// One step along each axis, and along the diagonal on which C makes up for gamma.
+// The points one step away along each axis, and along the diagonal on which C compensates gamma.
 std::vector<Point> neighbours(const Point& centre, int step, std::size_t input_count) {
   std::vector<Point> moves = {{1, 0, 0, 0, 0},  {-1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {0, -1, 0, 0, 0},
                               {1, -1, 0, 0, 0}, {0, 0, 0, 1, 0},  {0, 0, 0, -1, 0}};
@@ -254,7 +257,7 @@ std::vector<Point> neighbours(const Point& centre, int step, std::size_t input_c
   return points;
 }
 
-// Walks from `point` along `axis` in steps while each brings the error below `needed` of what it was.
+// Moves from `point` along `axis` while each step reduces the error to less than `needed` times its value.
 Point follow(Contest& contest, Point point, Axis axis, int step, Interval bounds, double needed) {
   for (Point next = point;; point = next) {
     next[axis] += step;
@@ -265,8 +268,8 @@ Point follow(Contest& contest, Point point, Axis axis, int step, Interval bounds
   }
 }
 
-// Narrows the tube while the error falls with it; where it does not, widens it as far as that costs nothing.
-// In a narrow tube differences between kernels show that a wide one hides: gamma may rise once more.
+// Narrows the tube while that reduces the error; otherwise widens it while the error stays the same. A narrow
+// tube shows differences between kernels that a wide tube hides, so gamma is increased again if that helps.
 Point choose_tube(Contest& contest, const Point& start, int narrowest) {
   contest.enter({start});
   Point point = follow(contest, start, kEpsilon, -2, {narrowest, kBounds[kEpsilon].high}, kWorthTime);
@@ -274,7 +277,7 @@ Point choose_tube(Contest& contest, const Point& start, int narrowest) {
   return follow(contest, point, kGamma, 1, kBounds[kGamma], kWorthTime);
 }
 
-// Maps a stage's own progress to its part of the whole.
+// Maps the progress of a stage to its part of the total.
 FitProgress part(const FitProgress& progress, double begin, double end) {
   if (!progress) return {};
   return [&progress, begin, end](double share) { progress(begin + (end - begin) * share); };

@@ -1,5 +1,6 @@
-// The choice of the hyper-parameters of one output by cross-validation: a coarse grid over the shape of the
-// kernel, a pattern search around its best, the smoothest of what is as good, the width of the tube.
+// Chooses the hyper-parameters of one output by cross-validation: a coarse grid over the kernel, a pattern
+// search around its best point, the choice of the smoothest equivalent kernel, and a search for the width of
+// the tube.
 #pragma once
 
 #include <cstdint>
@@ -12,33 +13,32 @@ namespace remapc {
 
 struct SvrSearchOptions {
   std::uint64_t seed = 1;
-  unsigned jobs = 0;  // threads; 0: one a processor. The result does not depend on it
+  unsigned jobs = 0;  // threads; 0: one per core. The result does not depend on it
 };
 
 struct SvrChoice {
   SvrHyperParameters parameters;
   double rms = 0.0;                 // of cross-validation, in normalised units
-  std::size_t fold_count = 0;       // 0: too few samples, `parameters` are the defaults
-  std::size_t candidate_count = 0;  // that were tried, the hopeless ones among them
-  std::size_t sample_count = 0;     // that the last stage saw
+  std::size_t fold_count = 0;       // 0: too few samples; `parameters` are the defaults
+  std::size_t candidate_count = 0;  // tried, including those that were not finished
+  std::size_t sample_count = 0;     // used by the last stage
 };
 
-// `samples`: sorted by alpha, then specular, no two with the same inputs. Fewer than 8
-// are not searched.
+// `samples`: sorted by alpha, then specular, without duplicate inputs. Fewer than 8 samples are not searched.
 //
-// Five folds, drawn by `seed` so that each holds its share of every stretch of the table; where alpha is the
-// only input the first and the last sample always train, since beyond them is nothing to learn from. A
-// candidate whose first two folds are far behind the best is not finished. Among those within one standard
-// error of the best the smallest gamma wins (Breiman et al. 1984, the one-standard-error rule), since
-// smoother mappings compile into smaller headers. Work that decides nothing is saved by counts only, never by
-// time, and results are put together in a fixed order: the same answer for any number of threads.
+// Uses five folds, drawn by `seed` so that each fold covers every section of the table. If alpha is the only
+// input, the first and the last sample are always in the training set, because they bound the data. A
+// candidate whose first two folds are far worse than the best is not finished. Among the candidates within
+// one standard error of the best, the smallest gamma is chosen (one-standard-error rule, Breiman et al.
+// 1984), because smoother mappings compile into smaller headers. Early stopping depends on counts, not on
+// time, and results are combined in a fixed order, so the result does not depend on the number of threads.
 //
-// Throws what `progress` throws, and kNumeric where no candidate converges.
+// Throws kNumeric if no candidate converges, and the exceptions of `progress`.
 SvrChoice search_hyper_parameters(const SvrSamples& samples, const SvrSearchOptions& options,
                                   const FitProgress& progress);
 
-// `count` samples of `samples` (all where there are fewer): the list is cut into `count` stretches, one is
-// drawn from each by `seed`, so that a sorted list keeps its coverage.
+// Draws `count` of `samples` (all if there are fewer): one sample by `seed` from each of `count` equal
+// sections of the list, so that a sorted list stays covered.
 SvrSamples draw_evenly(const SvrSamples& samples, std::size_t count, std::uint64_t seed);
 
 }  // namespace remapc

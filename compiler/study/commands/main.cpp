@@ -1,13 +1,14 @@
-// remap-study: measures what the converters are worth, under environments, between workflows and for measured
-// materials, and reproduces figures of the papers.
-#include <CLI/CLI.hpp>
-
+// remap-study: measures how accurate the converters are (under environment maps, between workflows, for
+// measured materials and for warps) and reproduces figures of the papers.
+#include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "remap/version.hpp"
 #include "study/commands/studies.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app("Studies of the converters: each writes tables, plots and a summary in words.", "remap-study");
+  remap::Command app(
+      "Measure the accuracy of the converters. Each study prints a summary and writes tables and plots.",
+      "remap-study");
   app.set_version_flag("--version", std::string("remap-study ") + remap::kVersion);
   app.require_subcommand(1);
   remapc::add_environments_study(app);

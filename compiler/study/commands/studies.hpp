@@ -1,14 +1,14 @@
-// The studies of `remapc study`: each adds itself as a subcommand of it.
+// The subcommands of `remap-study`. Each function adds one study to the program.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "command_line/command.hpp"
 
 namespace remapc {
 
-void add_environments_study(CLI::App& study);
-void add_workflows_study(CLI::App& study);
-void add_conductors_study(CLI::App& study);
-void add_dielectrics_study(CLI::App& study);
-void add_warp_study(CLI::App& study);
+void add_environments_study(remap::Command& study);
+void add_workflows_study(remap::Command& study);
+void add_conductors_study(remap::Command& study);
+void add_dielectrics_study(remap::Command& study);
+void add_warp_study(remap::Command& study);
 
 }  // namespace remapc

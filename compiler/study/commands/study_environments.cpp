@@ -1,4 +1,4 @@
-// `remap-study environments`: how alike converted spheres look under natural light.
+// `remap-study environments`: compares pictures of source and converted spheres under environment maps.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -30,11 +30,11 @@ struct EnvironmentsCommand {
 ModelPair parse_pair(const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos)
-    throw Error(ErrorKind::kUsage, "--pair " + text + ": expected SOURCE:TARGET");
+    throw Error(ErrorKind::kUsage, "--pair: '" + text + "' is not a pair (use SOURCE:TARGET)");
   return {text.substr(0, colon), text.substr(colon + 1)};
 }
 
-// The model without Fresnel that stands beside a microfacet model.
+// The variant of a microfacet model with constant reflectance in place of Fresnel. Ward has no Fresnel term.
 std::string plain_model(const std::string& name) {
   return name.find("ward") == std::string::npos ? name + "-plain" : name;
 }
@@ -106,7 +106,7 @@ void run(const EnvironmentsCommand& command) {
   const std::filesystem::path& folder = command.output.folder;
   if (!folder.empty()) remap::create_parent(folder / "environments.csv");
   const EnvironmentsResult result =
-      run_study("study environments", options, command.output.quiet, study_environments);
+      run_study("environments", options, command.output.quiet, study_environments);
   if (!folder.empty()) write_results(folder, options, result);
   if (command.output.json)
     std::cout << report_json(options, result).dump(2) << "\n";
@@ -114,35 +114,36 @@ void run(const EnvironmentsCommand& command) {
     std::cout << summary_text(options, result);
 }
 
-void add_options(CLI::App& app, EnvironmentsCommand& command) {
+void add_options(remap::Command& app, EnvironmentsCommand& command) {
   EnvironmentsOptions& study = command.study;
   study.alphas = default_alphas();
-  app.add_option("--pair", command.pairs, "SOURCE:TARGET, repeatable; default: six pairs of Mitsuba's models")
+  app.add_option("--pair", command.pairs, "SOURCE:TARGET, repeatable; default: six pairs of Mitsuba models")
       ->allow_extra_args(false);
-  app.add_flag("--plain", command.plain, "The default pairs with constant reflectance instead of Fresnel");
-  app.add_option("--alphas", study.alphas, "Source widths, comma-separated")
+  app.add_flag("--plain", command.plain, "Use the default pairs without Fresnel (constant reflectance)");
+  app.add_option("--alphas", study.alphas, "Source alphas, comma-separated")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_option("--specular", study.specular, "Of the source, linear")->capture_default_str();
+  app.add_option("--specular", study.specular, "Specular reflectance of the source, linear")
+      ->capture_default_str();
   add_environment_options(app, command.environments);
   app.add_flag("--least-error", study.least_error,
-               "Search the parameters of least mean RMSE over these environments too (`best`)");
+               "Also search for the parameters of least mean RMSE under these environments (`best`)");
   add_output_options(
       app, command.output, study,
-      {"Folder of the fits that `shipped` converts with",
-       "Folder for environments.csv, environments_summary.csv and environments.svg (needs gnuplot)",
-       "Write spheres_<environment>.png too: the middle alpha, a row a pair; the source, then copy, paper, "
-       "natural, shipped, best",
-       "Means as JSON on standard output"});
+      {"Folder of the fits for the method `shipped`",
+       "Write environments.csv, environments_summary.csv and environments.svg (needs gnuplot) to this folder",
+       "Also write spheres_<environment>.png at the middle alpha: one row for each pair; columns source, "
+       "copy, paper, natural, shipped, best",
+       "Print the means as JSON"});
 }
 
 }  // namespace
 
-void add_environments_study(CLI::App& study) {
-  CLI::App* command = study.add_subcommand(
+void add_environments_study(remap::Command& study) {
+  remap::Command* command = study.add_subcommand(
       "environments",
-      "Render source and converted spheres under environment maps and tell how alike they look, for copying "
-      "the parameters, for matches by both objectives, and for the fits as shipped");
+      "Compare pictures of source and converted spheres under environment maps, for copied parameters, for "
+      "matches by both objectives and for the shipped fits");
   auto options = std::make_shared<EnvironmentsCommand>();
   add_options(*command, *options);
   command->footer(

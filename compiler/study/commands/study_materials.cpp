@@ -1,5 +1,5 @@
-// `remap-study conductors` and `remap-study dielectrics`: measured materials through the match, as tables,
-// plots and words.
+// `remap-study conductors` and `remap-study dielectrics`: match measured materials and write tables, plots
+// and a summary.
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -10,9 +10,11 @@
 #include "command_line/progress.hpp"
 #include "remap/error.hpp"
 #include "study/commands/studies.hpp"
+#include "study/commands/study_options.hpp"
 #include "study/conductors_study.hpp"
 #include "study/dielectrics_study.hpp"
 #include "system/files.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -34,10 +36,10 @@ void require_alphas(const MaterialsCommand& command) {
   const bool rising =
       std::adjacent_find(alphas.begin(), alphas.end(), std::greater_equal<>()) == alphas.end();
   if (alphas.empty() || !rising || !(alphas.front() >= 0.01 && alphas.back() <= 1.0))
-    throw Error(ErrorKind::kUsage, "--alphas: expected rising widths from 0.01 to 1");
+    throw Error(ErrorKind::kUsage, "--alphas: values must increase and lie between 0.01 and 1");
 }
 
-// Runs `study` with a line of progress.
+// Runs `study` and prints its progress.
 template <typename Study>
 auto run_with_progress(const MaterialsCommand& command, const std::string& label, const Study& study) {
   require_alphas(command);
@@ -115,46 +117,53 @@ nlohmann::ordered_json dielectrics_json(const DielectricsStudy& study) {
 }
 
 void run_conductors(const MaterialsCommand& command) {
-  const ConductorsStudy study = run_with_progress(command, "study conductors",
-                                                  [&](const Renderer& renderer, const StudyOptions& options) {
-                                                    return study_conductors(renderer, options);
-                                                  });
-  report(command, conductors_words(study), write_conductors(study, command.output), conductors_json(study));
+  const ConductorsStudy study =
+      run_with_progress(command, "conductors", [&](const Renderer& renderer, const StudyOptions& options) {
+        return study_conductors(renderer, options);
+      });
+  std::vector<std::string> files = write_conductors(study, command.output);
+  if (write_plot(command.output / "figure6_7.svg", conductors_plot_script(study)))
+    files.push_back("figure6_7.svg");
+  report(command, conductors_words(study), files, conductors_json(study));
 }
 
 void run_dielectrics(const MaterialsCommand& command) {
   if (!(command.diffuse >= 0.0 && command.diffuse <= 1.0))
-    throw Error(ErrorKind::kUsage, "--diffuse: expected 0 to 1");
-  const DielectricsStudy study = run_with_progress(
-      command, "study dielectrics", [&](const Renderer& renderer, const StudyOptions& options) {
+    throw Error(ErrorKind::kUsage,
+                "--diffuse: " + remap::number_text(command.diffuse) + " is out of range (0 to 1)");
+  const DielectricsStudy study =
+      run_with_progress(command, "dielectrics", [&](const Renderer& renderer, const StudyOptions& options) {
         return study_dielectrics(renderer, options, command.diffuse);
       });
-  report(command, dielectrics_words(study), write_dielectrics(study, command.output),
-         dielectrics_json(study));
+  std::vector<std::string> files = write_dielectrics(study, command.output);
+  if (write_plot(command.output / "figure8_10.svg", dielectrics_plot_script(study)))
+    files.push_back("figure8_10.svg");
+  report(command, dielectrics_words(study), files, dielectrics_json(study));
 }
 
 constexpr int kMostResolution = 4096;
 
-void add_options(CLI::App& app, MaterialsCommand& command) {
+void add_options(remap::Command& app, MaterialsCommand& command) {
   app.add_option("-o,--output", command.output,
-                 "Folder for tables and plots; files of these names are replaced")
+                 "Write tables and plots to this folder; existing files are replaced")
       ->required();
-  app.add_option("--alphas", command.study.alphas, "Source widths, rising")
+  app.add_option("--alphas", command.study.alphas, "Source alphas in increasing order")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_option("--resolution", command.study.resolution, "Width and height of the pictures")
-      ->check(CLI::Range(16, kMostResolution))
+  app.add_option("--resolution", command.study.resolution, "Width and height of the pictures in pixels")
+      ->range(16, kMostResolution)
       ->capture_default_str();
-  app.add_option("--jobs", command.study.jobs, "Threads; 0: one a core")->capture_default_str();
-  app.add_flag("--json", command.json, "Figures and words as JSON on standard output");
-  app.add_flag("--quiet", command.quiet, "No progress");
+  app.add_option("--jobs", command.study.jobs, "Number of threads; 0: one per core")->capture_default_str();
+  app.add_flag("--json", command.json, "Print the figures and the summary as JSON");
+  app.add_flag("--quiet", command.quiet, "Do not show progress");
 }
 
 }  // namespace
 
-void add_conductors_study(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "conductors", "Measured metals from Ashikhmin-Shirley to Ward and back (figures 6 and 7 of the paper)");
+void add_conductors_study(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
+      "conductors",
+      "Convert measured metals from Ashikhmin-Shirley to Ward and back (figures 6 and 7 of the paper)");
   auto options = std::make_shared<MaterialsCommand>();
   options->study.alphas = {0.05, 0.1, 0.2, 0.3, 0.5};
   options->study.resolution = 256;
@@ -163,15 +172,16 @@ void add_conductors_study(CLI::App& app) {
   command->callback([options] { run_conductors(*options); });
 }
 
-void add_dielectrics_study(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_dielectrics_study(remap::Command& app) {
+  remap::Command* command = app.add_subcommand(
       "dielectrics",
-      "Diffuse and specular together in one, two and three stages (figures 8 and 10 of the paper)");
+      "Match diffuse and specular together in one, two and three stages (figures 8 and 10 of the paper)");
   auto options = std::make_shared<MaterialsCommand>();
   options->study.alphas = {0.1, 0.3, 0.725, 0.75};
   options->study.resolution = 128;
   add_options(*command, *options);
-  command->add_option("--diffuse", options->diffuse, "Of the source")->capture_default_str();
+  command->add_option("--diffuse", options->diffuse, "Diffuse reflectance of the source")
+      ->capture_default_str();
   command->footer("Example:\n  remap-study dielectrics -o dielectrics");
   command->callback([options] { run_dielectrics(*options); });
 }

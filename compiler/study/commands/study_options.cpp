@@ -1,30 +1,29 @@
 #include "study/commands/study_options.hpp"
 
-#include <iostream>
 #include <utility>
 
+#include "command_line/run_app.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "report/gnuplot.hpp"
-#include "system/files.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 
-void add_environment_options(CLI::App& app, EnvironmentOptions& options) {
+void add_environment_options(remap::Command& app, EnvironmentOptions& options) {
   app.add_option(
          "--environment", options.files,
-         "Map in latitude and longitude (HDR, EXR), repeatable; default: a clear sky, an overcast sky "
-         "and a studio of its own")
+         "Environment map in latitude and longitude (HDR, EXR), repeatable; default: built-in clear sky, "
+         "overcast sky and studio")
       ->allow_extra_args(false);
-  app.add_option("--exposure", options.exposure, "Mean luminance that every environment is brought to")
+  app.add_option("--exposure", options.exposure, "Scale every environment to this mean luminance")
       ->capture_default_str();
 }
 
 std::vector<Environment> read_environments(const EnvironmentOptions& options) {
   if (!(options.exposure > 0.0))
-    throw remap::Error(remap::ErrorKind::kUsage,
-                       "--exposure: " + remap::number_text(options.exposure) + "; expected more than 0");
+    throw remap::Error(remap::ErrorKind::kUsage, "--exposure: " + remap::number_text(options.exposure) +
+                                                     " is out of range (must be above 0)");
   std::vector<Environment> environments;
   for (const auto& path : options.files) environments.push_back(load_environment(path));
   if (environments.empty()) environments = builtin_environments();
@@ -43,8 +42,7 @@ std::filesystem::path fit_folder_of(const OutputOptions& options) {
 
 void require_folder_for_pictures(const OutputOptions& options) {
   if (options.pictures && options.folder.empty())
-    throw remap::Error(remap::ErrorKind::kUsage,
-                       "--pictures: there is no folder for them; expected -o FOLDER");
+    throw remap::Error(remap::ErrorKind::kUsage, "--pictures requires -o FOLDER");
 }
 
 void write_sheets(const std::filesystem::path& folder, const std::string& name,
@@ -53,11 +51,14 @@ void write_sheets(const std::filesystem::path& folder, const std::string& name,
     write_png(folder / (name + "_" + environments[e].name + ".png"), sheets[e]);
 }
 
-void write_plot(const std::filesystem::path& path, const std::string& script) {
+bool write_plot(const std::filesystem::path& path, const std::string& script) {
   try {
-    remap::write_file(path, run_gnuplot(script));
+    write_svg(path, script);
+    return true;
   } catch (const remap::Error& error) {
-    std::cerr << "remapc: warning: " << path.filename().string() << " is not drawn: " << error.what() << "\n";
+    remap::print_message("remap-study",
+                         "warning: " + path.filename().string() + " was not drawn: " + error.what());
+    return false;
   }
 }
 

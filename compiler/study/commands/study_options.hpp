@@ -1,13 +1,11 @@
-// What the studies under environments have in common: where their light comes from, how it is rendered, and
-// where results go.
+// Command line options that several studies share: environment maps, rendering and output files.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "report/environment.hpp"
@@ -15,50 +13,53 @@
 namespace remapc {
 
 struct EnvironmentOptions {
-  std::vector<std::filesystem::path> files;  // empty: the built-in ones
-  double exposure = 1.0;                     // mean luminance of every environment
+  std::vector<std::filesystem::path> files;  // empty: use the built-in environments
+  double exposure = 1.0;                     // mean luminance after scaling
 };
 
-// `--environment`, `--exposure`. `options` must outlive the parsing.
-void add_environment_options(CLI::App& app, EnvironmentOptions& options);
+// Adds `--environment` and `--exposure`. `options` must outlive the parsing.
+void add_environment_options(remap::Command& app, EnvironmentOptions& options);
 
-// All as bright as each other, so that each shows in the figures and none is all white. Throws kUsage for an
-// exposure that is not above 0, and as load_environment does.
+// Reads the environments and scales them to the same mean luminance, so that each of them counts in the
+// means and none is overexposed. Throws kUsage if the exposure is not above 0, and the errors of
+// load_environment.
 std::vector<Environment> read_environments(const EnvironmentOptions& options);
 
 struct OutputOptions {
-  std::filesystem::path fit_folder;  // empty: `fits`, where there is such a folder
-  std::filesystem::path folder;      // of the results; empty: none are written
+  std::filesystem::path fit_folder;  // empty: `fits` if that folder exists
+  std::filesystem::path folder;      // of the results; empty: write nothing
   bool pictures = false, json = false, quiet = false;
 };
 
-// What an option says of itself, where studies differ.
+// Help texts that differ between the studies.
 struct OutputTexts {
   std::string fits, folder, pictures, json;
 };
 
-// `--fits`, `-o`, `--pictures`, `--json`, `--quiet`, and of `study` `--resolution`, `--samples` and `--jobs`.
-// Both must outlive the parsing.
+// Adds `--fits`, `-o`, `--pictures`, `--json` and `--quiet` for `options`, and `--resolution`, `--samples`
+// and
+// `--jobs` for `study`. Both must outlive the parsing.
 template <typename Study>
-void add_output_options(CLI::App& app, OutputOptions& options, Study& study, const OutputTexts& texts) {
-  app.add_option("--resolution", study.resolution, "Width and height of the pictures")->capture_default_str();
-  app.add_option("--samples", study.samples, "Directions a pixel")->capture_default_str();
-  app.add_option("--fits", options.fit_folder, texts.fits + "; default: fits, if there is one");
+void add_output_options(remap::Command& app, OutputOptions& options, Study& study, const OutputTexts& texts) {
+  app.add_option("--resolution", study.resolution, "Width and height of the pictures in pixels")
+      ->capture_default_str();
+  app.add_option("--samples", study.samples, "Light directions per pixel")->capture_default_str();
+  app.add_option("--fits", options.fit_folder, texts.fits + "; default: fits, if it exists");
   app.add_option("-o,--output", options.folder, texts.folder);
   app.add_flag("--pictures", options.pictures, texts.pictures);
-  app.add_option("--jobs", study.jobs, "Threads; 0: one a core. The figures do not depend on it")
+  app.add_option("--jobs", study.jobs, "Number of threads; 0: one per core. Results do not depend on it")
       ->capture_default_str();
   app.add_flag("--json", options.json, texts.json);
-  app.add_flag("--quiet", options.quiet, "No progress");
+  app.add_flag("--quiet", options.quiet, "Do not show progress");
 }
 
-// The folder of fits that is meant; empty where none is there.
+// The folder of fits to use; empty if there is none.
 std::filesystem::path fit_folder_of(const OutputOptions& options);
 
-// Throws kUsage for pictures without a folder.
+// Throws kUsage if pictures are wanted without an output folder.
 void require_folder_for_pictures(const OutputOptions& options);
 
-// Runs `study` with a line of progress of that name, until it is done or interrupted.
+// Runs `study` until it ends or is interrupted, and prints its progress under `name`.
 template <typename Options, typename Study>
 auto run_study(const std::string& name, Options& options, bool quiet, const Study& study) {
   remap::watch_interruptions();
@@ -68,11 +69,11 @@ auto run_study(const std::string& name, Options& options, bool quiet, const Stud
   return study(options);
 }
 
-// Pictures as `<name>_<environment>.png`.
+// Writes each sheet as `<name>_<environment>.png`.
 void write_sheets(const std::filesystem::path& folder, const std::string& name,
                   const std::vector<Environment>& environments, const std::vector<Image>& sheets);
 
-// What gnuplot draws of `script`; a warning where it cannot.
-void write_plot(const std::filesystem::path& path, const std::string& script);
+// Writes the plot of a gnuplot script. Prints a warning and returns false if gnuplot is missing or fails.
+bool write_plot(const std::filesystem::path& path, const std::string& script);
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// `remap-study warp`: how near appearance warps come to a known answer.
+// `remap-study warp`: measures the error of appearance warps on materials whose correct result is known.
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -19,7 +19,7 @@ namespace {
 struct WarpStudyCommand {
   std::vector<std::filesystem::path> sets;
   std::size_t size = 256, stroke_sets = 3;
-  std::vector<std::string> materials;  // of the built-in sets; none: all
+  std::vector<std::string> materials;  // of the built-in sets; empty: all
   WarpsOptions study;
   OutputOptions output;
 };
@@ -54,7 +54,7 @@ nlohmann::ordered_json report_json(const WarpsOptions& options, const WarpsResul
   return json;
 }
 
-// Words about the sheets, a line each.
+// Writes the files of the study and returns the legends of the sheets, one line each.
 std::string write_results(const WarpStudyCommand& command, const WarpsOptions& options,
                           const WarpsResult& result) {
   const std::filesystem::path& folder = command.output.folder;
@@ -78,7 +78,7 @@ void run(const WarpStudyCommand& command) {
                       : read_warp_cases(command.sets);
   options.pictures = command.output.pictures;
   if (!command.output.folder.empty()) remap::create_parent(command.output.folder / "warp.csv");
-  const WarpsResult result = run_study("study warp", options, command.output.quiet, study_warps);
+  const WarpsResult result = run_study("warp", options, command.output.quiet, study_warps);
   std::string legends;
   if (!command.output.folder.empty()) legends = write_results(command, options, result);
   if (command.output.json)
@@ -87,43 +87,44 @@ void run(const WarpStudyCommand& command) {
     std::cout << warps_text(options, result) << (legends.empty() ? "" : "\n" + legends);
 }
 
-void add_options(CLI::App& app, WarpStudyCommand& command) {
-  CLI::Option* size = app.add_option("--size", command.size, "Texels along an edge of the built-in sets")
-                          ->capture_default_str();
-  CLI::Option* strokes =
-      app.add_option("--stroke-sets", command.stroke_sets, "Sets of strokes on each built-in set")
+void add_options(remap::Command& app, WarpStudyCommand& command) {
+  remap::Option* size =
+      app.add_option("--size", command.size, "Width and height of the built-in sets in texels")
           ->capture_default_str();
-  CLI::Option* material =
-      app.add_option("--material", command.materials, "Only this built-in set, repeatable")
+  remap::Option* strokes =
+      app.add_option("--stroke-sets", command.stroke_sets, "Number of stroke sets for each built-in set")
+          ->capture_default_str();
+  remap::Option* material =
+      app.add_option("--material", command.materials, "Use only this built-in set, repeatable")
           ->allow_extra_args(false)
-          ->check(CLI::IsMember(builtin_warp_names()));
-  app.add_option("--sets", command.sets,
-                 "Folder with a subfolder for each set, in place of the built-in ones: source, template and "
-                 "truth/{diffuse,specular,alpha}.exr, strokes/{source,template}<k>.exr; repeatable, each "
-                 "with other strokes")
+          ->one_of(builtin_warp_names());
+  app.add_option(
+         "--sets", command.sets,
+         "Read the sets from the subfolders of this folder: {source,template,truth}/{diffuse,specular,"
+         "alpha}.exr, strokes/{source,template}<k>.exr; repeatable, each folder with different strokes")
       ->allow_extra_args(false)
       ->excludes(size)
       ->excludes(strokes)
       ->excludes(material);
   app.add_option("-o,--output", command.output.folder,
-                 "Folder for warp.csv, warp_sensitivity.csv and warp.svg (needs gnuplot)");
-  app.add_flag("--pictures", command.output.pictures,
-               "Write three sheets a set too: warp_methods, warp_sampling, warp_strokes_<set>.png");
+                 "Write warp.csv, warp_sensitivity.csv and warp.svg (needs gnuplot) to this folder");
+  app.add_flag(
+      "--pictures", command.output.pictures,
+      "Also write three sheets for each set: warp_methods, warp_sampling and warp_strokes_<set>.png");
   app.add_option("--jobs", command.study.jobs,
-                 "Threads; 0: one a core. No figure depends on it but times, a little")
+                 "Number of threads; 0: one per core. It affects only the measured times")
       ->capture_default_str();
-  app.add_flag("--json", command.output.json, "Figures as JSON on standard output");
-  app.add_flag("--quiet", command.output.quiet, "No progress");
+  app.add_flag("--json", command.output.json, "Print the figures as JSON");
+  app.add_flag("--quiet", command.output.quiet, "Do not show progress");
 }
 
 }  // namespace
 
-void add_warp_study(CLI::App& study) {
-  CLI::App* command =
-      study.add_subcommand("warp",
-                           "Warp materials whose right answer is known by every method, in one to three "
-                           "dimensions, with coarse and "
-                           "fine sampling and with strokes that move (An et al. 2011, figures 2, 3 and 7)");
+void add_warp_study(remap::Command& study) {
+  remap::Command* command = study.add_subcommand(
+      "warp",
+      "Measure every warp method on materials with a known result, in one to three dimensions, with "
+      "coarse and fine sampling and with different strokes (An et al. 2011, figures 2, 3 and 7)");
   auto options = std::make_shared<WarpStudyCommand>();
   add_options(*command, *options);
   command->footer("Example:\n  remap-study warp --pictures -o warp_study");

@@ -1,4 +1,4 @@
-// `remap-study workflows`: what conversions from the specular to the metallic workflow lose.
+// `remap-study workflows`: measures what conversions from the specular to the metallic workflow lose.
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,7 +14,7 @@
 namespace remapc {
 namespace {
 
-// Brighter than mid grey needs: dark materials, on which methods differ most, are seen.
+// Brighter than usual, because the methods differ most on dark materials.
 constexpr double kExposure = 1.7;
 
 struct WorkflowsCommand {
@@ -73,7 +73,7 @@ std::string sheet_text(const WorkflowsResult& result) {
   std::string text = "\nRows of the contact sheets: ";
   for (std::size_t i = 0; i < result.sheet_materials.size(); ++i)
     text += (i == 0 ? "" : ", ") + result.sheet_materials[i];
-  return text + ".\nColumns: the material, then the methods of the first table.\n";
+  return text + ".\nColumns: the source material, then the methods of the first table.\n";
 }
 
 void run(const WorkflowsCommand& command) {
@@ -86,10 +86,11 @@ void run(const WorkflowsCommand& command) {
   options.environments = read_environments(command.environments);
   options.learned = learned_conversions(fit_folder_of(command.output));
   options.sheets = command.output.pictures;
-  if (options.learned.empty()) set.remarks.emplace_back("no network among the fits (--fits FOLDER)");
+  if (options.learned.empty())
+    set.remarks.emplace_back("the fits contain no network to compare (--fits FOLDER)");
   const std::filesystem::path& folder = command.output.folder;
   if (!folder.empty()) remap::create_parent(folder / "workflows.csv");
-  const WorkflowsResult result = run_study("study workflows", options, command.output.quiet, study_workflows);
+  const WorkflowsResult result = run_study("workflows", options, command.output.quiet, study_workflows);
   const std::vector<FamilyLine> family =
       study_family(options.learned, command.family_count, materials.seed, options.jobs);
   if (!folder.empty()) write_results(folder, options, result);
@@ -98,43 +99,43 @@ void run(const WorkflowsCommand& command) {
     return;
   }
   std::cout << workflows_text(options, result, family) << sheet_text(result);
-  for (const std::string& remark : set.remarks) std::cout << "Left out: " << remark << ".\n";
+  for (const std::string& remark : set.remarks) std::cout << "Note: " << remark << ".\n";
 }
 
-void add_options(CLI::App& app, WorkflowsCommand& command) {
+void add_options(remap::Command& app, WorkflowsCommand& command) {
   WorkflowsOptions& study = command.study;
   study.alphas = {0.05, 0.1, 0.2, 0.4, 0.8};
   command.environments.exposure = kExposure;
   add_environment_options(app, command.environments);
   app.add_option(
       "--materials", command.materials.folder,
-      "Folder with ngan_ward.fit and physicallybased.json, the measured materials; without it there "
-      "are random ones only");
-  app.add_option("--count", command.materials.group_count, "Materials of each of the five groups")
+      "Folder of the measured materials (ngan_ward.fit, physicallybased.json); default: random materials "
+      "only");
+  app.add_option("--count", command.materials.group_count, "Number of materials in each of the five groups")
       ->capture_default_str();
-  app.add_option("--alphas", study.alphas, "Widths, comma-separated; materials take them in turn")
+  app.add_option("--alphas", study.alphas, "Alphas, comma-separated; the materials use them in turn")
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--family-count", command.family_count,
-                 "Random metallic materials of each kind that go there and back")
+                 "Number of random metallic materials of each kind for the round trip")
       ->capture_default_str();
-  app.add_option("--seed", command.materials.seed, "Of all random materials")->capture_default_str();
+  app.add_option("--seed", command.materials.seed, "Seed of the random materials")->capture_default_str();
   add_output_options(
       app, command.output, study,
-      {"Folder of fits whose networks are compared too",
-       "Folder for workflows.csv, workflows_summary.csv and workflows.svg (needs gnuplot)",
-       "Write workflows_<environment>.png too: a row a material, two of each group; the material, then "
-       "what each method makes of it",
-       "Figures as JSON on standard output"});
+      {"Folder of fits; their networks are compared, too",
+       "Write workflows.csv, workflows_summary.csv and workflows.svg (needs gnuplot) to this folder",
+       "Also write workflows_<environment>.png: one row for each of two materials per group; columns source "
+       "material, then the result of each method",
+       "Print the figures as JSON"});
 }
 
 }  // namespace
 
-void add_workflows_study(CLI::App& study) {
-  CLI::App* command = study.add_subcommand(
+void add_workflows_study(remap::Command& study) {
+  remap::Command* command = study.add_subcommand(
       "workflows",
-      "Convert materials of the specular workflow to the metallic one by every method, render both under "
-      "environment maps and tell how alike they look; and metallic materials there and back");
+      "Convert materials from the specular to the metallic workflow by every method and compare pictures "
+      "under environment maps; also convert metallic materials there and back");
   auto options = std::make_shared<WorkflowsCommand>();
   add_options(*command, *options);
   command->footer(

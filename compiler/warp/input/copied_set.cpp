@@ -21,7 +21,7 @@ class CopyWriter {
   CopyWriter(const fs::path& folder, const std::vector<std::uint32_t>& texels, const MapFrame& size)
       : folder_(folder), texels_(texels), size_(size) {}
 
-  // `value`: of a texel of the template and a channel.
+  // `value`: returns the value of a template texel in a channel.
   template <typename Value>
   void write(const char* name, const std::vector<std::string>& channels, const Value& value) {
     Image image{
@@ -67,7 +67,7 @@ void write_profiles(CopyWriter& writer, const TabulatedMaterial& material) {
   });
 }
 
-// The list of BRDFs with paths as they are seen from `folder`.
+// Returns the list of BRDFs with paths relative to `folder`.
 std::string moved_list(const fs::path& list, const fs::path& folder) {
   std::istringstream lines(remap::read_file(list));
   std::string text;

@@ -1,4 +1,4 @@
-// The exact copy of a warp as files: every texel of the source holds what one texel of the template does.
+// Writes the exact copy of a warp to files: each texel of the source is copied from one template texel.
 #pragma once
 
 #include <filesystem>
@@ -8,20 +8,20 @@
 
 namespace remapc {
 
-// What the template is, and where its table stands.
+// The template and its table.
 struct CopiedTemplate {
   MaterialRef material;
   MapFrame frame;
-  std::filesystem::path table;  // of a tabulated one: profiles.exr, profiles.csv or brdfs.txt
+  std::filesystem::path table;  // of a tabulated material: profiles.exr, profiles.csv or brdfs.txt
 };
 
-// Writes to `folder`, all as float32 EXR of the source's size, NaN where a texel takes no part:
-//   of parameters      diffuse.exr, specular.exr, alpha.exr
-//   of a list          index.exr, and the list beside it (profiles.csv; brdfs.txt with paths of its own)
-//   of profiles.exr    profiles.exr
-//   of each            template_texel.exr: channels X and Y, the place in the template, from 0 at the top
-//                      left, by which further maps can be copied
-// `texels`: of copy_exactly(). Returns the files. Throws kOutput.
+// Writes float32 EXR files of the source's size to `folder`, with NaN in skipped texels:
+//   parameters         diffuse.exr, specular.exr, alpha.exr
+//   a list             index.exr and the list (profiles.csv, or brdfs.txt with adapted paths)
+//   profiles.exr       profiles.exr
+//   all kinds          template_texel.exr: channels X and Y, the position in the template from 0 at the top
+//                      left, by which other maps can be copied
+// `texels`: the result of copy_exactly(). Returns the files. Throws kOutput.
 std::vector<std::filesystem::path> write_copied_set(const std::filesystem::path& folder,
                                                     const std::vector<std::uint32_t>& texels,
                                                     const MapFrame& source, const CopiedTemplate& goal);

@@ -1,4 +1,4 @@
-// Images that are read whole.
+// Reads whole images.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace remapc {
 
-// All rows of an image, as its layout has them. Throws as read_rows() does.
+// Returns all rows of an image in its layout. Throws the errors of read_rows().
 inline std::vector<std::byte> texels_of(remap::ImageReader& image) {
   const remap::ImageLayout& layout = image.layout();
   std::vector<std::byte> texels(static_cast<std::size_t>(layout.height) * layout.row_bytes());

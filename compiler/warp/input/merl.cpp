@@ -1,6 +1,6 @@
-// Measured BRDFs of the MERL database (Matusik et al. 2003): three 32-bit counts (90 half angles, 90
-// difference angles, 180 azimuths), then as many 64-bit values of red, of green and of blue, all little
-// endian.
+// Reads measured BRDFs of the MERL database (Matusik et al. 2003): three 32-bit counts (90 half angles, 90
+// difference angles, 180 azimuths), then as many 64-bit values of red, of green and of blue, all
+// little-endian.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,7 +20,7 @@ using remap::Error;
 using remap::ErrorKind;
 using std::numbers::pi;
 
-static_assert(std::endian::native == std::endian::little, "values are read as they are stored");
+static_assert(std::endian::native == std::endian::little, "the file format is little-endian");
 
 constexpr std::array<std::int32_t, 3> kCounts = {90, 90, 180};
 constexpr std::size_t kCells = 90 * 90 * 180;
@@ -30,7 +30,7 @@ std::size_t cell(double share, std::int32_t count) {
   return static_cast<std::size_t>(std::clamp(static_cast<std::int32_t>(share * count), 0, count - 1));
 }
 
-// Half angles are even in their square root.
+// The grid of half angles is uniform in their square root.
 std::size_t cell_of(const QuadratureDirection& direction) {
   const std::size_t half = cell(std::sqrt(direction.half_angle / (pi / 2.0)), kCounts[0]),
                     difference = cell(direction.difference_angle / (pi / 2.0), kCounts[1]),
@@ -51,7 +51,7 @@ std::vector<float> read_merl(const std::filesystem::path& file) {
   if (!stream || counts != kCounts)
     throw Error(
         ErrorKind::kInput,
-        file.string() + ": is no BRDF of the MERL database; expected 90 x 90 x 180 cells of three channels");
+        file.string() + ": is not a BRDF of the MERL database (90 x 90 x 180 cells of three channels)");
   std::vector<float> samples;
   for (std::size_t c = 0; c < kScales.size(); ++c)
     for (const QuadratureDirection& direction : half_vector_quadrature()) {

@@ -19,14 +19,14 @@ using remap::ErrorKind;
 using Color = std::uint32_t;  // 0xRRGGBB
 constexpr Color kTransparent = Color{1} << 24;
 
-constexpr double kColorRadius = 40.0;    // within which colors are one
-constexpr double kPairRadius = 48.0;     // within which colors of two images are
-constexpr double kShadeRadius = 80.0;    // of the background, where JPEG bleeds into it
-constexpr double kBlendRadius = 60.0;    // of a blend, from the line between the two
-constexpr double kMostBlends = 0.4;      // of the texels: thin strokes have long rims
-constexpr double kLeastShare = 2e-5;     // of the texels
-constexpr std::size_t kLeastTexels = 8;  // of a color
-constexpr std::size_t kMostColors = 33;  // with the background
+constexpr double kColorRadius = 40.0;    // colors within it count as one
+constexpr double kPairRadius = 48.0;     // colors of two images within it match
+constexpr double kShadeRadius = 80.0;    // for shades of the background next to strokes, from JPEG
+constexpr double kBlendRadius = 60.0;    // from the line between two colors to their blend
+constexpr double kMostBlends = 0.4;      // share of the texels; thin strokes have long edges
+constexpr double kLeastShare = 2e-5;     // of the texels, for a color
+constexpr std::size_t kLeastTexels = 8;  // for a color
+constexpr std::size_t kMostColors = 33;  // including the background
 constexpr std::size_t kMostCandidates = 128;
 
 using Point = std::array<double, 3>;
@@ -40,7 +40,7 @@ double distance(Color a, Color b) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
-// Of `color` to the segment between the others.
+// The distance of `color` to the line segment between two others.
 double distance_to_blends(Color color, Color a, Color b) {
   const Point p = point_of(color), q = point_of(a), r = point_of(b);
   double along = 0.0, length = 0.0, square = 0.0;
@@ -59,11 +59,11 @@ std::string text_of(Color color) {
   return text.data();
 }
 
-// Texels of an image as colors of 8 bits.
+// The texels of an image as 8-bit colors.
 struct Painting {
   fs::path path;
   std::size_t width = 0;
-  std::vector<Color> texels;  // kTransparent where alpha is below a half
+  std::vector<Color> texels;  // kTransparent if alpha is below 0.5
 };
 
 Painting read_painting(const fs::path& path, const MapFrame& material) {
@@ -73,7 +73,7 @@ Painting read_painting(const fs::path& path, const MapFrame& material) {
   read_stroke_image(path, material, [&](const std::vector<float>& values, bool is_alpha) {
     if (!is_alpha && ++colors > 3) return;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const float value = values[i] > 0.0f ? std::min(values[i], 1.0f) : 0.0f;  // NaN is black
+      const float value = values[i] > 0.0f ? std::min(values[i], 1.0f) : 0.0f;  // NaN counts as black
       if (is_alpha)
         is_transparent[i] = value < 0.5f ? 1 : 0;
       else
@@ -87,9 +87,9 @@ Painting read_painting(const fs::path& path, const MapFrame& material) {
   return painting;
 }
 
-// Colors that are one.
+// Colors that count as one.
 struct Cluster {
-  Color color = 0;  // the most frequent of them
+  Color color = 0;  // the most frequent of these colors
   std::size_t texels = 0;
 };
 
@@ -98,7 +98,7 @@ struct Frequency {
   std::size_t texels = 0;
 };
 
-// Those of the image, the most frequent first.
+// The colors of the image, the most frequent first.
 std::vector<Frequency> frequencies(const Painting& painting) {
   std::vector<std::uint32_t> counts(kTransparent + 1, 0);
   for (const Color color : painting.texels) ++counts[color];
@@ -110,7 +110,8 @@ std::vector<Frequency> frequencies(const Painting& painting) {
   return found;
 }
 
-// Each around the most frequent color that none before has taken; the largest first.
+// Forms each cluster around the most frequent color that is in no previous cluster. Returns the largest
+// cluster first.
 std::vector<Cluster> clusters_of(const std::vector<Frequency>& colors, std::size_t least_texels) {
   std::vector<char> taken(colors.size(), 0);
   std::vector<Cluster> clusters;
@@ -132,7 +133,7 @@ std::vector<Cluster> clusters_of(const std::vector<Frequency>& colors, std::size
 
 constexpr std::uint8_t kNoCluster = 255;
 
-// For each texel the index of the nearest cluster, or none.
+// The index of the nearest cluster for each texel, or kNoCluster.
 std::vector<std::uint8_t> labels_of(const Painting& painting, const std::vector<Frequency>& colors,
                                     const std::vector<Cluster>& clusters) {
   std::vector<std::uint8_t> label_of_color(kTransparent + 1, kNoCluster);
@@ -150,17 +151,17 @@ std::vector<std::uint8_t> labels_of(const Painting& painting, const std::vector<
   return labels;
 }
 
-// What stands around the texels of one cluster.
+// Statistics of the surroundings of the texels of one cluster.
 struct Surroundings {
   double count = 0.0;
-  double flat = 0.0;                                  // texels with three or more of their own beside them
-  double beside = 0.0;                                // with another stroke six texels away, or nearer
-  double at_rim = 0.0;                                // with a larger one there
-  double close = 0.0;                                 // with a larger one two texels away, or nearer
-  std::array<std::size_t, kNoCluster + 1> rims = {};  // how often which
+  double flat = 0.0;    // texels with three or more neighbors of the same cluster
+  double beside = 0.0;  // texels with another stroke within six texels
+  double at_rim = 0.0;  // texels with a larger stroke within six texels
+  double close = 0.0;   // texels with a larger stroke within two texels
+  std::array<std::size_t, kNoCluster + 1> rims = {};  // number of occurrences of each cluster
 };
 
-// Looks in eight directions, as far as blurred rims of strokes reach.
+// Searches in eight directions, as far as blurred edges of strokes extend.
 void look_around(const std::vector<std::uint8_t>& labels, std::size_t width, std::size_t texel,
                  std::size_t first_stroke, Surroundings& found) {
   const std::uint8_t own = labels[texel];
@@ -192,8 +193,8 @@ void look_around(const std::vector<std::uint8_t>& labels, std::size_t width, std
   ++found.rims[larger];
 }
 
-// Whether a cluster is but the rim of a larger stroke: thin, or a blend with the background, all along it; or
-// a shade of the background that shows beside strokes, as JPEG leaves it.
+// Whether a cluster is the edge of a larger stroke (thin or a blend with the background, along the whole
+// stroke), or a shade of the background next to strokes, as JPEG produces it.
 bool is_rim(const std::vector<Cluster>& clusters, std::size_t index, const Surroundings& around,
             std::size_t first_stroke) {
   if (around.close > 0.75 * around.count && around.flat < 0.4 * around.count) return true;
@@ -211,12 +212,14 @@ struct ColorStroke {
 };
 
 [[noreturn]] void fail_not_flat(const Painting& painting, const std::string& what) {
-  throw Error(ErrorKind::kInput, painting.path.string() + ": " + what +
-                                     "; expected strokes of a few flat colors on black, white or "
-                                     "transparent (hard brush, no picture below)");
+  throw Error(ErrorKind::kInput,
+              painting.path.string() + ": " + what +
+                  " (paint strokes in a few flat colors with a hard brush, on black, white "
+                  "or transparent, without a picture below)");
 }
 
-// Clusters without rims; `first_stroke` is the index of the first that is no background.
+// Removes the clusters that are edges of strokes. `first_stroke`: the index of the first cluster after the
+// background.
 std::vector<Cluster> without_rims(const std::vector<Cluster>& clusters, const Painting& painting,
                                   const std::vector<std::uint8_t>& labels, std::size_t first_stroke) {
   std::vector<Surroundings> around(clusters.size());
@@ -229,7 +232,7 @@ std::vector<Cluster> without_rims(const std::vector<Cluster>& clusters, const Pa
   return kept;
 }
 
-// In the order of their first texels.
+// The strokes of an image, in the order of their first texels.
 std::vector<ColorStroke> strokes_in(const Painting& painting, const MapFrame& material) {
   const auto count = static_cast<double>(painting.texels.size());
   const auto transparent =
@@ -251,17 +254,17 @@ std::vector<ColorStroke> strokes_in(const Painting& painting, const MapFrame& ma
   }
   const auto blends = static_cast<double>(std::count(labels.begin(), labels.end(), kNoCluster)) - transparent;
   if (blends > kMostBlends * count)
-    fail_not_flat(painting, percent(blends / count) + " of it have none of its most frequent colors");
+    fail_not_flat(painting, percent(blends / count) + " of the texels have none of the most frequent colors");
   for (std::size_t c = 0; c < kept.size(); ++c) strokes[c].color = kept[c].color;
   std::erase_if(strokes, [](const ColorStroke& stroke) { return stroke.texels.empty(); });
-  if (strokes.empty()) fail_not_flat(painting, "has no stroke: all of it is background");
+  if (strokes.empty()) fail_not_flat(painting, "contains no stroke");
   require_background(painting.path, marked, material);
   std::sort(strokes.begin(), strokes.end(),
             [](const ColorStroke& a, const ColorStroke& b) { return a.texels.front() < b.texels.front(); });
   return strokes;
 }
 
-// Index of the stroke whose color is nearest.
+// The index of the stroke with the nearest color.
 std::size_t nearest_stroke(const std::vector<ColorStroke>& strokes, Color color) {
   std::size_t nearest = 0;
   for (std::size_t k = 1; k < strokes.size(); ++k)
@@ -269,7 +272,7 @@ std::size_t nearest_stroke(const std::vector<ColorStroke>& strokes, Color color)
   return nearest;
 }
 
-// Every stroke of `strokes` has its partner, in both directions, among `others`, or it is named.
+// Throws kInput for a stroke of `strokes` that does not match one of `others` in both directions.
 void require_partners(const std::vector<ColorStroke>& strokes, const fs::path& image,
                       const std::vector<ColorStroke>& others, const fs::path& other_image) {
   for (std::size_t k = 0; k < strokes.size(); ++k) {
@@ -277,9 +280,10 @@ void require_partners(const std::vector<ColorStroke>& strokes, const fs::path& i
     if (nearest_stroke(strokes, nearest.color) == k &&
         distance(nearest.color, strokes[k].color) <= kPairRadius)
       continue;
-    throw Error(ErrorKind::kInput, other_image.string() + ": has no stroke of " + text_of(strokes[k].color) +
-                                       ", which " + image.string() + " has; the nearest is " +
-                                       text_of(nearest.color) + "; expected every color in both images");
+    throw Error(ErrorKind::kInput, other_image.string() + ": has no stroke with color " +
+                                       text_of(strokes[k].color) + " of " + image.string() +
+                                       " (the nearest is " + text_of(nearest.color) +
+                                       "; every color must be in both images)");
   }
 }
 

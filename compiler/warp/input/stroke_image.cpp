@@ -10,7 +10,7 @@ using remap::Error;
 using remap::ErrorKind;
 
 std::string size_text(std::size_t width, std::size_t height) {
-  return std::to_string(width) + " x " + std::to_string(height);
+  return std::to_string(width) + "x" + std::to_string(height);
 }
 
 void read_stroke_image(const std::filesystem::path& image, const MapFrame& material,
@@ -19,9 +19,9 @@ void read_stroke_image(const std::filesystem::path& image, const MapFrame& mater
   const remap::ImageLayout& layout = reader.layout();
   const auto width = static_cast<std::size_t>(layout.width), height = static_cast<std::size_t>(layout.height);
   if (width != material.width || height != material.height)
-    throw Error(ErrorKind::kInput, image.string() + ": is " + size_text(width, height) + "; expected " +
-                                       size_text(material.width, material.height) +
-                                       ", the size of the maps in " + material.name);
+    throw Error(ErrorKind::kInput, image.string() + ": size " + size_text(width, height) +
+                                       " does not match the maps of " + material.name + " (" +
+                                       size_text(material.width, material.height) + ")");
   const std::vector<std::byte> texels = texels_of(reader);
   std::vector<float> values(width * height);
   for (std::size_t c = 0; c < layout.channels.size(); ++c) {
@@ -35,8 +35,8 @@ void read_stroke_image(const std::filesystem::path& image, const MapFrame& mater
 void require_background(const std::filesystem::path& image, std::size_t marked, const MapFrame& material) {
   if (4 * marked > 3 * material.width * material.height)
     throw Error(ErrorKind::kInput, image.string() +
-                                       ": marks more than three quarters of all texels; expected strokes on "
-                                       "a background (is it inverted?)");
+                                       ": strokes cover more than three quarters of the image (check whether "
+                                       "it is inverted)");
 }
 
 }  // namespace remapc

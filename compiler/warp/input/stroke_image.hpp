@@ -1,4 +1,4 @@
-// Images on which strokes are painted: as large as the maps of the material they are for.
+// Images of strokes, which must have the size of the material's maps.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,19 @@
 
 namespace remapc {
 
-// `96 x 64`.
+// For example `96x64`.
 std::string size_text(std::size_t width, std::size_t height);
 
-// One channel: its values as they are stored, row by row from the top, 0 to 1 where the file has whole
-// numbers.
+// Receives one channel: its stored values, row-major from the top; integers are scaled to 0 to 1.
 using StrokeChannel = std::function<void(const std::vector<float>& values, bool is_alpha)>;
 
-// Calls `use` with one channel after another, in the order of the file. Throws kInput for an image of another
-// size than the material, and where it cannot be read.
+// Calls `use` for each channel in the order of the file. Throws kInput if the image cannot be read or its
+// size differs from that of the material.
 void read_stroke_image(const std::filesystem::path& image, const MapFrame& material,
                        const StrokeChannel& use);
 
-// Throws kInput, naming the image, where strokes of `marked` texels cover more than three quarters of it:
-// they are most likely inverted.
+// Throws kInput with the name of the image if `marked` is more than three quarters of the texels, because
+// such an image is most likely inverted.
 void require_background(const std::filesystem::path& image, std::size_t marked, const MapFrame& material);
 
 }  // namespace remapc

@@ -20,17 +20,17 @@ std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const 
   for (std::uint32_t i = 0; i < marked.size(); ++i)
     if (marked[i] != 0) stroke.push_back(i);
   if (stroke.empty())
-    throw Error(ErrorKind::kInput, mask.string() + ": marks no texel; expected some above half of white");
+    throw Error(ErrorKind::kInput,
+                mask.string() + ": the mask marks no texel (paint strokes brighter than 0.5)");
   require_background(mask, stroke.size(), material);
   return stroke;
 }
 
 std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& material) {
   const auto fail = [&] {
-    throw Error(ErrorKind::kUsage, "--box: is " + box + "; expected x0,y0,x1,y1 within " +
+    throw Error(ErrorKind::kUsage, "--box: '" + box + "' is not a box within " +
                                        size_text(material.width, material.height) +
-                                       " texels, x0 below x1 and y0 "
-                                       "below y1");
+                                       " texels (use x0,y0,x1,y1 with x0 < x1 and y0 < y1)");
   };
   std::vector<std::size_t> corner;
   std::istringstream parts(box);

@@ -31,7 +31,7 @@ std::optional<fs::path> table_in(const fs::path& folder) {
   return std::nullopt;
 }
 
-// One channel of light at one radius, and which column or channel of the file has it.
+// A color channel and radius, and the index of its column or channel in the file.
 struct ProfileColumn {
   char channel = 'Y';
   double radius = 0.0;
@@ -46,7 +46,7 @@ std::optional<ProfileColumn> profile_column(std::string_view name, std::size_t c
   return ProfileColumn{name[0], *radius, column};
 }
 
-// The radii of a table, and for each sample of red, green and blue the column that holds it.
+// The radii of a table, and the column of each sample of red, green and blue.
 struct ProfileLayout {
   std::vector<double> radii;
   std::vector<std::size_t> columns;  // 3 x radii
@@ -70,9 +70,9 @@ ProfileLayout profile_layout(const std::vector<std::string>& names, const std::s
     if (radii.size() < 2 || radii != layout.radii)
       throw Error(ErrorKind::kInput,
                   place +
-                      ": has no columns R@<radius>, G@<radius>, B@<radius> (or Y@<radius>) for at least "
-                      "two radii, the same of each; the first name is " +
-                      (names.empty() ? "none" : names.front()));
+                      ": requires columns R@<radius>, G@<radius>, B@<radius> (or Y@<radius>) for at least "
+                      "two radii, the same for each; the first name is " +
+                      (names.empty() ? "missing" : "'" + names.front() + "'"));
   }
   return layout;
 }
@@ -130,7 +130,7 @@ void read_profile_table(TabulatedSet& set) {
       const double value = csv.number(csv.lines[entry], cell, names[layout.columns[row]]);
       if (!(value >= 0.0 && std::isfinite(value)))
         csv.fail(csv.lines[entry].number, cell.column,
-                 "is " + std::string(cell.text) + "; expected a finite number from 0");
+                 "'" + std::string(cell.text) + "' is not a finite number of at least 0");
       set.material.samples(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(entry)) =
           static_cast<float>(value);
     }
@@ -144,7 +144,8 @@ void read_brdf_list(TabulatedSet& set) {
     if (!line.empty()) columns.push_back(read_merl(set.table.parent_path() / line));
   }
   if (columns.empty())
-    throw Error(ErrorKind::kInput, set.table.string() + ": names no file; expected one of a BRDF in a line");
+    throw Error(ErrorKind::kInput,
+                set.table.string() + ": contains no file name (write one BRDF file per line)");
   set.material.samples.resize(static_cast<Eigen::Index>(columns.front().size()),
                               static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i)
@@ -169,19 +170,19 @@ void read_index_map(const fs::path& folder, TabulatedSet& set) {
   const auto name = std::find_if(kIndexMaps.begin(), kIndexMaps.end(),
                                  [&](const char* file) { return fs::is_regular_file(folder / file); });
   if (name == kIndexMaps.end())
-    throw Error(ErrorKind::kInput, folder.string() + ": has " + set.table.filename().string() +
-                                       " but no map of its entries; expected index.exr, .png or .tif");
+    throw Error(ErrorKind::kInput, folder.string() + ": " + set.table.filename().string() +
+                                       " requires a map of its entries (add index.exr, .png or .tif)");
   remap::ImageReader image(folder / *name);
   const remap::ImageLayout& layout = image.layout();
   if (layout.channels.size() != 1)
     throw Error(ErrorKind::kInput, image.path().string() + ": has " + std::to_string(layout.channels.size()) +
-                                       " channels; expected one, the number of the entry");
+                                       " channels, but an index map must have one");
   set_size(set, layout);
   const auto entries = static_cast<double>(set.material.samples.cols());
   const double largest = largest_of(layout.channels[0].type);
   for (const float value : channel_values(image, 0, texels_of(image))) {
     const double entry = std::round(static_cast<double>(value) * largest);
-    const bool is_entry = entry >= 0.0 && entry < entries;  // not NaN either
+    const bool is_entry = entry >= 0.0 && entry < entries;  // also false for NaN
     set.material.entries.push_back(is_entry ? static_cast<std::uint32_t>(entry) : kNoEntry);
   }
 }
@@ -194,7 +195,7 @@ TabulatedSet read_tabulated_set(const fs::path& folder) {
   const auto table = table_in(folder);
   if (!table)
     throw Error(ErrorKind::kInput,
-                folder.string() + ": has no table; expected profiles.exr, profiles.csv or brdfs.txt");
+                folder.string() + ": contains no table (profiles.exr, profiles.csv or brdfs.txt)");
   TabulatedSet set;
   set.table = *table;
   set.material.name = folder.string();

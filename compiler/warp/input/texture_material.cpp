@@ -21,7 +21,7 @@ bool is_base_color(Role role) { return role == Role::kBaseColor; }
 bool is_specular(Role role) { return role == Role::kSpecular; }
 bool is_metallic(Role role) { return role == Role::kMetallic; }
 
-// Whether a set has colors of the diffuse lobe, and nothing that tells of the other.
+// Whether a set has a color of the diffuse lobe and no map of the specular lobe.
 bool is_albedo(const remap::FoundSet& set) {
   const auto has = [&](bool (*wanted)(Role)) { return !remap::uses(set, wanted).empty(); };
   return (has(is_diffuse) || has(is_base_color)) && !has(is_specular) && !has(is_metallic) &&
@@ -36,16 +36,16 @@ remap::FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
     return set.state == remap::SetState::kSkipped && (albedo == AlbedoAlone::kRefuse || !is_albedo(set));
   });
   if (found.sets.size() != 1)
-    throw Error(ErrorKind::kInput, folder.string() + ": has " + std::to_string(found.sets.size()) +
-                                       " texture sets that are known by their names; expected one, with maps "
-                                       "named diffuse, specular and roughness");
+    throw Error(ErrorKind::kInput, folder.string() + ": found " + std::to_string(found.sets.size()) +
+                                       " texture sets by their names, but one is required (name its maps "
+                                       "diffuse, specular and roughness)");
   if (found.sets[0].state == remap::SetState::kFaulty)
     throw Error(ErrorKind::kInput, found.sets[0].remarks.empty() ? folder.string() + ": is ambiguous"
                                                                  : found.sets[0].remarks[0]);
   return found.sets[0];
 }
 
-// Puts the first map whose role is wanted into the request; false where the set has none.
+// Adds the first map of a wanted role to the request. Returns false if the set has none.
 bool add_map(const remap::FoundSet& set, const fs::path& root, Parameter parameter, bool (*wanted)(Role),
              remap::TextureSetRequest& request) {
   const std::vector<remap::MapUse> found = remap::uses(set, wanted);
@@ -63,7 +63,7 @@ struct MaterialRequest {
   bool from_metallic = false, is_albedo = false;
 };
 
-// What the set has: maps of the specular workflow, else of the metallic one, else of the diffuse lobe.
+// Requests the maps of the specular workflow, else of the metallic workflow, else of the diffuse lobe.
 MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
   const remap::FoundSet set = only_set(folder, albedo);
   MaterialRequest result;
@@ -80,18 +80,17 @@ MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
     return result;
   }
   if (!add(Parameter::kWidth, remap::tells_width))
-    throw Error(ErrorKind::kInput, folder.string() + ": has no roughness map; expected one");
+    throw Error(ErrorKind::kInput, folder.string() + ": contains no roughness map");
   if (add(Parameter::kSpecular, is_specular)) {
     if (add(Parameter::kDiffuse, is_diffuse) || add(Parameter::kDiffuse, is_base_color)) return result;
-    throw Error(ErrorKind::kInput, folder.string() + ": has no diffuse map; expected one beside specular");
+    throw Error(ErrorKind::kInput, folder.string() + ": contains a specular map but no diffuse map");
   }
   result.from_metallic =
       add(Parameter::kMetallic, is_metallic) &&
       (add(Parameter::kBaseColor, is_base_color) || add(Parameter::kBaseColor, is_diffuse));
   if (!result.from_metallic)
-    throw Error(ErrorKind::kInput, folder.string() +
-                                       ": has neither diffuse and specular nor base color and metallic maps; "
-                                       "expected either pair");
+    throw Error(ErrorKind::kInput,
+                folder.string() + ": requires diffuse and specular maps, or base color and metallic maps");
   return result;
 }
 

@@ -1,4 +1,4 @@
-// Texture sets as the materials of a warp.
+// Reads texture sets as materials of a warp.
 #pragma once
 
 #include <filesystem>
@@ -8,23 +8,23 @@
 namespace remapc {
 
 struct TextureMaterial {
-  WarpMaterial material;  // row by row
+  WarpMaterial material;  // row-major
   std::size_t width = 0, height = 0;
-  bool is_albedo = false;  // of a diffuse map alone
+  bool is_albedo = false;  // from a diffuse map alone
 
   MapFrame frame() const { return {material.name, width, height}; }
 };
 
-// What to make of a folder that has neither roughness nor specular.
+// How to read a folder that has neither roughness nor specular.
 enum class AlbedoAlone {
   kRefuse,
-  kEnrich,  // diffuse, or base color, with specular 0 and alpha 1 (section 4 of An et al. 2011)
+  kEnrich,  // diffuse or base color with specular 0 and alpha 1 (An et al. 2011, section 4)
 };
 
-// The one set of `folder`, by the names of its maps (runtime/discovery): diffuse, specular (F0 or scale of
-// `model`), and roughness, glossiness or alpha, which becomes alpha; or base color and metallic, converted
-// by equation (2). Maps are one size. Throws kInput where a map is missing, or two hold the same; kUsage for
-// a model that the built-in renderer does not know.
+// Reads the only set of `folder`, found by the names of its maps (runtime/discovery): diffuse, specular (F0
+// or scale of `model`), and roughness, glossiness or alpha, which are converted to alpha; or base color and
+// metallic, which are converted by equation (2). All maps must have the same size. Throws kInput for missing
+// and ambiguous maps, kUsage for a model that the built-in renderer does not support.
 TextureMaterial read_texture_material(const std::filesystem::path& folder, const std::string& model,
                                       AlbedoAlone albedo = AlbedoAlone::kRefuse);
 

@@ -1,4 +1,4 @@
-// The forms of appearance features: in closed form, or by samples.
+// Appearance features: in closed form or by samples.
 #pragma once
 
 #include <variant>
@@ -10,34 +10,36 @@
 
 namespace remapc {
 
-// How the difference of two reflectances counts over directions (An et al. 2011, equation 1). kRelative
-// divides it by the mean reflectance of both materials plus .03: rank correlation with differences of lit
-// spheres .95 where the plain one has .58, which highlight peaks swamp. Both stay quadratic in reflectance.
-// kCubeRoot and kLog compare its cube root and log(1 + rho / .05): .96, without a closed form.
+// The weight of differences between two reflectances over directions (An et al. 2011, equation 1). kRelative
+// divides a difference by the mean reflectance of both materials plus 0.03. Its rank correlation with
+// differences of lit spheres is 0.95; that of kPlain is 0.58, because highlight peaks dominate. Both are
+// quadratic in reflectance. kCubeRoot and kLog compare the cube root and log(1 + rho / 0.05); their
+// correlation is 0.96, but they have no closed form.
 enum class AppearanceDistance { kRelative, kPlain, kCubeRoot, kLog };
 
-inline constexpr Eigen::Index kFeatureBasis = 14;  // features of one channel; 3e-4 of the distance is lost
+inline constexpr Eigen::Index kFeatureBasis = 14;  // features per channel; the error is 3e-4 of the distance
 
-// Of parameters by a distance that is quadratic: one channel of a model, d diffuse + s slope(alpha) +
-// base(alpha). Columns are nodes of alpha.
+// Features of parameters for a quadratic distance. The features of one channel are d * diffuse + s *
+// slope(alpha) + base(alpha), where d is diffuse and s specular. Columns are nodes of alpha.
 struct SeparableFeatures {
   Eigen::VectorXd diffuse;      // kFeatureBasis
   Eigen::MatrixXd slope, base;  // kFeatureBasis x kWidthNodes
 };
 
-// Of samples by any distance: directions of half_vector_quadrature(), or radii of profiles.
+// Features of samples for any distance. Samples are at the directions of half_vector_quadrature() or at the
+// radii of profiles.
 struct SampledFeatures {
   AppearanceDistance distance = AppearanceDistance::kRelative;
-  std::vector<double> radii;  // those of both materials together; empty for reflectances
-  Eigen::VectorXd weights;    // of the samples of one channel: square roots of what their differences count
-  Eigen::MatrixXd basis;      // 3 x samples rows; orthonormal columns that span 512 texels of both materials
-  LobeTable lobes;            // of parameters; empty for tables
-  Eigen::VectorXd cosines;    // of dielectrics: between light and half vector at every direction; else empty
+  std::vector<double> radii;  // union of both materials; empty for reflectances
+  Eigen::VectorXd weights;    // square roots of the weights of the samples of one channel
+  Eigen::MatrixXd basis;      // 3 x samples rows; orthonormal columns that span 512 texels
+  LobeTable lobes;            // for parametric materials; empty for tables
+  Eigen::VectorXd cosines;    // of the angle between light and half vector; dielectrics only
 };
 
 using AppearanceFeatures = std::variant<SeparableFeatures, SampledFeatures>;
 
-// Both in one space.
+// The features of both materials in one space.
 struct FeaturePair {
   AppearanceFeatures source, target;
 };

@@ -18,18 +18,18 @@ using remap::ErrorKind;
 
 constexpr std::size_t kSampledTexels = 16384;
 constexpr std::size_t kStressPairs = 4096;
-constexpr std::size_t kSlowTexels = 4096;  // of features by samples
-constexpr double kFitRidge = 1e-9;         // of the mean square of the terms
+constexpr std::size_t kSlowTexels = 4096;  // limit for features by samples
+constexpr double kFitRidge = 1e-9;         // relative to the mean square of the terms
 constexpr double kStressGoal = 0.03;
 constexpr double kLeastRadius = 1e-3;
 
-// `columns`: centred features.
+// Computes the stress of 1, 2 and 3 dimensions. `columns`: centred features.
 std::array<double, 3> stress_of(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& axes) {
   std::array<double, 3> error{};
   double total = 0.0;
   const auto count = static_cast<std::size_t>(columns.cols());
   for (std::size_t i = 0; i < kStressPairs; ++i) {
-    // Pairs from all over the list, by multiplicative hashes.
+    // Multiplicative hashes select pairs from the whole list.
     const auto first = static_cast<Eigen::Index>(i * 2654435761u % count);
     const auto second = static_cast<Eigen::Index>((i * 2246822519u + 97u) % count);
     const Eigen::VectorXd difference = columns.col(first) - columns.col(second);
@@ -43,7 +43,7 @@ std::array<double, 3> stress_of(const Eigen::MatrixXd& columns, const Eigen::Mat
   return error;
 }
 
-// Least squares over the 36 terms of texels, drawn to small weights.
+// Ridge regression over the 36 terms of texels.
 Placement fitted(const WarpMaterial& material, const AppearanceFeatures& features,
                  const AppearanceSpace& space, int dimension) {
   const std::vector<std::uint32_t> texels = sample_texels(material, kSlowTexels);
@@ -84,11 +84,12 @@ AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFe
   const Eigen::MatrixXd covariance = columns * columns.transpose() / count;
   space.radius = std::sqrt(covariance.trace());
   if (!(space.radius > kLeastRadius * space.mean.norm()))
-    throw Error(ErrorKind::kInput, material.name() +
-                                       ": all texels look alike; expected a material with at least two "
-                                       "appearances (of one appearance there is nothing to warp)");
+    throw Error(ErrorKind::kInput,
+                material.name() +
+                    ": all texels look the same (a warp needs a material with at least two "
+                    "appearances)");
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-  // Of fewer features than three the further axes are none.
+  // With fewer than three features, the other axes are 0.
   const Eigen::Index found = std::min<Eigen::Index>(3, columns.rows());
   space.axes = Eigen::MatrixXd::Zero(columns.rows(), 3);
   space.axes.leftCols(found) = solver.eigenvectors().rightCols(found).rowwise().reverse();

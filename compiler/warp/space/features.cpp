@@ -19,7 +19,8 @@ constexpr remap::NamedValues<AppearanceDistance, 4> kDistances = {
      {AppearanceDistance::kCubeRoot, "cube-root"},
      {AppearanceDistance::kLog, "log"}}};
 
-constexpr double kReferenceFloor = 0.03;  // reflectance per steradian that counts as dark
+constexpr double kReferenceFloor =
+    0.03;  // reflectance per steradian below which differences are not amplified
 
 Eigen::VectorXd weights_of(const std::vector<QuadratureDirection>& directions,
                            const Eigen::VectorXd& reference, AppearanceDistance distance) {
@@ -41,7 +42,7 @@ Eigen::VectorXd mean_of(const MaterialRef& material, const std::vector<Quadratur
   return mean_reflectance(*material.parametric(), lobe_table(material.parametric()->model, directions));
 }
 
-// Both tables in one space, whose singular vectors are few.
+// Compresses both tables to the leading singular vectors of a common space.
 FeaturePair separable_features(const WarpMaterial& source, const WarpMaterial& target,
                                AppearanceDistance distance) {
   const std::vector<QuadratureDirection> directions = half_vector_quadrature();
@@ -62,7 +63,7 @@ FeaturePair separable_features(const WarpMaterial& source, const WarpMaterial& t
     columns.middleCols(1 + 3 * nodes, nodes) = target_table.base;
   }
   columns = weights.asDiagonal() * columns;
-  // The left singular vectors are not needed, only what the columns are in them.
+  // Only the coordinates of the columns in the left singular vectors are needed, not the vectors themselves.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(columns.transpose() * columns);
   const Eigen::VectorXd strengths = solver.eigenvalues().tail(kFeatureBasis).cwiseMax(0.0).cwiseSqrt();
   const Eigen::MatrixXd features =
@@ -97,7 +98,6 @@ Eigen::VectorXd features_by(const SampledFeatures& features, const remap::WarpTe
 
 }  // namespace
 
-std::string_view distance_name(AppearanceDistance distance) { return remap::name_of(kDistances, distance); }
 std::optional<AppearanceDistance> distance_from_name(std::string_view name) {
   return remap::value_named(kDistances, name);
 }
@@ -118,7 +118,7 @@ FeaturePair appearance_features(const MaterialRef& source, const MaterialRef& ta
     throw remap::Error(
         remap::ErrorKind::kInput,
         source.name() + " and " + target.name() +
-            ": one holds scattering profiles and the other reflectance; expected the same of both");
+            ": one contains scattering profiles and the other reflectance (both must be the same)");
   const Eigen::VectorXd weights =
       source.is_profiles() ? Eigen::VectorXd() : direction_weights(source, target, distance);
   return sampled_features(source, target, distance, weights);

@@ -1,5 +1,5 @@
-// Appearance features: vectors whose Euclidean distance is that of two reflectances, whatever model or table
-// they come from.
+// Computes appearance features: vectors whose Euclidean distance is the appearance distance of two
+// reflectances, for any model or table.
 #pragma once
 
 #include <optional>
@@ -13,26 +13,26 @@
 
 namespace remapc {
 
-// `relative`, `plain`, `cube-root`, `log`; empty for other values.
-std::string_view distance_name(AppearanceDistance distance);
+// The names are `relative`, `plain`, `cube-root` and `log`; empty for another name.
 std::optional<AppearanceDistance> distance_from_name(std::string_view name);
 std::vector<std::string> distance_names();
 
-// Closed forms where both materials are parametric and the distance is quadratic; by samples elsewhere.
-// Throws kInput for profiles beside reflectances, kUsage for profiles by the relative distance, whose floor
-// is a reflectance.
+// Uses closed forms if both materials are parametric and the distance is quadratic, samples otherwise. Throws
+// kInput if only one of the materials has profiles, and kUsage for profiles with the relative distance, which
+// is defined for reflectances only.
 FeaturePair appearance_features(const MaterialRef& source, const MaterialRef& target,
                                 AppearanceDistance distance = AppearanceDistance::kRelative);
 
-// Of parameters: 3 kFeatureBasis numbers, channel by channel, or as many as the basis has columns.
+// The features of a parametric texel: 3 * kFeatureBasis numbers, channel by channel, or one number per column
+// of the sampled basis.
 Eigen::VectorXd features_of(const AppearanceFeatures& features, const remap::WarpTexel& texel);
 
-// Of texels that take part, a column each.
+// The features of `texels`, one column per texel. All of them must be finite or in the table.
 Eigen::MatrixXd feature_columns(const AppearanceFeatures& features, const MaterialRef& material,
                                 const std::vector<std::uint32_t>& texels);
 
-// The square roots of the weights of the directions of half_vector_quadrature() for `distance`: what features
-// are compressed from, and what they can be checked against. Of reflectances.
+// The square roots of the weights of the directions of half_vector_quadrature() for `distance` between
+// reflectances. Features are compressed from these weighted samples and can be tested against them.
 Eigen::VectorXd direction_weights(const MaterialRef& source, const MaterialRef& target,
                                   AppearanceDistance distance);
 

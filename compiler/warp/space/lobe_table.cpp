@@ -38,7 +38,6 @@ LobeTable lobe_table(const BrdfModel& model, const std::vector<QuadratureDirecti
   return table;
 }
 
-// The mean reflectance of a material over its texels and channels, at every direction.
 Eigen::VectorXd mean_reflectance(const WarpMaterial& material, const LobeTable& table) {
   const std::vector<std::uint32_t> texels = sample_texels(material, kReferenceTexels);
   Eigen::VectorXd slope = Eigen::VectorXd::Zero(table.slope.cols()), base = slope;

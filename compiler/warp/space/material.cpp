@@ -18,20 +18,18 @@ void require_strokes(const MaterialRef& material, const std::vector<StrokePair>&
     bool has_finite = false;
     for (const std::uint32_t texel : strokes[k].*side) {
       if (texel >= material.texel_count())
-        throw Error(ErrorKind::kInput, place + ": texel " + std::to_string(texel) + "; expected one of " +
-                                           std::to_string(material.texel_count()));
+        throw Error(ErrorKind::kInput, place + ": texel " + std::to_string(texel) + " is out of range (" +
+                                           std::to_string(material.texel_count()) + " texels)");
       has_finite = has_finite || material.takes_part(texel);
     }
-    if (!has_finite)
-      throw Error(ErrorKind::kInput,
-                  place + ": marks no texel with finite values; expected a painted region");
+    if (!has_finite) throw Error(ErrorKind::kInput, place + ": the stroke marks no texel with finite values");
   }
   for (std::size_t k = 0; k < strokes.size(); ++k) {
     const Overlap overlap = largest_overlap(strokes, side, k, material.texel_count());
     if (overlap.share == 1.0)
       throw Error(ErrorKind::kInput, material.name() + ", " + stroke_name(strokes, k) + ": lies within " +
                                          stroke_name(strokes, overlap.other) +
-                                         "; expected another region (erase one of the two there)");
+                                         " (erase one of the two there)");
   }
 }
 
@@ -88,7 +86,7 @@ std::vector<std::uint32_t> sample_texels(const MaterialRef& material, std::size_
     if (const std::size_t texel = i * count / wanted + i * 61 % step; material.takes_part(texel))
       texels.push_back(static_cast<std::uint32_t>(texel));
   if (!texels.empty()) return texels;
-  for (std::size_t i = 0; i < count && texels.size() < limit; ++i)  // they are rare
+  for (std::size_t i = 0; i < count && texels.size() < limit; ++i)  // used texels are rare
     if (material.takes_part(i)) texels.push_back(static_cast<std::uint32_t>(i));
   return texels;
 }
@@ -98,16 +96,12 @@ void require_valid(const MaterialRef& source, const MaterialRef& target,
   for (const MaterialRef* material : {&source, &target}) {
     const TabulatedMaterial* table = material->tabulated();
     if (table != nullptr && !(table->samples.array() >= 0.0f && table->samples.array().isFinite()).all())
-      throw Error(
-          ErrorKind::kInput,
-          material->name() + ": holds samples that are negative or not finite; expected reflectances");
+      throw Error(ErrorKind::kInput, material->name() + ": contains samples that are negative or not finite");
     if (sample_texels(*material, 1).empty())
-      throw Error(ErrorKind::kInput,
-                  material->name() + ": has no texel with finite values; expected a material");
+      throw Error(ErrorKind::kInput, material->name() + ": contains no texel with finite values");
   }
   if (strokes.empty())
-    throw Error(ErrorKind::kUsage,
-                source.name() + ": no stroke; expected at least one pair of marked regions");
+    throw Error(ErrorKind::kUsage, source.name() + ": at least one pair of strokes is required");
   require_strokes(source, strokes, &StrokePair::source);
   require_strokes(target, strokes, &StrokePair::target);
 }

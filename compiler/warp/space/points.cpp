@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLeastTexels = 4;
 constexpr int kSearchSteps = 8;
-constexpr double kCoarsest = 20.0, kFinest = 120.0;  // bins along the largest extent
+constexpr double kCoarsest = 20.0, kFinest = 120.0;  // number of bins along the largest extent
 
 double largest_extent(const Points& positions) {
   double extent = 0.0;
@@ -54,7 +54,7 @@ int nearest_point(const Points& points, const Eigen::RowVectorXd& position) {
 Extent extent_of(const Points& positions, Eigen::Index axis) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-    low = std::min(low, positions(i, axis));  // NaN leaves both
+    low = std::min(low, positions(i, axis));  // NaN changes neither
     high = std::max(high, positions(i, axis));
   }
   return {low, high};
@@ -104,7 +104,7 @@ Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<st
   result.spacing = search_spacing(positions, wanted);
   const BinGrid grid(positions, result.spacing);
   const std::vector<int> counts = count_texels(positions, grid);
-  // Few texels altogether: every occupied bin counts.
+  // With few texels in total, every occupied bin counts.
   const bool is_sparse = *std::max_element(counts.begin(), counts.end()) < 4 * kLeastTexels;
   const int least = is_sparse ? 1 : kLeastTexels;
 

@@ -1,5 +1,5 @@
-// Occupancy: the few hundred points that stand for all texels of a material, so that a rare appearance counts
-// as much as a frequent one (An et al. 2011, section 3.2).
+// Occupancy: represents all texels of a material by a few hundred points, so that a rare appearance counts as
+// much as a frequent one (An et al. 2011, section 3.2).
 #pragma once
 
 #include <cstdint>
@@ -9,37 +9,37 @@
 
 namespace remapc {
 
-// The least and the largest coordinate along an axis; NaN takes no part.
+// The least and the largest coordinate along an axis, ignoring NaN.
 struct Extent {
   double low = 0.0, high = 0.0;
 };
 Extent extent_of(const Points& positions, Eigen::Index axis);
 
-// The mean position of these texels; those that are not finite take no part. None left: the origin.
+// The mean position of `texels`, ignoring those that are not finite; the origin if there are none.
 Eigen::RowVectorXd centre_of(const Points& positions, const std::vector<std::uint32_t>& texels);
 
 struct Occupancy {
-  Points points;                          // centroids of the bins that hold four texels or more
-  Eigen::VectorXd texel_count;            // of each
-  std::vector<std::vector<int>> strokes;  // the points with a texel of each stroke; at least one
-  double spacing = 0.0;                   // edge of a bin
+  Points points;                          // centroids of the bins with four texels or more
+  Eigen::VectorXd texel_count;            // of each point
+  std::vector<std::vector<int>> strokes;  // for each stroke, the points with one of its texels; at least one
+  double spacing = 0.0;                   // width of a bin
 };
 
 inline constexpr double kWantedPoints = 350.0;
 
-// Bins whose spacing is searched so that about `wanted` are occupied, at least four texels for each: what
-// lies between 300 and 1200 points changes results by a point of error. `positions` of texels (NaN takes no
-// part); `strokes` hold indices of texels. A stroke all of whose texels lie in bins that are too sparse gets
-// the point nearest to its centre.
+// Searches the width of the bins so that about `wanted` of them contain at least four texels. Any number from
+// 300 to 1200 points gives results within one percentage point of error. `positions`: of texels, NaN is
+// ignored. `strokes`: indices of texels. A stroke whose texels are all in sparse bins gets the point nearest
+// to its centre.
 Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes,
                        double wanted = kWantedPoints);
 
-// The bin of every position in the grid of `occupancy_of` (-1: none that counts), for coverage.
+// The grid of `occupancy_of`: finds the bin of a position.
 class BinGrid {
  public:
   BinGrid(const Points& positions, double spacing);
   std::size_t size() const noexcept { return size_; }
-  // NaN is in no bin: -1.
+  // The index of the bin, or -1 for NaN.
   long bin_of(const double* position) const noexcept;
   long bin_of(const Points& positions, Eigen::Index i) const noexcept;
 

@@ -16,12 +16,12 @@ using remap::Error;
 using remap::ErrorKind;
 
 constexpr std::size_t kBasisTexels = 256;  // of each material
-constexpr double kLeastShare = 1e-9;       // of the largest eigenvalue: weaker directions are noise
+constexpr double kLeastShare = 1e-9;       // relative to the largest eigenvalue; weaker directions are noise
 constexpr Eigen::Index kLargestBasis = 64;
 constexpr double kLogFloor = 0.05;
 constexpr double kLargestF0 = 0.999;
 
-// The radii of both, growing, each once.
+// The radii of both materials in increasing order, without duplicates.
 std::vector<double> merged_radii(const TabulatedMaterial& a, const TabulatedMaterial& b) {
   std::vector<double> radii = a.radii;
   radii.insert(radii.end(), b.radii.begin(), b.radii.end());
@@ -41,8 +41,7 @@ Eigen::VectorXd radial_measure(const std::vector<double>& radii) {
   return measure;
 }
 
-// One channel of a profile at a radius: straight lines between its samples, level up to the first, 0 beyond
-// the last.
+// One channel of a profile at a radius: linear between samples, constant up to the first, 0 beyond the last.
 double profile_at(const std::vector<double>& radii, const float* samples, double radius) {
   const auto above = std::lower_bound(radii.begin(), radii.end(), radius);
   if (above == radii.end()) return 0.0;
@@ -53,7 +52,7 @@ double profile_at(const std::vector<double>& radii, const float* samples, double
   return value(i - 1) + share * (value(i) - value(i - 1));
 }
 
-// All but the basis.
+// Builds the features without the basis.
 SampledFeatures frame_of(const MaterialRef& source, const MaterialRef& target, AppearanceDistance distance,
                          const Eigen::VectorXd& weights) {
   SampledFeatures frame;
@@ -62,8 +61,8 @@ SampledFeatures frame_of(const MaterialRef& source, const MaterialRef& target, A
   if (!source.is_profiles()) return frame;
   if (distance == AppearanceDistance::kRelative)
     throw Error(ErrorKind::kUsage,
-                "distance: relative has no meaning for scattering profiles; expected plain (An et al. 2011, "
-                "section 4), cube-root or log");
+                "distance: 'relative' is not defined for scattering profiles (choose plain, as An et al. "
+                "2011, section 4, cube-root or log)");
   frame.radii = merged_radii(*source.tabulated(), *target.tabulated());
   frame.weights = radial_measure(frame.radii).cwiseSqrt();
   return frame;
@@ -75,7 +74,7 @@ double compared(AppearanceDistance distance, double value) {
   return value;
 }
 
-// Samples as they are compared: Euclidean distance is the appearance distance.
+// Weights samples so that their Euclidean distance is the appearance distance.
 Eigen::VectorXd weighted(const SampledFeatures& features, Eigen::VectorXd samples) {
   const Eigen::Index rows = features.weights.size();
   for (Eigen::Index i = 0; i < samples.size(); ++i)
@@ -90,13 +89,13 @@ Eigen::VectorXd samples_at(const SampledFeatures& features, const MaterialRef& m
   return samples_of(features, *material.tabulated(), material.tabulated()->entries[texel]);
 }
 
-// Exact Fresnel reflectance of a dielectric of this F0; of a mirror where F0 is almost 1.
+// The exact Fresnel reflectance of a dielectric with this F0, or of a mirror if F0 is almost 1.
 Eigen::VectorXd dielectric_reflectance(const Eigen::VectorXd& cosines, double f0) {
   const double ior = ior_of_reflectance(std::min(f0, kLargestF0));
   return cosines.unaryExpr([&](double cosine) { return fresnel_dielectric(cosine, ior).mean(); });
 }
 
-// What parameters are sampled by.
+// Adds the lobes by which parametric texels are sampled.
 void add_lobes(const WarpMaterial& material, SampledFeatures* features) {
   const std::vector<QuadratureDirection> directions = half_vector_quadrature();
   features->lobes = lobe_table(material.model, directions);
@@ -106,7 +105,8 @@ void add_lobes(const WarpMaterial& material, SampledFeatures* features) {
     features->cosines[static_cast<Eigen::Index>(i)] = directions[i].geometry.cos_light_half;
 }
 
-// An orthonormal basis of what some texels of both span; the principal directions about the origin.
+// An orthonormal basis of the space that some texels of both materials span: the principal directions about
+// the origin.
 Eigen::MatrixXd basis_of(const SampledFeatures& source, const MaterialRef& source_material,
                          const SampledFeatures& target, const MaterialRef& target_material) {
   const auto from = sample_texels(source_material, kBasisTexels),
@@ -118,7 +118,7 @@ Eigen::MatrixXd basis_of(const SampledFeatures& source, const MaterialRef& sourc
   for (const std::uint32_t texel : to)
     columns.col(next++) = weighted(target, samples_at(target, target_material, texel));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(columns.transpose() * columns);
-  const Eigen::VectorXd& values = solver.eigenvalues();  // growing
+  const Eigen::VectorXd& values = solver.eigenvalues();  // in increasing order
   const double least = kLeastShare * values[values.size() - 1];
   const Eigen::Index rank =
       std::clamp<Eigen::Index>((values.array() > least).count(), 1, std::min(kLargestBasis, values.size()));

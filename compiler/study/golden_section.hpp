@@ -1,0 +1,28 @@
+// A one-dimensional search that the least errors of the studies share.
+#pragma once
+
+#include <utility>
+
+namespace remapc {
+
+// Golden section search in [low, high] for the minimum of `f`, which must have only one there. Each of
+// `steps` evaluates `f` once and reduces the interval to 0.618 times its length. Returns the best point and
+// its value.
+template <typename Function>
+std::pair<double, double> golden_section(double low, double high, int steps, const Function& f) {
+  constexpr double kGolden = 0.6180339887498949;
+  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+  double at_a = f(a), at_b = f(b);
+  for (int step = 0; step < steps; ++step) {
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a;
+      a = high - kGolden * (high - low), at_a = f(a);
+    } else {
+      low = a, a = b, at_a = at_b;
+      b = low + kGolden * (high - low), at_b = f(b);
+    }
+  }
+  return at_a < at_b ? std::pair(a, at_a) : std::pair(b, at_b);
+}
+
+}  // namespace remapc

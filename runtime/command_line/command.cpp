@@ -1,0 +1,147 @@
+#include "command_line/command.hpp"
+
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+namespace remap {
+
+Option* Option::required() {
+  option_->required();
+  return this;
+}
+
+Option* Option::capture_default_str() {
+  option_->capture_default_str();
+  return this;
+}
+
+Option* Option::group(const std::string& name) {
+  option_->group(name);
+  return this;
+}
+
+Option* Option::delimiter(char character) {
+  option_->delimiter(character);
+  return this;
+}
+
+Option* Option::allow_extra_args(bool allowed) {
+  option_->allow_extra_args(allowed);
+  return this;
+}
+
+Option* Option::expected(int min, int max) {
+  option_->expected(min, max);
+  return this;
+}
+
+Option* Option::type_size(int count) {
+  option_->type_size(count);
+  return this;
+}
+
+Option* Option::type_name(const std::string& name) {
+  option_->type_name(name);
+  return this;
+}
+
+Option* Option::excludes(Option* other) {
+  option_->excludes(other->option_);
+  return this;
+}
+
+Option* Option::environment(const std::string& name) {
+  option_->envname(name);
+  return this;
+}
+
+Option* Option::one_of(const std::vector<std::string>& words) {
+  option_->check(CLI::IsMember(words));
+  return this;
+}
+
+Option* Option::positive() {
+  option_->check(CLI::PositiveNumber);
+  return this;
+}
+
+Option* Option::range(int min, int max) {
+  option_->check(CLI::Range(min, max));
+  return this;
+}
+
+Option* Option::range(std::int64_t min, std::int64_t max) {
+  option_->check(CLI::Range(min, max));
+  return this;
+}
+
+Option* Option::range(std::size_t min, std::size_t max) {
+  option_->check(CLI::Range(min, max));
+  return this;
+}
+
+Command::Command(const std::string& description, const std::string& name)
+    : app_(std::make_shared<CLI::App>(description, name)) {}
+
+Command::Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
+
+Command* Command::add_subcommand(const std::string& name, const std::string& description) {
+  // The CLI::App owns its subcommand: this pointer shares the ownership of the parent.
+  std::shared_ptr<CLI::App> subcommand(app_, app_->add_subcommand(name, description));
+  commands_.push_back(std::unique_ptr<Command>(new Command(std::move(subcommand))));
+  return commands_.back().get();
+}
+
+Option* Command::keep(CLI::Option* option) {
+  options_.push_back(std::make_unique<Option>(option));
+  return options_.back().get();
+}
+
+template <OptionValue T>
+Option* Command::add_option(const std::string& names, T& value, const std::string& description) {
+  return keep(app_->add_option(names, value, description));
+}
+
+template Option* Command::add_option(const std::string&, std::string&, const std::string&);
+template Option* Command::add_option(const std::string&, std::filesystem::path&, const std::string&);
+template Option* Command::add_option(const std::string&, int&, const std::string&);
+template Option* Command::add_option(const std::string&, unsigned&, const std::string&);
+template Option* Command::add_option(const std::string&, std::int64_t&, const std::string&);
+template Option* Command::add_option(const std::string&, std::size_t&, const std::string&);
+template Option* Command::add_option(const std::string&, double&, const std::string&);
+template Option* Command::add_option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option* Command::add_option(const std::string&, std::vector<std::size_t>&, const std::string&);
+template Option* Command::add_option(const std::string&, std::vector<double>&, const std::string&);
+template Option* Command::add_option(const std::string&, std::vector<std::filesystem::path>&,
+                                     const std::string&);
+
+Option* Command::add_flag(const std::string& names, bool& value, const std::string& description) {
+  return keep(app_->add_flag(names, value, description));
+}
+
+Option* Command::add_action(const std::string& names, std::function<void(const std::string&)> take,
+                            const std::string& description) {
+  CLI::Option* option = app_->add_option_function<std::string>(names, take, description);
+  return keep(option->trigger_on_parse());
+}
+
+void Command::group(const std::string& name) { app_->group(name); }
+
+void Command::option_group(const std::string& name) { app_->option_defaults()->group(name); }
+
+Option* Command::option(const std::string& name) { return keep(app_->get_option(name)); }
+
+void Command::set_version_flag(const std::string& names, const std::string& version) {
+  app_->set_version_flag(names, version);
+}
+
+void Command::require_subcommand(int count) { app_->require_subcommand(count); }
+
+void Command::footer(const std::string& text) { app_->footer(text); }
+
+void Command::callback(std::function<void()> work) { app_->callback(std::move(work)); }
+
+std::size_t Command::count(const std::string& option) const { return app_->count(option); }
+
+}  // namespace remap

@@ -1,0 +1,101 @@
+// The commands and options of a program. Only this folder includes CLI11, because every object that includes
+// it takes 5 to 10 s longer to compile.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace remap {
+
+// The heading of options that only `--help-all` shows; other headings that begin with "Rare" are as rare.
+inline constexpr const char* kRareOptions = "Rare options";
+
+// What an option may hold.
+template <typename T>
+concept OptionValue = std::same_as<T, std::string> || std::same_as<T, std::filesystem::path> ||
+    std::same_as<T, int> || std::same_as<T, unsigned> || std::same_as<T, std::int64_t> ||
+    std::same_as<T, std::size_t> || std::same_as<T, double> || std::same_as<T, std::vector<std::string>> ||
+    std::same_as<T, std::vector<std::size_t>> || std::same_as<T, std::vector<double>> ||
+    std::same_as<T, std::vector<std::filesystem::path>>;
+
+// One option of a command. All functions return the option, so that calls can be chained.
+class Option {
+ public:
+  explicit Option(CLI::Option* option) : option_(option) {}
+
+  Option* required();
+  // Help shows the value that the variable has now.
+  Option* capture_default_str();
+  Option* group(const std::string& name);
+  // Lists: the character between two items of one word.
+  Option* delimiter(char character);
+  // Lists: whether words that follow the first belong to it; without, the option is given again for each.
+  Option* allow_extra_args(bool allowed);
+  Option* expected(int min, int max);
+  // Lists: items come in groups of this many words, which help calls `name`.
+  Option* type_size(int count);
+  Option* type_name(const std::string& name);
+  Option* excludes(Option* other);
+  // The environment variable that gives the value if the option is not given.
+  Option* environment(const std::string& name);
+  Option* one_of(const std::vector<std::string>& words);
+  Option* positive();
+  Option* range(int min, int max);
+  Option* range(std::int64_t min, std::int64_t max);
+  Option* range(std::size_t min, std::size_t max);
+
+ private:
+  CLI::Option* option_;
+};
+
+// A program, or one of its commands, which the program owns.
+class Command {
+ public:
+  Command(const std::string& description, const std::string& name);
+
+  Command* add_subcommand(const std::string& name, const std::string& description = "");
+  // `names` as "-o,--output", or "fits" for words without an option. `value` must live until the command has
+  // run.
+  template <OptionValue T>
+  Option* add_option(const std::string& names, T& value, const std::string& description = "");
+  Option* add_flag(const std::string& names, bool& value, const std::string& description = "");
+  // `take` gets the value as soon as the option is parsed.
+  Option* add_action(const std::string& names, std::function<void(const std::string&)> take,
+                     const std::string& description = "");
+  // The heading of the help under which the program lists this command.
+  void group(const std::string& name);
+  // The heading under which the help of this command lists the options that are added from now on
+  // (help_text.hpp).
+  void option_group(const std::string& name);
+  // An option that was added before.
+  Option* option(const std::string& name);
+  void set_version_flag(const std::string& names, const std::string& version);
+  void require_subcommand(int count);
+  void footer(const std::string& text);
+  void callback(std::function<void()> work);
+  // How often the option was given.
+  std::size_t count(const std::string& option) const;
+
+  CLI::App& app() { return *app_; }
+
+ private:
+  explicit Command(std::shared_ptr<CLI::App> app);
+  Option* keep(CLI::Option* option);
+
+  std::shared_ptr<CLI::App> app_;
+  std::vector<std::unique_ptr<Command>> commands_;
+  std::vector<std::unique_ptr<Option>> options_;
+};
+
+}  // namespace remap

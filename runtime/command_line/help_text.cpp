@@ -1,0 +1,244 @@
+#include "command_line/help_text.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace remap {
+namespace {
+
+constexpr std::size_t kWidth = 80, kDescriptionColumn = 26;
+constexpr const char* kHelpGroup = "Help";
+
+bool is_rare(const std::string& group) { return group.starts_with("Rare"); }
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+// Removes `first` and `last` from the ends of `text` if both are there.
+std::string without_quotes(const std::string& text, char first, char last) {
+  const bool quoted = text.size() >= 2 && text.front() == first && text.back() == last;
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+// One line, broken at blanks.
+std::string wrapped_line(std::string_view line, std::size_t indent) {
+  if (line.starts_with(' ')) return std::string(line);
+  std::string result;
+  std::size_t column = indent;
+  while (!line.empty()) {
+    const std::string_view word = line.substr(0, line.find(' '));
+    line.remove_prefix(std::min(word.size() + 1, line.size()));
+    if (column > indent && column + 1 + word.size() > kWidth) {
+      result += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (column > indent) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+  }
+  return result;
+}
+
+// The two columns of a list: `  --name VALUE  Description`.
+std::string entry(const std::string& name, const std::string& description) {
+  std::string line = "  " + name;
+  if (description.empty()) return line + "\n";
+  if (line.size() + 2 > kDescriptionColumn)
+    line += "\n" + std::string(kDescriptionColumn, ' ');
+  else
+    line.resize(kDescriptionColumn, ' ');
+  return line + wrapped(description, kDescriptionColumn) + "\n";
+}
+
+// The type of the value, and the descriptions of its checks, as CLI11 joins them: `TYPE:CHECK`.
+std::pair<std::string, std::string> type_and_checks(const CLI::Option& option) {
+  const std::string text = option.get_type_name();
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return {text, ""};
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+std::string value_name(const CLI::Option& option) {
+  if (option.get_type_size() == 0) return "";
+  const std::string type = type_and_checks(option).first;
+  if (type == "INT" || type == "UINT") return " N";
+  if (type == "FLOAT") return " NUMBER";
+  if (type == "TEXT" && !allowed_values(option).empty()) return " NAME";
+  return type.empty() ? "" : " " + type;
+}
+
+std::string default_text(const CLI::Option& option) {
+  return replaced(without_quotes(without_quotes(option.get_default_str(), '[', ']'), '"', '"'), "\"", "");
+}
+
+std::string option_description(const CLI::Option& option) {
+  std::vector<std::string> remarks;
+  if (const std::string allowed = allowed_values(option); !allowed.empty())
+    remarks.push_back(type_and_checks(option).second.starts_with("{") ? "one of " + allowed : allowed);
+  if (option.get_required()) remarks.push_back("required");
+  for (const CLI::Option* other : option.get_excludes()) remarks.push_back("not with " + other->get_name());
+  if (const std::string value = default_text(option); !value.empty()) remarks.push_back("default: " + value);
+  std::string text = option.get_description();
+  for (std::size_t i = 0; i < remarks.size(); ++i) text += (i == 0 ? " (" : "; ") + remarks[i];
+  return remarks.empty() ? text : text + ")";
+}
+
+class HelpFormatter : public CLI::FormatterBase {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    const bool all = mode == CLI::AppFormatMode::All;
+    std::string text = wrapped(app->get_description(), 0) + "\n\n" + usage(*app, name) + "\n";
+    text += arguments(*app) + commands(*app);
+    std::size_t hidden = 0;
+    for (const std::string& group : groups(*app)) {
+      const auto options = options_of(*app, group);
+      if (is_rare(group) && !all)
+        hidden += options.size();
+      else
+        text += "\n" + group + ":\n" + entries(options);
+    }
+    if (const std::string footer = app->get_footer(); !footer.empty())
+      text += "\n" + wrapped(footer, 0) + "\n";
+    if (hidden != 0)
+      text += "\nSee " + name + " --help-all for " + std::to_string(hidden) + " more option" +
+              (hidden == 1 ? "" : "s") + ".\n";
+    return text;
+  }
+
+ private:
+  using Options = std::vector<const CLI::Option*>;
+
+  static std::string usage(const CLI::App& app, const std::string& name) {
+    std::string text = "Usage: " + name;
+    if (!app.get_subcommands([](const CLI::App*) { return true; }).empty())
+      return text + " COMMAND [options]";
+    for (const CLI::Option* option : positionals(app)) {
+      const std::string word =
+          option->get_name(true, false) +
+          (option->get_expected_max() >= CLI::detail::expected_max_vector_size ? "..." : "");
+      text += option->get_required() ? " " + word : " [" + word + "]";
+    }
+    return text + " [options]";
+  }
+
+  static Options positionals(const CLI::App& app) {
+    return app.get_options(
+        [](const CLI::Option* option) { return option->get_positional() && !option->get_group().empty(); });
+  }
+
+  static std::string arguments(const CLI::App& app) {
+    const Options options = positionals(app);
+    std::string text = options.empty() ? "" : "\nArguments:\n";
+    for (const CLI::Option* option : options)
+      text += entry(option->get_name(true, false), option_description(*option));
+    return text;
+  }
+
+  // The commands of a program, by group.
+  static std::string commands(const CLI::App& app) {
+    std::vector<std::string> names;
+    const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+    for (const CLI::App* command : all)
+      if (std::find(names.begin(), names.end(), command->get_group()) == names.end())
+        names.push_back(command->get_group());
+    std::string text;
+    for (const std::string& name : names) {
+      text += "\n" + (name == "Subcommands" ? std::string("Commands") : name) + ":\n";
+      for (const CLI::App* command : all)
+        if (command->get_group() == name) text += entry(command->get_name(), command->get_description());
+    }
+    return text;
+  }
+
+  // In the order of their first options; help next to last, rare groups last.
+  static std::vector<std::string> groups(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+      if (const std::string& group = option->get_group();
+          option->nonpositional() && !group.empty() &&
+          std::find(names.begin(), names.end(), group) == names.end())
+        names.push_back(group);
+    std::stable_sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+      const auto rank = [](const std::string& name) {
+        return is_rare(name) ? 2 : name == kHelpGroup ? 1 : 0;
+      };
+      return rank(a) < rank(b);
+    });
+    return names;
+  }
+
+  static Options options_of(const CLI::App& app, const std::string& group) {
+    return app.get_options([&group](const CLI::Option* option) {
+      return option->nonpositional() && option->get_group() == group;
+    });
+  }
+
+  static std::string entries(const Options& options) {
+    std::string text;
+    for (const CLI::Option* option : options)
+      text += entry(replaced(option->get_name(false, true), ",", ", ") + value_name(*option),
+                    option_description(*option));
+    return text;
+  }
+};
+
+bool has_rare_options(const CLI::App& app) {
+  const auto options = app.get_options();
+  return std::any_of(options.begin(), options.end(),
+                     [](const CLI::Option* option) { return is_rare(option->get_group()); });
+}
+
+void lay_out(CLI::App& app, const std::shared_ptr<HelpFormatter>& formatter) {
+  app.formatter(formatter);
+  app.set_help_flag("-h,--help", "Show this help")->group(kHelpGroup);
+  // Every command takes the flag; only those with rare options show it.
+  app.set_help_all_flag("--help-all", "Show this help with rare options")
+      ->group(has_rare_options(app) ? kHelpGroup : "");
+  if (CLI::Option* version = app.get_option_no_throw("--version"))
+    version->group(kHelpGroup)->description("Show the version");
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    lay_out(*command, formatter);
+}
+
+}  // namespace
+
+void lay_out_help(CLI::App& app) { lay_out(app, std::make_shared<HelpFormatter>()); }
+
+std::string command_words(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent == nullptr ? command.get_name() : command_words(*parent) + " " + command.get_name();
+}
+
+std::string allowed_values(const CLI::Option& option) {
+  const std::string checks = type_and_checks(option).second;
+  if (checks.starts_with("{")) return replaced(without_quotes(checks, '{', '}'), ",", ", ");
+  if (checks == "POSITIVE") return "above 0";
+  if (checks == "NONNEGATIVE") return "0 or more";
+  const std::size_t open = checks.find(" in ["), middle = checks.find(" - ");
+  if (open == std::string::npos || middle == std::string::npos) return "";
+  const std::string least = checks.substr(open + 5, middle - open - 5),
+                    most = checks.substr(middle + 3, checks.size() - middle - 4);
+  constexpr std::size_t kDigitsOfLimits = 10;  // more are the limits of a type, which say nothing
+  return most.size() >= kDigitsOfLimits ? least + " or more" : least + " to " + most;
+}
+
+std::string wrapped(std::string_view text, std::size_t indent) {
+  std::string result;
+  while (true) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    result += wrapped_line(text.substr(0, end), indent);
+    if (end == text.size()) return result;
+    text.remove_prefix(end + 1);
+    result += text.empty() || text.front() == '\n' ? "\n" : "\n" + std::string(indent, ' ');
+  }
+}
+
+}  // namespace remap

@@ -1,0 +1,46 @@
+// The layout of `--help` for every program of the project.
+//
+// run_app() lays out the help of an app and of its commands; a command only says in which group its options
+// are. All options that are added after
+//
+//   command->option_group("Output");
+//
+// stand under the heading "Output:"; `->group("Output")` behind one add_option() places that option alone.
+// Groups appear in the order in which their first options were added, so add common options first. A group
+// whose name begins with "Rare" (kRareOptions, or "Rare: real renderers") is left out of `--help` and shown
+// by `--help-all` only. A command gets the heading it is listed under in the program's help by
+// `command->group("Measure")`.
+//
+// The layout derives from CLI11's data, so do not repeat it in descriptions: the default
+// (capture_default_str()), "required", the choices of CLI::IsMember, the bounds of CLI::Range and
+// CLI::PositiveNumber, and the options of excludes(). Name the value by `->type_name("FILE")`; numbers are
+// called N or NUMBER by themselves. In a description or a footer, a line that begins with a space (an
+// example, a table) stays as it is and must fit into 80 columns; other lines are wrapped.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace remap {
+
+// Gives `app` and all its commands the flags --help and --help-all and this layout. Call it after all
+// commands and options have been added; run_app() does so.
+void lay_out_help(CLI::App& app);
+
+// The words that lead to a command: `texremap convert`.
+std::string command_words(const CLI::App& command);
+
+// The allowed values of an option as the help prints them: `auto, svr, mlp`, `1 to 4096`, `above 0`; empty
+// if there is no limit.
+std::string allowed_values(const CLI::Option& option);
+
+// Breaks lines of more than 80 columns at blanks. Lines after the first are indented by `indent` columns,
+// where the first is assumed to begin, too. Lines that begin with a blank are not broken.
+std::string wrapped(std::string_view text, std::size_t indent);
+
+}  // namespace remap

@@ -1,0 +1,113 @@
+#include "convert/shipped_converters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <variant>
+
+#include "convert/shipped_text.hpp"
+#include "fit_file/fit_json.hpp"
+#include "lower/lower.hpp"
+#include "remap/error.hpp"
+#include "system/files.hpp"
+
+namespace remap {
+namespace {
+
+namespace fs = std::filesystem;
+using ConverterVector = std::vector<std::unique_ptr<Converter>>;
+
+// Empty: those of the library.
+fs::path& chosen_path() {
+  static fs::path path;
+  return path;
+}
+
+ConverterData data_of(const Fit& fit) { return converter_data(fit, lower(fit.mapping, fit.domain)); }
+
+// Fits of whole materials and warps have files of their own on the command line.
+void add_fit(const fs::path& path, std::vector<ConverterData>* converters) {
+  const AnyFit fit = load_any_fit(path);
+  if (const auto* of_width_and_specular = std::get_if<Fit>(&fit))
+    converters->push_back(data_of(*of_width_and_specular));
+}
+
+// Files of a folder that are no fits of a folder of remapc: its manifest and its lock.
+bool may_be_fit(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return path.extension() == ".json" && name != "manifest.json" && name != "lock.json";
+}
+
+std::vector<ConverterData> read_converters(const fs::path& path) {
+  std::vector<ConverterData> converters;
+  if (fs::is_directory(path)) {
+    for (const auto& entry : fs::directory_iterator(path))
+      if (may_be_fit(entry.path())) add_fit(entry.path(), &converters);
+    return converters;
+  }
+  const std::string text = read_file(path);
+  if (text.find("\"remap-converters\"") < 64) return converters_from_json(text, path.string());
+  add_fit(path, &converters);
+  return converters;
+}
+
+std::vector<ConverterData> load_data() {
+  const fs::path& path = chosen_path();
+  std::vector<ConverterData> data =
+      path.empty() ? converters_from_json(shipped_text(), "converters.json") : read_converters(path);
+  if (data.empty())
+    throw Error(ErrorKind::kInput, path.string() +
+                                       ": holds no converter (name a file of `remapc emit --all`, a fit or "
+                                       "a folder of fits)");
+  std::sort(data.begin(), data.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return data;
+}
+
+ConverterVector make_converters(InstructionSet set) {
+  ConverterVector made;
+  for (const ConverterData& data : shipped_data()) made.push_back(make_converter(data, set));
+  return made;
+}
+
+}  // namespace
+
+void use_converters(const fs::path& path) {
+  if (!fs::exists(path))
+    throw Error(ErrorKind::kInput, path.string() +
+                                       ": does not exist (name a file of converters, a fit or a folder "
+                                       "of fits)");
+  chosen_path() = path;
+}
+
+const std::vector<ConverterData>& shipped_data() {
+  static const std::vector<ConverterData> data = load_data();
+  return data;
+}
+
+const ConverterVector& shipped_converters(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::kBaseline: {
+      static const ConverterVector baseline = make_converters(InstructionSet::kBaseline);
+      return baseline;
+    }
+    case InstructionSet::kAvx2: {
+      static const ConverterVector avx2 = make_converters(InstructionSet::kAvx2);
+      return avx2;
+    }
+    case InstructionSet::kAvx512:
+      break;
+  }
+  static const ConverterVector avx512 = make_converters(InstructionSet::kAvx512);
+  return avx512;
+}
+
+const Converter& find_converter(const std::string& source_model, const std::string& target_model,
+                                InstructionSet set) {
+  for (const auto& converter : shipped_converters(set)) {
+    const ConverterInfo& info = converter->info();
+    if (info.source.model == source_model && info.target.model == target_model) return *converter;
+  }
+  throw Error(ErrorKind::kUsage, source_model + " to " + target_model +
+                                     ": there is no converter; expected models that one converter joins");
+}
+
+}  // namespace remap

@@ -1,0 +1,168 @@
+// The file of converters: one number has one text, and what a review compares stands on a line of its own.
+#include <algorithm>
+
+#include "converter_data/converter_data.hpp"
+#include "fit_file/fit_fields.hpp"
+#include "remap/error.hpp"
+#include "text/json_field.hpp"
+#include "text/number_text.hpp"
+
+namespace remap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t kFormatVersion = 1;
+constexpr std::int64_t kMostCells = 4096;
+constexpr std::int64_t kMostDegree = 64;
+
+// The shortest decimal that reads back as this float.
+double decimal(float value) { return decimal_value(value); }
+
+Json side_json(const ModelSide& side) {
+  return {{"model", side.model},
+          {"roughness", std::string(convention_name(side.roughness))},
+          {"specular", side.specular}};
+}
+
+Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+// The coefficients of a cell and a power a line.
+std::string polynomial_text(const PiecewisePolynomial& polynomial) {
+  Json head = {{"pole", decimal(polynomial.pole)},    {"scale", decimal(polynomial.scale)},
+               {"start", decimal(polynomial.start)},  {"middle", decimal(polynomial.middle)},
+               {"cell_count", polynomial.cell_count}, {"degrees", polynomial.degrees}};
+  std::string text = head.dump();
+  text.back() = ',';
+  text += "\n        \"coefficients\": [";
+  const char* separator = "\n";
+  const float* next = polynomial.coefficients.data();
+  for (int cell = 0; cell < polynomial.cell_count; ++cell)
+    for (const int degree : polynomial.degrees) {
+      Json line = Json::array();
+      for (int k = 0; k <= degree; ++k) line.push_back(decimal(*next++));
+      text += separator + std::string(10, ' ') + line.dump();
+      separator = ",\n";
+    }
+  return text + "]}";
+}
+
+std::string golden_text(const std::vector<GoldenTexel>& golden) {
+  std::string text = "[";
+  const char* separator = "\n";
+  for (const GoldenTexel& g : golden) {
+    const Json line = {decimal(g.width),        decimal(g.specular),     decimal(g.width_out),
+                       decimal(g.specular_out), decimal(g.width_within), decimal(g.specular_within)};
+    text += separator + std::string(8, ' ') + line.dump();
+    separator = ",\n";
+  }
+  return text + "]";
+}
+
+std::string converter_text(const ConverterData& data) {
+  const Json domain = {{"roughness", {data.roughness.min, data.roughness.max}},
+                       {"specular", {data.specular.min, data.specular.max}}};
+  const Json errors = {{"roughness", optional_json(data.roughness_rms_error)},
+                       {"specular", optional_json(data.specular_rms_error)},
+                       {"image", optional_json(data.image_rms_error)}};
+  std::string text = "    {\"id\": " + Json(data.id).dump();
+  const auto add = [&text](const char* name, const std::string& value) {
+    text += ",\n      \"" + std::string(name) + "\": " + value;
+  };
+  add("source", side_json(data.source).dump());
+  add("target", side_json(data.target).dump());
+  add("domain", domain.dump());
+  add("rms_error", errors.dump());
+  add("alpha", polynomial_text(data.alpha_polynomial));
+  add("specular", polynomial_text(data.specular_polynomial));
+  add("golden", golden_text(data.golden));
+  return text + "}";
+}
+
+float read_float(const Field& field) {
+  const float value = static_cast<float>(field.number());
+  field.require(std::isfinite(value), "a number that a float can hold");
+  return value;
+}
+
+int read_whole(const Field& field, std::int64_t least, std::int64_t most) {
+  const Json& json = field.json();
+  field.require(
+      json.is_number_integer() && json.get<std::int64_t>() >= least && json.get<std::int64_t>() <= most,
+      "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<int>(json.get<std::int64_t>());
+}
+
+PiecewisePolynomial read_polynomial(const Field& field) {
+  PiecewisePolynomial polynomial;
+  polynomial.pole = read_float(field["pole"]);
+  polynomial.scale = read_float(field["scale"]);
+  polynomial.start = read_float(field["start"]);
+  polynomial.middle = read_float(field["middle"]);
+  polynomial.cell_count = read_whole(field["cell_count"], 1, kMostCells);
+  field["scale"].require(polynomial.cell_count > 1 || polynomial.scale == 1.0f, "1 for one cell");
+  const Field degrees = field["degrees"];
+  polynomial.degrees = degrees.list(1, [](const Field& entry) { return read_whole(entry, -1, kMostDegree); });
+  degrees.require(polynomial.degrees.size() <= kMostPowers && polynomial.degrees.back() >= 0,
+                  "up to " + std::to_string(kMostPowers) + " degrees, the last of them from 0");
+  const std::size_t powers = polynomial.degrees.size();
+  const Field lines = field["coefficients"];
+  const std::size_t line_count = powers * static_cast<std::size_t>(polynomial.cell_count);
+  for (std::size_t line = 0; line < line_count; ++line) {
+    const auto count = static_cast<std::size_t>(polynomial.degrees[line % powers] + 1);
+    const Field numbers = lines.at(line, line_count);
+    for (std::size_t k = 0; k < count; ++k)
+      polynomial.coefficients.push_back(read_float(numbers.at(k, count)));
+  }
+  return polynomial;
+}
+
+std::optional<double> read_error(const Field& field) {
+  return field.is_null() ? std::nullopt : std::optional<double>(field.number());
+}
+
+GoldenTexel read_golden(const Field& field) {
+  const auto number = [&](std::size_t index) { return read_float(field.at(index, 6)); };
+  return {number(0), number(1), number(2), number(3), number(4), number(5)};
+}
+
+ConverterData read_converter(const Field& field) {
+  ConverterData data;
+  data.id = read_id(field["id"]);
+  data.source = read_side(field["source"]);
+  data.target = read_side(field["target"]);
+  data.roughness = read_range(field["domain"]["roughness"]);
+  data.specular = read_range(field["domain"]["specular"]);
+  field["domain"].require(data.roughness.min >= 0.0 && data.specular.min >= 0.0, "ranges from 0 or more");
+  data.roughness_rms_error = read_error(field["rms_error"]["roughness"]);
+  data.specular_rms_error = read_error(field["rms_error"]["specular"]);
+  data.image_rms_error = read_error(field["rms_error"]["image"]);
+  data.alpha_polynomial = read_polynomial(field["alpha"]);
+  data.specular_polynomial = read_polynomial(field["specular"]);
+  data.golden = field["golden"].list(1, read_golden);
+  return data;
+}
+
+}  // namespace
+
+std::string converters_to_json(const std::vector<ConverterData>& converters) {
+  std::string text =
+      "{\n  \"format\": \"remap-converters\",\n  \"version\": " + std::to_string(kFormatVersion) +
+      ",\n  \"converters\": [";
+  const char* separator = "\n";
+  for (const ConverterData& data : converters) {
+    text += separator + converter_text(data);
+    separator = ",\n";
+  }
+  return text + "\n  ]\n}\n";
+}
+
+std::vector<ConverterData> converters_from_json(std::string_view text, const std::string& place) {
+  const Json json = parse_json(text, place);
+  const Field root(json, place);
+  root["format"].require(root["format"].text() == "remap-converters", "remap-converters");
+  root["version"].require(root["version"].count() == kFormatVersion, std::to_string(kFormatVersion));
+  return root["converters"].list(0, read_converter);
+}
+
+}  // namespace remap

@@ -1,0 +1,136 @@
+// Every shipped header, as a user's compiler builds it, against texremap's pass of the same converter as
+// data: bit for bit, on every instruction set. Many headers a compiler run: a process for each would take
+// minutes.
+#include <cstdlib>
+#include <dlfcn.h>
+#include <filesystem>
+#include <map>
+
+#include <catch2/catch.hpp>
+
+#include "convert/shipped_converters.hpp"
+#include "runtime/texel_rows.hpp"
+#include "support/temporary_folder.hpp"
+#include "system/files.hpp"
+#include "system/parallel.hpp"
+
+using namespace remap;
+
+namespace {
+
+constexpr std::size_t kBatches = 4;
+
+using Grey = std::size_t (*)(std::size_t, const float*, const std::array<const float*, 1>&, float*,
+                             const std::array<float*, 1>&);
+using Rgb = std::size_t (*)(std::size_t, const float*, const std::array<const float*, 3>&, float*,
+                            const std::array<float*, 3>&);
+
+// As the source of a batch declares it.
+struct Entry {
+  const char* id;
+  Grey grey;
+  Rgb rgb;
+  bool (*self_test)();
+};
+
+class HeaderConverter final : public Converter {
+ public:
+  HeaderConverter(const ConverterInfo& info, const Entry& entry) : Converter(info), entry_(entry) {}
+
+  std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
+                      float* roughness_out, std::span<float* const> specular_out,
+                      std::uint8_t*) const override {
+    if (specular.size() == 1)
+      return entry_.grey(count, roughness, {specular[0]}, roughness_out, {specular_out[0]});
+    return entry_.rgb(count, roughness, {specular[0], specular[1], specular[2]}, roughness_out,
+                      {specular_out[0], specular_out[1], specular_out[2]});
+  }
+  bool self_test() const override { return entry_.self_test(); }
+
+ private:
+  Entry entry_;
+};
+
+std::string batch_source(const std::vector<std::string>& ids) {
+  std::string text = "#include <cstddef>\n#include <array>\n", entries;
+  for (const std::string& id : ids) {
+    text += "#include \"" + id + ".hpp\"\n";
+    entries += "  {\"" + id + "\", &remap::" + id + "::evaluate_batch<1>, &remap::" + id +
+               "::evaluate_batch<3>, &remap::" + id + "::self_test},\n";
+  }
+  return text +
+         "template <std::size_t N> using Run = std::size_t (*)(std::size_t, const float*,\n"
+         "    const std::array<const float*, N>&, float*, const std::array<float*, N>&);\n"
+         "struct Entry { const char* id; Run<1> grey; Run<3> rgb; bool (*self_test)(); };\n"
+         "extern \"C\" const Entry batch_entries[] = {\n" +
+         entries + "  {nullptr, nullptr, nullptr, nullptr}};\n";
+}
+
+// Compiles the headers of all shipped converters; the entries stay as long as the program.
+std::map<std::string, Entry> compiled_headers(const std::filesystem::path& folder) {
+  std::vector<std::vector<std::string>> batches(kBatches);
+  const auto& all = shipped_data();
+  for (std::size_t i = 0; i < all.size(); ++i) batches[i % kBatches].push_back(all[i].id);
+  std::vector<int> results(kBatches, -1);
+  const auto library = [&](std::size_t b) { return folder / ("batch_" + std::to_string(b) + ".so"); };
+  run_parallel(kBatches, 2, [&](std::size_t b) {
+    const auto source = folder / ("batch_" + std::to_string(b) + ".cpp");
+    write_file(source, batch_source(batches[b]));
+    results[b] =
+        std::system(("g++ -std=c++17 -O1 -ffp-contract=off -shared -fPIC -I " REMAP_SOURCE_DIR "/generated " +
+                     source.string() + " -o " + library(b).string())
+                        .c_str());
+  });
+  std::map<std::string, Entry> entries;
+  for (std::size_t b = 0; b < kBatches; ++b) {
+    REQUIRE(results[b] == 0);
+    void* const handle = dlopen(library(b).c_str(), RTLD_NOW);
+    REQUIRE(handle != nullptr);
+    const auto* entry = static_cast<const Entry*>(dlsym(handle, "batch_entries"));
+    REQUIRE(entry != nullptr);
+    for (; entry->id != nullptr; ++entry) entries.emplace(entry->id, *entry);
+  }
+  return entries;
+}
+
+}  // namespace
+
+TEST_CASE("shipped headers: bit for bit what texremap gives of the same converters as data", "[slow]") {
+  const TemporaryFolder folder;
+  const std::map<std::string, Entry> headers = compiled_headers(folder.path());
+  REQUIRE(headers.size() == shipped_data().size());
+  for (const InstructionSet set : instruction_sets())
+    for (const auto& converter : shipped_converters(set)) {
+      const ConverterInfo& info = converter->info();
+      INFO(info.id << " on " << instruction_set_name(set));
+      const HeaderConverter header(info, headers.at(info.id));
+      CHECK(header.self_test());
+      CHECK(same_bits(*converter, header, odd_and_random_texels(info, 5000)));
+    }
+}
+
+TEST_CASE("shipped headers: the flags of texels out of domain are those that are counted") {
+  for (const auto& converter : shipped_converters()) {
+    const TexelRows texels = odd_and_random_texels(converter->info(), 701);
+    const std::size_t count = texels.roughness.size();
+    std::vector<float> width(count), red(count), green(count), blue(count);
+    std::vector<std::uint8_t> flags(count, 7);
+    const std::array<const float*, 3> in = {texels.specular[0].data(), texels.specular[1].data(),
+                                            texels.specular[2].data()};
+    const std::array<float*, 3> out = {red.data(), green.data(), blue.data()};
+    INFO(converter->info().id);
+    const std::size_t outside =
+        converter->convert(count, texels.roughness.data(), in, width.data(), out, flags.data());
+    std::size_t flagged = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      float ignored = 0.0f;
+      std::array<float, 3> values{};
+      const std::array<const float*, 3> one = {&in[0][i], &in[1][i], &in[2][i]};
+      const std::array<float*, 3> to = {&values[0], &values[1], &values[2]};
+      if (converter->convert(1, &texels.roughness[i], one, &ignored, to) != flags[i])
+        FAIL_CHECK("texel " << i);
+      flagged += flags[i];
+    }
+    CHECK(flagged == outside);
+  }
+}

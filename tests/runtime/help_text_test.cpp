@@ -1,0 +1,110 @@
+// The layout of --help: groups, rare options, wrapped lines.
+#include "command_line/help_text.hpp"
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <catch2/catch.hpp>
+
+#include "command_line/command.hpp"
+
+using namespace remap;
+
+namespace {
+
+// `tool bake`, with options of all kinds, as --help or --help-all shows it.
+std::string help_of_bake(CLI::AppFormatMode mode) {
+  Command app("A tool.", "tool");
+  Command* bake = app.add_subcommand("bake", "Bake a map");
+  std::string input, model = "svr", stroke, folder = "fits";
+  std::vector<std::size_t> layers = {16, 16};
+  bool exact = false, quiet = false;
+  bake->add_option("table", input, "The table to read")->required();
+  bake->option_group("Fit");
+  bake->add_option("--model", model, "How to fit it, in a description that takes more than a single line")
+      ->one_of({"auto", "svr"})
+      ->capture_default_str();
+  Option* sizes = bake->add_option("--layers", layers, "Units of each layer")
+                      ->delimiter(',')
+                      ->range(std::size_t{1}, std::size_t{4096})
+                      ->capture_default_str();
+  bake->add_flag("--exact", exact, "As it was fitted")->excludes(sizes);
+  bake->option_group("Output");
+  bake->add_option("-o,--output", folder, "Folder for the fit")->type_name("FOLDER")->capture_default_str();
+  bake->add_option("--mask", stroke, "Two masks")->type_name("SOURCE_MASK TEMPLATE_MASK");
+  bake->add_flag("--quiet", quiet, "Print nothing")->group(kRareOptions);
+  bake->footer("Example:\n  tool bake table.csv");
+  lay_out_help(app.app());
+  return bake->app().help("tool", mode);
+}
+
+}  // namespace
+
+TEST_CASE("help_text: options stand in their groups, with what CLI11 knows of them") {
+  CHECK(help_of_bake(CLI::AppFormatMode::Normal) ==
+        "Bake a map\n"
+        "\n"
+        "Usage: tool bake table [options]\n"
+        "\n"
+        "Arguments:\n"
+        "  table                   The table to read (required)\n"
+        "\n"
+        "Fit:\n"
+        "  --model NAME            How to fit it, in a description that takes more than a\n"
+        "                          single line (one of auto, svr; default: svr)\n"
+        "  --layers N              Units of each layer (1 to 4096; not with --exact;\n"
+        "                          default: 16,16)\n"
+        "  --exact                 As it was fitted (not with --layers)\n"
+        "\n"
+        "Output:\n"
+        "  -o, --output FOLDER     Folder for the fit (default: fits)\n"
+        "  --mask SOURCE_MASK TEMPLATE_MASK\n"
+        "                          Two masks\n"
+        "\n"
+        "Help:\n"
+        "  -h, --help              Show this help\n"
+        "  --help-all              Show this help with rare options\n"
+        "\n"
+        "Example:\n"
+        "  tool bake table.csv\n"
+        "\n"
+        "See tool bake --help-all for 1 more option.\n");
+}
+
+TEST_CASE("help_text: --help-all shows rare options") {
+  const std::string help = help_of_bake(CLI::AppFormatMode::All);
+  CHECK_THAT(help, Catch::Contains("\nRare options:\n  --quiet                 Print nothing\n"));
+  CHECK_THAT(help, !Catch::Contains("--help-all for"));
+}
+
+TEST_CASE("help_text: commands stand in their groups") {
+  Command app("A tool.", "tool");
+  app.add_subcommand("bake", "Bake a map")->group("Make");
+  app.add_subcommand("show", "Show a map")->group("Look");
+  app.add_subcommand("burn", "Burn a map")->group("Make");
+  lay_out_help(app.app());
+  CHECK(app.app().help() ==
+        "A tool.\n"
+        "\n"
+        "Usage: tool COMMAND [options]\n"
+        "\n"
+        "Make:\n"
+        "  bake                    Bake a map\n"
+        "  burn                    Burn a map\n"
+        "\n"
+        "Look:\n"
+        "  show                    Show a map\n"
+        "\n"
+        "Help:\n"
+        "  -h, --help              Show this help\n");
+}
+
+TEST_CASE("help_text: long lines break at blanks, indented lines stay") {
+  const std::string words =
+      "0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123";
+  CHECK(wrapped(words, 0) ==
+        "0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789\n0123");
+  CHECK(wrapped("a\n\n " + words + "\nb", 2) == "a\n\n   " + words + "\n  b");
+  CHECK(wrapped(std::string(90, 'x') + " y", 4) == std::string(90, 'x') + "\n    y");
+}
