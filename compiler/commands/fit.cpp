@@ -130,9 +130,11 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
 // Throws kOutput if the fit's folder cannot be written or created, before the work starts. Creates nothing: a
 // table that cannot be fitted leaves no empty folder.
 void require_output_folder(const std::filesystem::path& folder) {
-  std::filesystem::path existing = std::filesystem::absolute(folder);
-  while (!std::filesystem::exists(existing) && existing.has_relative_path())
+  std::filesystem::path existing = folder;
+  while (existing.has_parent_path() && existing != existing.parent_path() &&
+         !std::filesystem::exists(existing))
     existing = existing.parent_path();
+  if (!std::filesystem::exists(existing)) existing = ".";
   if (!std::filesystem::is_directory(existing))
     throw Error(ErrorKind::kOutput,
                 folder.string() + ": cannot be made a folder (" + existing.string() + " is not a folder)");

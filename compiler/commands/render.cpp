@@ -78,14 +78,14 @@ void add_render_command(remap::Command& app) {
   command->option_group("Material");
   command
       ->add_option("--model", options->model,
-                   "Model, as mitsuba/ward (see remapc list --models, remapc renderers)")
+                   "Model, as mitsuba/ward; remapc list --models and remapc renderers list them")
       ->type_name("MODEL")
       ->required();
   command->add_option("--set", options->settings, "Parameter of the model; may be repeated")
       ->type_name("NAME=VALUE or NAME=R,G,B")
       ->allow_extra_args(false);
   command->option_group("Output");
-  command->add_option("-o,--output", options->output, "EXR file to write (linear float)")
+  command->add_option("-o,--output", options->output, "EXR file to write, linear float")
       ->type_name("FILE")
       ->required();
   command->option_group("Picture");

@@ -95,7 +95,7 @@ constexpr std::size_t kMostSamples = 1'000'000;
 void add_options(remap::Command& app, SampleCommand& command) {
   command.pair.add_model_options(app);
   app.option_group("Output");
-  app.add_option("-o,--output", command.output, "Table to write (CSV, a column per parameter and channel)")
+  app.add_option("-o,--output", command.output, "CSV table to write, with a column per parameter and channel")
       ->type_name("FILE")
       ->required();
   app.add_flag("--force", command.force, "Overwrite the table");

@@ -7,8 +7,8 @@
 
 namespace remapc {
 
-// Shows a progress line `<command> <probed_model>` while it exists, and makes SIGINT and SIGTERM stop the work.
-// Pass it by std::ref where a FitProgress is expected.
+// Shows a progress line `<command> <probed_model>` while it exists, and makes SIGINT and SIGTERM stop the
+// work. Pass it by std::ref where a FitProgress is expected.
 class ShareProgress {
  public:
   ShareProgress(const std::string& command, const std::string& probed_model);

@@ -152,7 +152,7 @@ void add_sample_options(remap::Command& app, SweepCommand& command) {
 void add_options(remap::Command& app, SweepCommand& command) {
   command.pair.add_model_options(app);
   app.option_group("Output");
-  app.add_option("-o,--output", command.output, "Table to write (CSV)")->type_name("FILE")->required();
+  app.add_option("-o,--output", command.output, "CSV table to write")->type_name("FILE")->required();
   app.add_flag("--force", command.force, "Overwrite the table");
   app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
   app.add_flag("--quiet", command.quiet, "Print no progress and no summary");

@@ -8,7 +8,7 @@
 namespace remapc {
 
 void TableInput::add_options(remap::Command& app) {
-  app.add_option("table", path, "Table (CSV) of remapc sweep or of another program")->required();
+  app.add_option("table", path, "CSV table, of remapc sweep or of another program")->required();
   app.option_group("Input");
   app.add_option("--columns", columns,
                  "Names of columns in the file: sztrajman-2019 (the published table), or OWN=FILE,...")

@@ -89,8 +89,8 @@ static void find_terms(Count count, Terms& terms) noexcept {
 constexpr std::string_view kRowsBlock = R"(
 // What the channels of a texel share: `scale` brings the largest to the edge of the domain, 1 inside.
 struct Block {
-  float scale[kBlock], inverse[kBlock], alpha[kBlock], held[kBlock], mapped[kBlock];
-  std::uint32_t outside[kBlock];
+  float scale[kBlock] = {}, inverse[kBlock] = {}, alpha[kBlock] = {}, held[kBlock] = {}, mapped[kBlock] = {};
+  std::uint32_t outside[kBlock] = {};
 };
 
 template <std::size_t... Channel>

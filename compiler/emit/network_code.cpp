@@ -195,11 +195,11 @@ int block_of(const std::vector<const Network*>& networks) {
 // A bound on what float arithmetic leaves, first order: every unit errs by its terms' roundings and hands on
 // what it was given through its weights. Activations have slopes of at most 1.1.
 double error_of(const Network& network, const remap::Domain& domain) {
-  constexpr double kUnit = 6e-8;
+  constexpr double kFloatUnit = 6e-8;
   const std::vector<Layer> layers = folded(network);
   std::vector<double> magnitude = {1.0, domain.specular.max}, error = {0.0, 0.0};
   magnitude[0] = network.inputs[0].pole == 0.0 ? domain.alpha.max : 1.0;
-  if (network.inputs[0].pole != 0.0) error[0] = 2.0 * kUnit;
+  if (network.inputs[0].pole != 0.0) error[0] = 2.0 * kFloatUnit;
   for (std::size_t l = 0; l < layers.size(); ++l) {
     std::vector<double> next_magnitude, next_error;
     const bool last = l + 1 == layers.size();
@@ -212,7 +212,7 @@ double error_of(const Network& network, const remap::Domain& domain) {
       }
       const bool bounded = !last && network.activation == Activation::kTanh;
       next_magnitude.push_back(bounded ? 1.0 : sum);
-      next_error.push_back(1.1 * (handed + kUnit * static_cast<double>(layers[l].input_count + 1) * sum) +
+      next_error.push_back(1.1 * (handed + kFloatUnit * static_cast<double>(layers[l].input_count + 1) * sum) +
                            (last ? 0.0 : 5e-7 * next_magnitude.back()));
     }
     magnitude = next_magnitude;

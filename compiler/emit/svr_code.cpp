@@ -143,17 +143,17 @@ std::string rows_function(const std::string& name, const std::string& table, con
 // What double precision leaves: 1e-13 of the weights for the exponential and the sum; what normalising the
 // inputs loses where a domain is narrow, by the steepest slope of a Gaussian, sqrt(2 gamma / e).
 double error_of(const KernelExpansion& expansion, const remap::Domain& domain) {
-  constexpr double kUnit = 2.3e-16;
+  constexpr double kSvrUnit = 2.3e-16;
   double weights = 0.0, moved = 0.0;
   for (const double weight : expansion.weights) weights += std::fabs(weight);
   for (std::size_t k = 0; k < expansion.inputs.size(); ++k) {
     const Scaling& scaling = expansion.inputs[k];
     const double largest = scaling.pole > 0.0 ? 1.0 : (k == 0 ? domain.alpha.max : domain.specular.max);
-    moved += 6.0 * kUnit * (largest + std::fabs(scaling.offset)) * std::fabs(scaling.scale);
+    moved += 6.0 * kSvrUnit * (largest + std::fabs(scaling.offset)) * std::fabs(scaling.scale);
   }
   const double of_sum = weights * (4e-13 + 0.86 * std::sqrt(expansion.gamma) * moved);
-  return (of_sum + 8.0 * kUnit * std::fabs(expansion.bias)) / std::fabs(expansion.output.scale) +
-         8.0 * kUnit * std::fabs(expansion.output.offset);
+  return (of_sum + 8.0 * kSvrUnit * std::fabs(expansion.bias)) / std::fabs(expansion.output.scale) +
+         8.0 * kSvrUnit * std::fabs(expansion.output.offset);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace remapc {
 namespace {
 
-constexpr std::size_t kMostSources = std::size_t{1} << 14, kMostCopies = std::size_t{1} << 18;
+constexpr std::size_t kMostSampledSources = std::size_t{1} << 14, kMostCopies = std::size_t{1} << 18;
 
 // The material with at most `limit` texels, all of them finite.
 WarpMaterial thinned(const WarpMaterial& material, std::size_t limit) {
@@ -18,7 +18,7 @@ WarpMaterial thinned(const WarpMaterial& material, std::size_t limit) {
 }  // namespace
 
 double copy_rms_error(const WarpFit& fit, const WarpMaterial& source, const WarpMaterial& target) {
-  const WarpMaterial from = thinned(source, kMostSources), to = thinned(target, kMostCopies);
+  const WarpMaterial from = thinned(source, kMostSampledSources), to = thinned(target, kMostCopies);
   std::vector<remap::WarpTexel> copied, compiled;
   for (const std::uint32_t texel : copy_exactly(fit, from, to)) copied.push_back(to.texels[texel]);
   for (const remap::WarpTexel& texel : from.texels)

@@ -61,7 +61,10 @@ std::string entry(const std::string& name, const std::string& description) {
 // The type of the value, and the descriptions of its checks, as CLI11 joins them: `TYPE:CHECK`.
 std::pair<std::string, std::string> type_and_checks(const CLI::Option& option) {
   const std::string text = option.get_type_name();
-  const std::size_t colon = text.find(':');
+  std::size_t colon = std::string::npos;  // a name may hold colons, as FILE[:CHANNEL]
+  for (const char* check : {":{", ":POSITIVE", ":NONNEGATIVE"}) colon = std::min(colon, text.find(check));
+  if (const std::size_t range = text.find(" in ["); colon == std::string::npos && range != std::string::npos)
+    colon = text.rfind(':', range);
   if (colon == std::string::npos) return {text, ""};
   return {text.substr(0, colon), text.substr(colon + 1)};
 }

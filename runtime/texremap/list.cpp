@@ -5,7 +5,7 @@
 #include <string>
 
 #include "command_line/command.hpp"
-#include "commands/converters_option.hpp"
+#include "texremap/converters_option.hpp"
 #include "convert/path.hpp"
 #include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"

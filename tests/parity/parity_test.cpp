@@ -351,7 +351,7 @@ TEST_CASE("generated header: self_test fails when any one coefficient is changed
   // Every float between the start of target_alpha and the end of target_specular, by more than the header's
   // bound: high powers of a small variable weigh little.
   const std::size_t start = header.find("inline float target_alpha"),
-                    end = header.find("// The width as alpha");
+                    end = header.find("// The rule of the domain");
   REQUIRE(start < end);
   const std::string code = header.substr(start, end - start);
   const std::regex literal("-?[0-9]+\\.?[0-9]*(e-?[0-9]+)?f");

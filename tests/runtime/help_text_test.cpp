@@ -32,7 +32,7 @@ std::string help_of_bake(CLI::AppFormatMode mode) {
   bake->add_flag("--exact", exact, "As it was fitted")->excludes(sizes);
   bake->option_group("Output");
   bake->add_option("-o,--output", folder, "Folder for the fit")->type_name("FOLDER")->capture_default_str();
-  bake->add_option("--mask", stroke, "Two masks")->type_name("SOURCE_MASK TEMPLATE_MASK");
+  bake->add_option("--mask", stroke, "Two masks")->type_name("SOURCE_MASK TEMPLATE_MASK[:CHANNEL]");
   bake->add_flag("--quiet", quiet, "Print nothing")->group(kRareOptions);
   bake->footer("Example:\n  tool bake table.csv");
   lay_out_help(app.app());
@@ -59,7 +59,7 @@ TEST_CASE("help_text: options stand in their groups, with what CLI11 knows of th
         "\n"
         "Output:\n"
         "  -o, --output FOLDER     Folder for the fit (default: fits)\n"
-        "  --mask SOURCE_MASK TEMPLATE_MASK\n"
+        "  --mask SOURCE_MASK TEMPLATE_MASK[:CHANNEL]\n"
         "                          Two masks\n"
         "\n"
         "Help:\n"
