@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to cycles-2.7/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_cycles_2_7_ggx.csv, sha256
-// bdbd43e8ee444fc39fd1fed6ca321eda1e2500bf7f7b6695b2ddb1f5362e9ebc; Fit: mlp, seed 1, 384 rows trained, 96
-// held out. Error on the rows held out: alpha rms 1.4e-05, 99 % 5.2e-05, max 5.2e-05; f0 rms 5.7e-05, 99 %
-// 0.00024, max 0.00024. Lowered from the fit. Target alpha: degree 6 on 8 pieces, proven within 7.5e-06
-// (sampled 6.5e-06), rising with alpha. Target specular: degree 18, 5 in specular, proven within 1e-04
-// (sampled 4.6e-05), rising with specular. Covers alpha 0.007929146100000001 to 0.8400000000000001, f0 0 to
-// 0.6481118329302015.
+// Table mitsuba_as_to_cycles_2_7_ggx.csv, sha256 bdbd43e8ee444fc39fd1fed6ca321eda1e2500bf7f7b6695b2ddb1f5362e9ebc;
+// Fit: mlp, seed 1, 384 rows trained, 96 held out.
+// Error on the rows held out: alpha rms 1.4e-05, 99 % 5.2e-05, max 5.2e-05;
+// f0 rms 5.7e-05, 99 % 0.00024, max 0.00024.
+// Lowered from the fit. Target alpha: degree 6 on 8 pieces, proven within 7.5e-06 (sampled 6.5e-06), rising with alpha.
+// Target specular: degree 18, 5 in specular, proven within 1e-04 (sampled 4.6e-05), rising with specular.
+// Covers alpha 0.007929146100000001 to 0.8400000000000001, f0 0 to 0.6481118329302015.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_CYCLES_2_7_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_CYCLES_2_7_GGX_HPP
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -37,22 +36,22 @@ inline constexpr const char* kTargetSpecular = "f0";
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = 1.4e-05f;
 inline constexpr float kSpecularRmsError = 5.7e-05f;
-// How alike the two models can be at all: root mean square difference of their pictures at the best
-// parameters, relative to the source's. Negative where no pictures were compared.
+// How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
+// to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = -1.0f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
-  float f0;     // reflectance at normal incidence, linear
+  float f0;  // reflectance at normal incidence, linear
 };
 struct Output {
   float alpha;  // microfacet width, (0, 1]
-  float f0;     // reflectance at normal incidence, linear
+  float f0;  // reflectance at normal incidence, linear
 };
 
 // What the measured table covers. Beyond it alpha is held at the edge, and f0 is extrapolated in
-// proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels
-// count as out of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
+// of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.007929146f, 0.0f};
 inline constexpr Input kDomainMax{0.84f, 0.6481118f};
 
@@ -83,10 +82,8 @@ inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
 inline constexpr float kAlphaTable[8][7] = {
     {0.0695171f, 0.111150995f, -0.012662237f, 0.0054939557f, -0.0016593277f, -0.0004361409f, 0.00071601436f},
     {0.17196083f, 0.09650595f, -0.0039796443f, 0.0014666698f, -0.0002599089f, 0.0001407165f, -8.569373e-05f},
-    {0.26576293f, 0.09221155f, -0.00062543363f, 0.00083326764f, -0.0001030662f, 4.411508e-05f,
-     1.5105299e-05f},
-    {0.35813218f, 0.09330649f, 0.0017369712f, 0.00081062457f, -2.2190565e-05f, -2.5852167e-05f,
-     2.470275e-05f},
+    {0.26576293f, 0.09221155f, -0.00062543363f, 0.00083326764f, -0.0001030662f, 4.411508e-05f, 1.5105299e-05f},
+    {0.35813218f, 0.09330649f, 0.0017369712f, 0.00081062457f, -2.2190565e-05f, -2.5852167e-05f, 2.470275e-05f},
     {0.45397845f, 0.09925177f, 0.004426525f, 0.0012088387f, 0.00012409888f, -0.00010812519f, -2.1271717e-06f},
     {0.5589415f, 0.112134516f, 0.009011755f, 0.0023814538f, 0.0005731625f, -5.7971407e-05f, -4.6574118e-05f},
     {0.6830326f, 0.1397768f, 0.020732371f, 0.0071474146f, 0.003021208f, 0.00097380043f, 2.9551007e-05f},
@@ -109,8 +106,8 @@ inline float target_alpha(float alpha, float) noexcept {
   return c0;
 }
 
-// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the
-// same for all channels: one row of a block for each power.
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
 };
@@ -118,13 +115,13 @@ struct Terms {
 template <class Count>
 inline void specular_terms(Count count, Terms& terms) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.42396545f;
@@ -233,8 +230,7 @@ inline float target_specular(const Terms& terms, std::size_t i, float specular) 
   return sum;
 }
 
-// The rule of the domain is written over these names: one texel here, several in programs with vectors of
-// their own.
+// The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
 using Float = float;
 using Bits = std::uint32_t;
 inline constexpr std::size_t kLanes = 1;
@@ -270,8 +266,8 @@ struct Domain {
   float inverse_edge;  // 1 / specular_max
 };
 
-// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with
-// every compiler and under any floating-point flags.
+// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with every
+// compiler and under any floating-point flags.
 struct HeldWidth {
   Float own;
   Bits nan;      // all bits: not a number
@@ -302,8 +298,8 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
-  static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0, kDomainMax.f0,
-                                 1.5429436f};
+  static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
+                                 kDomainMax.f0, 1.5429436f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
@@ -330,8 +326,8 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
 // Beyond the largest of these a channel is left as it is, as infinity and NaN are.
 inline constexpr float kLargestChannel = 1e30f;
 
-// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place
-// of a comparison: compilers would branch on it.
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
 inline Bits larger_channel(Bits largest, Float given) noexcept {
   const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
   return larger(bits(given) & ~all_of_sign(kept), largest);
@@ -350,11 +346,11 @@ inline Float kept_or_mapped(Float held, Float mapped) noexcept {
   return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
 }
 
-// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter
-// way to the same bits: a factor of 1.
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1
-// inside; NaN where the width is NaN.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
   float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
@@ -363,19 +359,18 @@ struct Block {
 
 // Returns with its sign bit whether any channel of the block is out of domain.
 template <class Count, std::size_t... Channel>
-inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width,
-                           const float* const* specular, Block& block,
-                           std::index_sequence<Channel...>) noexcept {
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
   Bits channels = 0;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const HeldWidth held = held_width(domain, load(width + i));
     const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
@@ -392,13 +387,13 @@ template <class Count, std::size_t... Channel>
 inline void find_tops(Count count, const float* const* specular, Block& block,
                       std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     Bits largest = 0;
     ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
@@ -409,13 +404,13 @@ inline void find_tops(Count count, const float* const* specular, Block& block,
 template <class Count>
 inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float scale = channel_scale(domain, load(block.top + i));
     const Float inverse = 1.0f / scale;
@@ -428,13 +423,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
 template <class Count>
 inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
     const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
@@ -446,13 +441,13 @@ template <bool kInside, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     if constexpr (kInside) {
       const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
@@ -466,9 +461,8 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
 }
 
 template <std::size_t Channels, class Count>
-inline void convert_block(Count count, const Mapping& mapping, const float* width,
-                          const float* const* specular, float* width_out, float* const* specular_out,
-                          Block& block) noexcept {
+inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                          float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
   if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
@@ -486,8 +480,8 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
 }  // namespace detail
 
 // Rows of `count` texels: one row of alpha, `Channels` rows of f0 (1 for a grey map, 3 for RGB). An
-// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any
-// split into rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
+// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any split into
+// rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
 template <std::size_t Channels>
 inline std::size_t evaluate_batch(std::size_t count, const float* alpha,
                                   const std::array<const float*, Channels>& f0, float* alpha_out,
@@ -539,12 +533,12 @@ inline OutputTexel<Channels> evaluate(float alpha, const std::array<float, Chann
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
   constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::held_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.f0)) >> 31) ==
-         0;
+  return ((detail::held_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.f0)) >>
+          31) == 0;
 }
 
-// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely
-// as stated above: single texels and rows.
+// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
+// above: single texels and rows.
 inline bool self_test() noexcept {
   struct Golden {
     Input in;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_mitsuba_as.csv, sha256
-// f491e2284df0fdce67454dd192157c06878192a5135cf2b03a694ae5f17f13ee; objective natural (lights 60, weighting
-// relative), 512 pixels squared, by remapc 0.1.0. Fit: parametric, seed 1, 696 rows trained, 174 held out.
+// Table mitsuba_beckmann_to_mitsuba_as.csv, sha256 f491e2284df0fdce67454dd192157c06878192a5135cf2b03a694ae5f17f13ee;
+// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
+// Fit: parametric, seed 1, 696 rows trained, 174 held out.
 // Error on the rows held out: alpha rms 0.00016, 99 % 0.00049, max 0.00069;
 // f0 rms 8.9e-05, 99 % 0.00024, max 0.00025.
 // Lowered from the fit. Target alpha: degree 6, proven within 3e-07 (sampled 1.9e-08), rising with alpha.
@@ -13,7 +13,6 @@
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_AS_HPP
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -38,22 +37,22 @@ inline constexpr const char* kTargetSpecular = "f0";
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = 0.00016f;
 inline constexpr float kSpecularRmsError = 8.9e-05f;
-// How alike the two models can be at all: root mean square difference of their pictures at the best
-// parameters, relative to the source's. Negative where no pictures were compared.
+// How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
+// to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.15f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
-  float f0;     // reflectance at normal incidence, linear
+  float f0;  // reflectance at normal incidence, linear
 };
 struct Output {
   float alpha;  // microfacet width, (0, 1]
-  float f0;     // reflectance at normal incidence, linear
+  float f0;  // reflectance at normal incidence, linear
 };
 
 // What the measured table covers. Beyond it alpha is held at the edge, and f0 is extrapolated in
-// proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels
-// count as out of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
+// of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
 inline constexpr Input kDomainMax{1.0f, 0.96666664f};
 
@@ -103,8 +102,7 @@ inline float specular_slope(float alpha) noexcept {
   return c1;
 }
 
-// The rule of the domain is written over these names: one texel here, several in programs with vectors of
-// their own.
+// The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
 using Float = float;
 using Bits = std::uint32_t;
 inline constexpr std::size_t kLanes = 1;
@@ -140,8 +138,8 @@ struct Domain {
   float inverse_edge;  // 1 / specular_max
 };
 
-// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with
-// every compiler and under any floating-point flags.
+// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with every
+// compiler and under any floating-point flags.
 struct HeldWidth {
   Float own;
   Bits nan;      // all bits: not a number
@@ -172,8 +170,8 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
-  static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0, kDomainMax.f0,
-                                 1.0344827f};
+  static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
+                                 kDomainMax.f0, 1.0344827f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
@@ -188,9 +186,9 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the
-// same offset in their pages. Loops take their count as a constant where the block is full, which gcc needs
-// to vectorise at -O2.
+// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
+// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
+// at -O2.
 //
 // A factor for each texel of a block.
 struct Block {
@@ -199,17 +197,16 @@ struct Block {
 };
 
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out,
-                           Block& block) noexcept {
+inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const HeldWidth held = held_width(domain, load(in + i));
     const Float alpha = mapping.alpha_of(held.own);
@@ -222,13 +219,13 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
 template <class Count>
 inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float given = load(in + i);
     store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
@@ -237,9 +234,8 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
 }
 
 template <std::size_t Channels, class Count>
-inline void convert_block(Count count, const Mapping& mapping, const float* width,
-                          const float* const* specular, float* width_out, float* const* specular_out,
-                          Block& block) noexcept {
+inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                          float* width_out, float* const* specular_out, Block& block) noexcept {
   convert_widths(count, mapping, width, width_out, block);
   for (std::size_t c = 0; c < Channels; ++c)
     convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
@@ -248,8 +244,8 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
 }  // namespace detail
 
 // Rows of `count` texels: one row of alpha, `Channels` rows of f0 (1 for a grey map, 3 for RGB). An
-// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any
-// split into rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
+// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any split into
+// rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
 template <std::size_t Channels>
 inline std::size_t evaluate_batch(std::size_t count, const float* alpha,
                                   const std::array<const float*, Channels>& f0, float* alpha_out,
@@ -301,12 +297,12 @@ inline OutputTexel<Channels> evaluate(float alpha, const std::array<float, Chann
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
   constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::held_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.f0)) >> 31) ==
-         0;
+  return ((detail::held_width(kDomain, in.alpha).outside | detail::channel_outside(kDomain, in.f0)) >>
+          31) == 0;
 }
 
-// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely
-// as stated above: single texels and rows.
+// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
+// above: single texels and rows.
 inline bool self_test() noexcept {
   struct Golden {
     Input in;

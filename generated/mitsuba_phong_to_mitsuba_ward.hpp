@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_ward.csv, sha256
-// 2a9c765ce738286a17de61282f5097e0f8d6a753002ec8b1f23c6259770206c4; objective natural (lights 60, weighting
-// relative), 512 pixels squared, by remapc 0.1.0. Fit: mlp, seed 1, 209 rows trained, 52 held out. Error on
-// the rows held out: alpha rms 4.6e-06, 99 % 2.1e-05, max 2.1e-05; specular rms 0.00019, 99 % 0.0014, max
-// 0.0014. Lowered from the fit. Target alpha: degree 13, proven within 9.4e-06 (sampled 7.9e-06), rising with
-// alpha. Target specular: degree 12, 7 in specular, proven within 6.5e-05 (sampled 5.8e-05), rising with
-// specular. Covers alpha 0.01 to 0.965862069, specular 0 to 0.3.
+// Table mitsuba_phong_to_mitsuba_ward.csv, sha256 2a9c765ce738286a17de61282f5097e0f8d6a753002ec8b1f23c6259770206c4;
+// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
+// Fit: mlp, seed 1, 209 rows trained, 52 held out.
+// Error on the rows held out: alpha rms 4.6e-06, 99 % 2.1e-05, max 2.1e-05;
+// specular rms 0.00019, 99 % 0.0014, max 0.0014.
+// Lowered from the fit. Target alpha: degree 13, proven within 9.4e-06 (sampled 7.9e-06), rising with alpha.
+// Target specular: degree 12, 7 in specular, proven within 6.5e-05 (sampled 5.8e-05), rising with specular.
+// Covers alpha 0.01 to 0.965862069, specular 0 to 0.3.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_HPP
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -38,8 +38,8 @@ inline constexpr const char* kTargetSpecular = "specular";
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = 4.6e-06f;
 inline constexpr float kSpecularRmsError = 0.00019f;
-// How alike the two models can be at all: root mean square difference of their pictures at the best
-// parameters, relative to the source's. Negative where no pictures were compared.
+// How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
+// to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.3f;
 
 struct Input {
@@ -47,13 +47,13 @@ struct Input {
   float specular;  // specular reflectance, linear
 };
 struct Output {
-  float alpha;     // microfacet width, (0, 1]
+  float alpha;  // microfacet width, (0, 1]
   float specular;  // specular reflectance, linear
 };
 
 // What the measured table covers. Beyond it exponent is held at the edge, and specular is extrapolated in
-// proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels
-// count as out of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
+// of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.14387655f, 0.0f};
 inline constexpr Input kDomainMax{19998.0f, 0.3f};
 
@@ -95,23 +95,22 @@ inline float target_alpha(float alpha, float) noexcept {
   return c0;
 }
 
-// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the
-// same for all channels: one row of a block for each power.
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock],
-      c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
 };
 
 template <class Count>
 inline void specular_terms(Count count, Terms& terms) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.48793206f;
@@ -217,8 +216,7 @@ inline float target_specular(const Terms& terms, std::size_t i, float specular) 
   return sum;
 }
 
-// The rule of the domain is written over these names: one texel here, several in programs with vectors of
-// their own.
+// The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
 using Float = float;
 using Bits = std::uint32_t;
 inline constexpr std::size_t kLanes = 1;
@@ -254,8 +252,8 @@ struct Domain {
   float inverse_edge;  // 1 / specular_max
 };
 
-// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with
-// every compiler and under any floating-point flags.
+// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with every
+// compiler and under any floating-point flags.
 struct HeldWidth {
   Float own;
   Bits nan;      // all bits: not a number
@@ -314,8 +312,8 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
 // Beyond the largest of these a channel is left as it is, as infinity and NaN are.
 inline constexpr float kLargestChannel = 1e30f;
 
-// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place
-// of a comparison: compilers would branch on it.
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
 inline Bits larger_channel(Bits largest, Float given) noexcept {
   const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
   return larger(bits(given) & ~all_of_sign(kept), largest);
@@ -334,11 +332,11 @@ inline Float kept_or_mapped(Float held, Float mapped) noexcept {
   return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
 }
 
-// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter
-// way to the same bits: a factor of 1.
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1
-// inside; NaN where the width is NaN.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
   float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
@@ -347,19 +345,18 @@ struct Block {
 
 // Returns with its sign bit whether any channel of the block is out of domain.
 template <class Count, std::size_t... Channel>
-inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width,
-                           const float* const* specular, Block& block,
-                           std::index_sequence<Channel...>) noexcept {
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
   Bits channels = 0;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const HeldWidth held = held_width(domain, load(width + i));
     const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
@@ -376,13 +373,13 @@ template <class Count, std::size_t... Channel>
 inline void find_tops(Count count, const float* const* specular, Block& block,
                       std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     Bits largest = 0;
     ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
@@ -393,13 +390,13 @@ inline void find_tops(Count count, const float* const* specular, Block& block,
 template <class Count>
 inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float scale = channel_scale(domain, load(block.top + i));
     const Float inverse = 1.0f / scale;
@@ -412,13 +409,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
 template <class Count>
 inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
     const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
@@ -430,13 +427,13 @@ template <bool kInside, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     if constexpr (kInside) {
       const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
@@ -450,9 +447,8 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
 }
 
 template <std::size_t Channels, class Count>
-inline void convert_block(Count count, const Mapping& mapping, const float* width,
-                          const float* const* specular, float* width_out, float* const* specular_out,
-                          Block& block) noexcept {
+inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                          float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
   if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
@@ -470,8 +466,8 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
 }  // namespace detail
 
 // Rows of `count` texels: one row of exponent, `Channels` rows of specular (1 for a grey map, 3 for RGB). An
-// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any
-// split into rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
+// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any split into
+// rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
 template <std::size_t Channels>
 inline std::size_t evaluate_batch(std::size_t count, const float* exponent,
                                   const std::array<const float*, Channels>& specular, float* alpha_out,
@@ -523,13 +519,12 @@ inline OutputTexel<Channels> evaluate(float exponent, const std::array<float, Ch
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
   constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::held_width(kDomain, in.exponent).outside |
-           detail::channel_outside(kDomain, in.specular)) >>
+  return ((detail::held_width(kDomain, in.exponent).outside | detail::channel_outside(kDomain, in.specular)) >>
           31) == 0;
 }
 
-// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely
-// as stated above: single texels and rows.
+// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
+// above: single texels and rows.
 inline bool self_test() noexcept {
   struct Golden {
     Input in;

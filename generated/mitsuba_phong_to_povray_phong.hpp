@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to povray/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_povray_phong.csv, sha256
-// 0ba7aefdd9f79def135a6cfcd1e827f8e1cc84cdc5ee91fb363b0250e3583618; objective natural (lights 60, weighting
-// relative), 512 pixels squared, by remapc 0.1.0; POV-Ray 3.7.0.10.unofficial. Fit: parametric, seed 1, 61
-// rows trained, 15 held out. Error on the rows held out: alpha rms 7.3e-05, 99 % 0.00021, max 0.00021;
+// Table mitsuba_phong_to_povray_phong.csv, sha256 0ba7aefdd9f79def135a6cfcd1e827f8e1cc84cdc5ee91fb363b0250e3583618;
+// objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; POV-Ray 3.7.0.10.unofficial.
+// Fit: parametric, seed 1, 61 rows trained, 15 held out.
+// Error on the rows held out: alpha rms 7.3e-05, 99 % 0.00021, max 0.00021;
 // specular rms 7e-05, 99 % 0.00013, max 0.00013.
 // Lowered from the fit. Target alpha: degree 4, proven within 2.5e-07 (sampled 2.3e-08), rising with alpha.
-// Target specular: degree 4 in alpha / (alpha + 0.2), proven within 9.9e-05 (sampled 9.5e-05), rising with
-// specular. Covers alpha 0.381724138 to 0.99, specular 0 to 0.2.
+// Target specular: degree 4 in alpha / (alpha + 0.2), proven within 9.9e-05 (sampled 9.5e-05), rising with specular.
+// Covers alpha 0.381724138 to 0.99, specular 0 to 0.2.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_POVRAY_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_POVRAY_PHONG_HPP
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -39,8 +38,8 @@ inline constexpr const char* kTargetSpecular = "specular";
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = 7.3e-05f;
 inline constexpr float kSpecularRmsError = 7e-05f;
-// How alike the two models can be at all: root mean square difference of their pictures at the best
-// parameters, relative to the source's. Negative where no pictures were compared.
+// How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
+// to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.19f;
 
 struct Input {
@@ -53,8 +52,8 @@ struct Output {
 };
 
 // What the measured table covers. Beyond it exponent is held at the edge, and specular is extrapolated in
-// proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels
-// count as out of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
+// of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.0406081f, 0.0f};
 inline constexpr Input kDomainMax{11.725581f, 0.2f};
 
@@ -101,8 +100,7 @@ inline float specular_slope(float alpha) noexcept {
   return c1;
 }
 
-// The rule of the domain is written over these names: one texel here, several in programs with vectors of
-// their own.
+// The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
 using Float = float;
 using Bits = std::uint32_t;
 inline constexpr std::size_t kLanes = 1;
@@ -138,8 +136,8 @@ struct Domain {
   float inverse_edge;  // 1 / specular_max
 };
 
-// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with
-// every compiler and under any floating-point flags.
+// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with every
+// compiler and under any floating-point flags.
 struct HeldWidth {
   Float own;
   Bits nan;      // all bits: not a number
@@ -186,9 +184,9 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the
-// same offset in their pages. Loops take their count as a constant where the block is full, which gcc needs
-// to vectorise at -O2.
+// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
+// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
+// at -O2.
 //
 // A factor for each texel of a block.
 struct Block {
@@ -197,17 +195,16 @@ struct Block {
 };
 
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out,
-                           Block& block) noexcept {
+inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const HeldWidth held = held_width(domain, load(in + i));
     const Float alpha = mapping.alpha_of(held.own);
@@ -220,13 +217,13 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
 template <class Count>
 inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float given = load(in + i);
     store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
@@ -235,9 +232,8 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
 }
 
 template <std::size_t Channels, class Count>
-inline void convert_block(Count count, const Mapping& mapping, const float* width,
-                          const float* const* specular, float* width_out, float* const* specular_out,
-                          Block& block) noexcept {
+inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                          float* width_out, float* const* specular_out, Block& block) noexcept {
   convert_widths(count, mapping, width, width_out, block);
   for (std::size_t c = 0; c < Channels; ++c)
     convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
@@ -246,8 +242,8 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
 }  // namespace detail
 
 // Rows of `count` texels: one row of exponent, `Channels` rows of specular (1 for a grey map, 3 for RGB). An
-// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any
-// split into rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
+// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any split into
+// rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
 template <std::size_t Channels>
 inline std::size_t evaluate_batch(std::size_t count, const float* exponent,
                                   const std::array<const float*, Channels>& specular, float* exponent_out,
@@ -259,8 +255,8 @@ inline std::size_t evaluate_batch(std::size_t count, const float* exponent,
     for (const float*& row : from) row += start;
     for (float*& row : to) row += start;
     detail::Block block;
-    detail::convert_block<Channels>(size, detail::Mapping(), exponent + start, from.data(),
-                                    exponent_out + start, to.data(), block);
+    detail::convert_block<Channels>(size, detail::Mapping(), exponent + start, from.data(), exponent_out + start,
+                                    to.data(), block);
     out_of_domain += detail::count_outside(size, block.outside);
     start += size;
   };
@@ -299,13 +295,12 @@ inline OutputTexel<Channels> evaluate(float exponent, const std::array<float, Ch
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
   constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::held_width(kDomain, in.exponent).outside |
-           detail::channel_outside(kDomain, in.specular)) >>
+  return ((detail::held_width(kDomain, in.exponent).outside | detail::channel_outside(kDomain, in.specular)) >>
           31) == 0;
 }
 
-// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely
-// as stated above: single texels and rows.
+// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
+// above: single texels and rows.
 inline bool self_test() noexcept {
   struct Golden {
     Input in;

@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // povray/phong to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table povray_phong_to_mitsuba_phong.csv, sha256
-// e9ebc86a672865473f6d5e764a282604fd61b76598ff83199d415609e4d73a07; objective natural (lights 60, weighting
-// relative), 512 pixels squared, by POV-Ray 3.7.0.10.unofficial; remapc 0.1.0. Fit: parametric, seed 1, 269
-// rows trained, 67 held out. Error on the rows held out: alpha rms 0.00026, 99 % 0.00071, max 0.00071;
+// Table povray_phong_to_mitsuba_phong.csv, sha256 e9ebc86a672865473f6d5e764a282604fd61b76598ff83199d415609e4d73a07;
+// objective natural (lights 60, weighting relative), 512 pixels squared, by POV-Ray 3.7.0.10.unofficial; remapc 0.1.0.
+// Fit: parametric, seed 1, 269 rows trained, 67 held out.
+// Error on the rows held out: alpha rms 0.00026, 99 % 0.00071, max 0.00071;
 // specular rms 0.00017, 99 % 0.00061, max 0.00061.
 // Lowered from the fit. Target alpha: degree 6, proven within 3.6e-07 (sampled 1.9e-08), rising with alpha.
-// Target specular: degree 4, proven within 7.3e-05 (sampled 6.7e-05), rising with alpha, rising with
-// specular. Covers alpha 0.01 to 0.922413793, specular 0 to 0.6.
+// Target specular: degree 4, proven within 7.3e-05 (sampled 6.7e-05), rising with alpha, rising with specular.
+// Covers alpha 0.01 to 0.922413793, specular 0 to 0.6.
 #ifndef REMAP_GENERATED_POVRAY_PHONG_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_POVRAY_PHONG_TO_MITSUBA_PHONG_HPP
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -39,8 +38,8 @@ inline constexpr const char* kTargetSpecular = "specular";
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = 0.00026f;
 inline constexpr float kSpecularRmsError = 0.00017f;
-// How alike the two models can be at all: root mean square difference of their pictures at the best
-// parameters, relative to the source's. Negative where no pictures were compared.
+// How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
+// to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.19f;
 
 struct Input {
@@ -53,8 +52,8 @@ struct Output {
 };
 
 // What the measured table covers. Beyond it exponent is held at the edge, and specular is extrapolated in
-// proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels
-// count as out of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
+// of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.3505983f, 0.0f};
 inline constexpr Input kDomainMax{19998.0f, 0.6f};
 
@@ -102,8 +101,7 @@ inline float specular_slope(float alpha) noexcept {
   return c1;
 }
 
-// The rule of the domain is written over these names: one texel here, several in programs with vectors of
-// their own.
+// The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
 using Float = float;
 using Bits = std::uint32_t;
 inline constexpr std::size_t kLanes = 1;
@@ -139,8 +137,8 @@ struct Domain {
   float inverse_edge;  // 1 / specular_max
 };
 
-// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with
-// every compiler and under any floating-point flags.
+// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with every
+// compiler and under any floating-point flags.
 struct HeldWidth {
   Float own;
   Bits nan;      // all bits: not a number
@@ -187,9 +185,9 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the
-// same offset in their pages. Loops take their count as a constant where the block is full, which gcc needs
-// to vectorise at -O2.
+// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
+// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
+// at -O2.
 //
 // A factor for each texel of a block.
 struct Block {
@@ -198,17 +196,16 @@ struct Block {
 };
 
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out,
-                           Block& block) noexcept {
+inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const HeldWidth held = held_width(domain, load(in + i));
     const Float alpha = mapping.alpha_of(held.own);
@@ -221,13 +218,13 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
 template <class Count>
 inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float given = load(in + i);
     store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
@@ -236,9 +233,8 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
 }
 
 template <std::size_t Channels, class Count>
-inline void convert_block(Count count, const Mapping& mapping, const float* width,
-                          const float* const* specular, float* width_out, float* const* specular_out,
-                          Block& block) noexcept {
+inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                          float* width_out, float* const* specular_out, Block& block) noexcept {
   convert_widths(count, mapping, width, width_out, block);
   for (std::size_t c = 0; c < Channels; ++c)
     convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
@@ -247,8 +243,8 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
 }  // namespace detail
 
 // Rows of `count` texels: one row of exponent, `Channels` rows of specular (1 for a grey map, 3 for RGB). An
-// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any
-// split into rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
+// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any split into
+// rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
 template <std::size_t Channels>
 inline std::size_t evaluate_batch(std::size_t count, const float* exponent,
                                   const std::array<const float*, Channels>& specular, float* exponent_out,
@@ -260,8 +256,8 @@ inline std::size_t evaluate_batch(std::size_t count, const float* exponent,
     for (const float*& row : from) row += start;
     for (float*& row : to) row += start;
     detail::Block block;
-    detail::convert_block<Channels>(size, detail::Mapping(), exponent + start, from.data(),
-                                    exponent_out + start, to.data(), block);
+    detail::convert_block<Channels>(size, detail::Mapping(), exponent + start, from.data(), exponent_out + start,
+                                    to.data(), block);
     out_of_domain += detail::count_outside(size, block.outside);
     start += size;
   };
@@ -300,13 +296,12 @@ inline OutputTexel<Channels> evaluate(float exponent, const std::array<float, Ch
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
   constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::held_width(kDomain, in.exponent).outside |
-           detail::channel_outside(kDomain, in.specular)) >>
+  return ((detail::held_width(kDomain, in.exponent).outside | detail::channel_outside(kDomain, in.specular)) >>
           31) == 0;
 }
 
-// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely
-// as stated above: single texels and rows.
+// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
+// above: single texels and rows.
 inline bool self_test() noexcept {
   struct Golden {
     Input in;

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // povray/specular to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table povray_specular_to_mitsuba_as.csv, sha256
-// d6088de9ebc0c7a0651192bfc9062de27df45d1362e8849af76d30d7c660f64c; objective natural (lights 60, weighting
-// relative), 512 pixels squared, by POV-Ray 3.7.0.10.unofficial; remapc 0.1.0. Fit: parametric, seed 1, 115
-// rows trained, 29 held out. Error on the rows held out: alpha rms 0.0017, 99 % 0.0028, max 0.0028; f0 rms
-// 0.0069, 99 % 0.022, max 0.022. Lowered from the fit. Target alpha: degree 4, proven within 3.2e-07
-// (sampled 2.8e-08), rising with alpha. Target specular: degree 2, proven within 5.1e-07 (sampled 9.4e-09),
-// rising with specular. Covers alpha 0.11137931 to 0.88862069, specular 0 to 0.3.
+// Table povray_specular_to_mitsuba_as.csv, sha256 d6088de9ebc0c7a0651192bfc9062de27df45d1362e8849af76d30d7c660f64c;
+// objective natural (lights 60, weighting relative), 512 pixels squared, by POV-Ray 3.7.0.10.unofficial; remapc 0.1.0.
+// Fit: parametric, seed 1, 115 rows trained, 29 held out.
+// Error on the rows held out: alpha rms 0.0017, 99 % 0.0028, max 0.0028;
+// f0 rms 0.0069, 99 % 0.022, max 0.022.
+// Lowered from the fit. Target alpha: degree 4, proven within 3.2e-07 (sampled 2.8e-08), rising with alpha.
+// Target specular: degree 2, proven within 5.1e-07 (sampled 9.4e-09), rising with specular.
+// Covers alpha 0.11137931 to 0.88862069, specular 0 to 0.3.
 #ifndef REMAP_GENERATED_POVRAY_SPECULAR_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_POVRAY_SPECULAR_TO_MITSUBA_AS_HPP
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -38,8 +38,8 @@ inline constexpr const char* kTargetSpecular = "f0";
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = 0.0017f;
 inline constexpr float kSpecularRmsError = 0.0069f;
-// How alike the two models can be at all: root mean square difference of their pictures at the best
-// parameters, relative to the source's. Negative where no pictures were compared.
+// How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
+// to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.33f;
 
 struct Input {
@@ -48,12 +48,12 @@ struct Input {
 };
 struct Output {
   float alpha;  // microfacet width, (0, 1]
-  float f0;     // reflectance at normal incidence, linear
+  float f0;  // reflectance at normal incidence, linear
 };
 
 // What the measured table covers. Beyond it exponent is held at the edge, and specular is extrapolated in
-// proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels
-// count as out of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
+// of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.53277814f, 0.0f};
 inline constexpr Input kDomainMax{159.22075f, 0.3f};
 
@@ -95,8 +95,7 @@ inline float specular_slope(float alpha) noexcept {
   return c1;
 }
 
-// The rule of the domain is written over these names: one texel here, several in programs with vectors of
-// their own.
+// The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
 using Float = float;
 using Bits = std::uint32_t;
 inline constexpr std::size_t kLanes = 1;
@@ -132,8 +131,8 @@ struct Domain {
   float inverse_edge;  // 1 / specular_max
 };
 
-// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with
-// every compiler and under any floating-point flags.
+// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with every
+// compiler and under any floating-point flags.
 struct HeldWidth {
   Float own;
   Bits nan;      // all bits: not a number
@@ -180,9 +179,9 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the
-// same offset in their pages. Loops take their count as a constant where the block is full, which gcc needs
-// to vectorise at -O2.
+// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
+// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
+// at -O2.
 //
 // A factor for each texel of a block.
 struct Block {
@@ -191,17 +190,16 @@ struct Block {
 };
 
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out,
-                           Block& block) noexcept {
+inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const HeldWidth held = held_width(domain, load(in + i));
     const Float alpha = mapping.alpha_of(held.own);
@@ -214,13 +212,13 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
 template <class Count>
 inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float given = load(in + i);
     store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
@@ -229,9 +227,8 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
 }
 
 template <std::size_t Channels, class Count>
-inline void convert_block(Count count, const Mapping& mapping, const float* width,
-                          const float* const* specular, float* width_out, float* const* specular_out,
-                          Block& block) noexcept {
+inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                          float* width_out, float* const* specular_out, Block& block) noexcept {
   convert_widths(count, mapping, width, width_out, block);
   for (std::size_t c = 0; c < Channels; ++c)
     convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
@@ -240,8 +237,8 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
 }  // namespace detail
 
 // Rows of `count` texels: one row of exponent, `Channels` rows of specular (1 for a grey map, 3 for RGB). An
-// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any
-// split into rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
+// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any split into
+// rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
 template <std::size_t Channels>
 inline std::size_t evaluate_batch(std::size_t count, const float* exponent,
                                   const std::array<const float*, Channels>& specular, float* alpha_out,
@@ -293,13 +290,12 @@ inline OutputTexel<Channels> evaluate(float exponent, const std::array<float, Ch
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
   constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::held_width(kDomain, in.exponent).outside |
-           detail::channel_outside(kDomain, in.specular)) >>
+  return ((detail::held_width(kDomain, in.exponent).outside | detail::channel_outside(kDomain, in.specular)) >>
           31) == 0;
 }
 
-// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely
-// as stated above: single texels and rows.
+// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
+// above: single texels and rows.
 inline bool self_test() noexcept {
   struct Golden {
     Input in;

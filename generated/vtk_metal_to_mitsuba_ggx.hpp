@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // vtk/metal to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table vtk_metal_to_mitsuba_ggx.csv, sha256
-// 58d7acf066683132323055f8b40220c5e243e9663f7ce5869325a2953e9741c2; objective natural (lights 60, weighting
-// relative), 512 pixels squared, by VTK 9.7.2 PBR; remapc 0.1.0. Fit: parametric, seed 1, 403 rows trained,
-// 101 held out. Error on the rows held out: alpha rms 0.00014, 99 % 0.00041, max 0.00062; f0 rms 0.00014, 99
-// % 0.00047, max 0.00053. Lowered from the fit. Target alpha: degree 6, proven within 3.5e-07
-// (sampled 1.9e-08), rising with alpha. Target specular: degree 8 in alpha / (alpha + 1), proven
-// within 7.1e-05 (sampled 6.4e-05), rising with specular. Covers alpha 0.01 to 0.931724138, base_color 0 to
-// 0.9.
+// Table vtk_metal_to_mitsuba_ggx.csv, sha256 58d7acf066683132323055f8b40220c5e243e9663f7ce5869325a2953e9741c2;
+// objective natural (lights 60, weighting relative), 512 pixels squared, by VTK 9.7.2 PBR; remapc 0.1.0.
+// Fit: parametric, seed 1, 403 rows trained, 101 held out.
+// Error on the rows held out: alpha rms 0.00014, 99 % 0.00041, max 0.00062;
+// f0 rms 0.00014, 99 % 0.00047, max 0.00053.
+// Lowered from the fit. Target alpha: degree 6, proven within 3.5e-07 (sampled 1.9e-08), rising with alpha.
+// Target specular: degree 8 in alpha / (alpha + 1), proven within 7.1e-05 (sampled 6.4e-05), rising with specular.
+// Covers alpha 0.01 to 0.931724138, base_color 0 to 0.9.
 #ifndef REMAP_GENERATED_VTK_METAL_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_VTK_METAL_TO_MITSUBA_GGX_HPP
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -38,22 +37,22 @@ inline constexpr const char* kTargetSpecular = "f0";
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
 inline constexpr float kAlphaRmsError = 0.00014f;
 inline constexpr float kSpecularRmsError = 0.00014f;
-// How alike the two models can be at all: root mean square difference of their pictures at the best
-// parameters, relative to the source's. Negative where no pictures were compared.
+// How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
+// to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.028f;
 
 struct Input {
-  float roughness;   // perceptual roughness, square root of the microfacet width, (0, 1]
+  float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
   float base_color;  // specular reflectance, linear
 };
 struct Output {
   float alpha;  // microfacet width, (0, 1]
-  float f0;     // reflectance at normal incidence, linear
+  float f0;  // reflectance at normal incidence, linear
 };
 
 // What the measured table covers. Beyond it roughness is held at the edge, and base_color is extrapolated in
-// proportion: all channels by the same factor, so that colour is kept; below 0 it is held at 0. Such texels
-// count as out of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
+// proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
+// of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
 inline constexpr Input kDomainMax{0.9652586f, 0.9f};
 
@@ -106,8 +105,7 @@ inline float specular_slope(float alpha) noexcept {
   return c1;
 }
 
-// The rule of the domain is written over these names: one texel here, several in programs with vectors of
-// their own.
+// The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
 using Float = float;
 using Bits = std::uint32_t;
 inline constexpr std::size_t kLanes = 1;
@@ -143,8 +141,8 @@ struct Domain {
   float inverse_edge;  // 1 / specular_max
 };
 
-// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with
-// every compiler and under any floating-point flags.
+// The width, held in the domain. Floats that are not negative compare as integers do; that vectorises with every
+// compiler and under any floating-point flags.
 struct HeldWidth {
   Float own;
   Bits nan;      // all bits: not a number
@@ -191,9 +189,9 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the
-// same offset in their pages. Loops take their count as a constant where the block is full, which gcc needs
-// to vectorise at -O2.
+// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
+// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
+// at -O2.
 //
 // A factor for each texel of a block.
 struct Block {
@@ -202,17 +200,16 @@ struct Block {
 };
 
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out,
-                           Block& block) noexcept {
+inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const HeldWidth held = held_width(domain, load(in + i));
     const Float alpha = mapping.alpha_of(held.own);
@@ -225,13 +222,13 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
 template <class Count>
 inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
   const std::size_t size = count;
-#if defined(__clang__)
-#pragma clang loop vectorize(assume_safety)
-#elif defined(__GNUC__)
-#pragma GCC ivdep
-#elif defined(_MSC_VER)
-#pragma loop(ivdep)
-#endif
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
     const Float given = load(in + i);
     store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
@@ -240,9 +237,8 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
 }
 
 template <std::size_t Channels, class Count>
-inline void convert_block(Count count, const Mapping& mapping, const float* width,
-                          const float* const* specular, float* width_out, float* const* specular_out,
-                          Block& block) noexcept {
+inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                          float* width_out, float* const* specular_out, Block& block) noexcept {
   convert_widths(count, mapping, width, width_out, block);
   for (std::size_t c = 0; c < Channels; ++c)
     convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
@@ -250,9 +246,9 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
 
 }  // namespace detail
 
-// Rows of `count` texels: one row of roughness, `Channels` rows of base_color (1 for a grey map, 3 for RGB).
-// An output row may be exactly its own input row; no other rows may overlap. Texels do not see each other:
-// any split into rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
+// Rows of `count` texels: one row of roughness, `Channels` rows of base_color (1 for a grey map, 3 for RGB). An
+// output row may be exactly its own input row; no other rows may overlap. Texels do not see each other: any split into
+// rows gives the same bits (which NaN aside). Returns the number of texels out of domain.
 template <std::size_t Channels>
 inline std::size_t evaluate_batch(std::size_t count, const float* roughness,
                                   const std::array<const float*, Channels>& base_color, float* alpha_out,
@@ -264,8 +260,8 @@ inline std::size_t evaluate_batch(std::size_t count, const float* roughness,
     for (const float*& row : from) row += start;
     for (float*& row : to) row += start;
     detail::Block block;
-    detail::convert_block<Channels>(size, detail::Mapping(), roughness + start, from.data(),
-                                    alpha_out + start, to.data(), block);
+    detail::convert_block<Channels>(size, detail::Mapping(), roughness + start, from.data(), alpha_out + start,
+                                    to.data(), block);
     out_of_domain += detail::count_outside(size, block.outside);
     start += size;
   };
@@ -289,8 +285,7 @@ struct OutputTexel {
 };
 
 template <std::size_t Channels>
-inline OutputTexel<Channels> evaluate(float roughness,
-                                      const std::array<float, Channels>& base_color) noexcept {
+inline OutputTexel<Channels> evaluate(float roughness, const std::array<float, Channels>& base_color) noexcept {
   OutputTexel<Channels> out{};
   std::array<const float*, Channels> from{};
   std::array<float*, Channels> to{};
@@ -305,13 +300,12 @@ inline OutputTexel<Channels> evaluate(float roughness,
 // Whether the texel lies where the table has data.
 inline bool in_domain(Input in) noexcept {
   constexpr detail::Domain kDomain = detail::Mapping::domain;
-  return ((detail::held_width(kDomain, in.roughness).outside |
-           detail::channel_outside(kDomain, in.base_color)) >>
+  return ((detail::held_width(kDomain, in.roughness).outside | detail::channel_outside(kDomain, in.base_color)) >>
           31) == 0;
 }
 
-// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely
-// as stated above: single texels and rows.
+// Whether this compilation gives the values of the fit, evaluated in double precision by remapc, as closely as stated
+// above: single texels and rows.
 inline bool self_test() noexcept {
   struct Golden {
     Input in;

@@ -24,9 +24,9 @@ double diagonal(const Points& points) {
 
 // Counts the images in each bin of the template's grid, and the bins whose occupancy differs from that of the
 // template's points.
-class Overlap {
+class BinOverlap {
  public:
-  Overlap(std::size_t bins, const std::vector<long>& goal) : counts_(bins, 0), is_goal_(bins, 0) {
+  BinOverlap(std::size_t bins, const std::vector<long>& goal) : counts_(bins, 0), is_goal_(bins, 0) {
     for (const long bin : goal) is_goal_[static_cast<std::size_t>(bin)] = 1;
     mismatches_ = std::accumulate(is_goal_.begin(), is_goal_.end(), 0);
   }
@@ -102,7 +102,7 @@ class PaperEnergy {
 
   double value() const {
     double mismatches = 0.0;
-    for (const Overlap& stroke : strokes_) mismatches += stroke.mismatches();
+    for (const BinOverlap& stroke : strokes_) mismatches += stroke.mismatches();
     return roughness_ + stroke_weight_ * mismatches + all_.mismatches();
   }
 
@@ -128,7 +128,7 @@ class PaperEnergy {
   }
   void set_entry(std::size_t bin, std::size_t entry, double value) {
     roughness_ -= roughness_around(bin);
-    for (const long image : images_of_bin_[bin]) count(bin, image, &Overlap::remove);
+    for (const long image : images_of_bin_[bin]) count(bin, image, &BinOverlap::remove);
     AffineMap& map = maps_[bin];
     const auto linear = static_cast<std::size_t>(map.linear.size());
     if (entry < linear)
@@ -197,7 +197,7 @@ class PaperEnergy {
     return sum;
   }
 
-  void count(std::size_t bin, long image, void (Overlap::*change)(long)) {
+  void count(std::size_t bin, long image, void (BinOverlap::*change)(long)) {
     (all_.*change)(image);
     for (const std::size_t k : strokes_of_[bin]) (strokes_[k].*change)(image);
   }
@@ -217,14 +217,14 @@ class PaperEnergy {
         beside[k] += side * source_spacing_;
         add(beside);
       }
-    for (const long image : images) count(bin, image, &Overlap::add);
+    for (const long image : images) count(bin, image, &BinOverlap::add);
   }
 
   const Points& points_;
   double spacing_, source_spacing_;
   HeldGrid grid_;
-  Overlap all_;
-  std::vector<Overlap> strokes_;
+  BinOverlap all_;
+  std::vector<BinOverlap> strokes_;
   std::vector<std::vector<std::size_t>> strokes_of_, is_neighbour_of_;
   std::vector<std::vector<Neighbour>> neighbours_;
   std::vector<AffineMap> maps_;
