@@ -17,7 +17,7 @@ int main() try {
 
   // Finds the path of least expected error between the two models, as texremap does.
   const remap::ConverterPath path =
-      remap::compiled_graph().find_paths({"mitsuba/ward", "cycles-2.7/ggx", {}}).front();
+      remap::shipped_graph().find_paths({"mitsuba/ward", "cycles-2.7/ggx", {}}).front();
   const auto converter = remap::make_chained_converter(path.steps);
 
   const auto channel = [&](std::size_t c) {

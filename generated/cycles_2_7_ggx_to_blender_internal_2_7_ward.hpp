@@ -12,6 +12,7 @@
 #ifndef REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 #define REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

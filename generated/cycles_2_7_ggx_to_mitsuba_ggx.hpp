@@ -12,6 +12,7 @@
 #ifndef REMAP_GENERATED_CYCLES_2_7_GGX_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_2_7_GGX_TO_MITSUBA_GGX_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

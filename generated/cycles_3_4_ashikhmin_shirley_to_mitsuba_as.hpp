@@ -13,6 +13,7 @@
 #ifndef REMAP_GENERATED_CYCLES_3_4_ASHIKHMIN_SHIRLEY_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_CYCLES_3_4_ASHIKHMIN_SHIRLEY_TO_MITSUBA_AS_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

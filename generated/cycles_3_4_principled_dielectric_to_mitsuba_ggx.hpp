@@ -13,6 +13,7 @@
 #ifndef REMAP_GENERATED_CYCLES_3_4_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_CYCLES_3_4_PRINCIPLED_DIELECTRIC_TO_MITSUBA_GGX_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

@@ -135,7 +135,7 @@ inline float approximate_root(float value) noexcept {
 enum class WidthParameter { kAlpha, kRoughness, kGlossiness };
 
 // What the parameters of both ends mean. Diffuse of the specular workflow is reflectance as it is, or counts
-// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base colour.
+// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base color.
 struct Conventions {
   float dielectric_f0;
   float diffuse_of_albedo;
@@ -263,7 +263,7 @@ inline float perceived_brightness(float red, float green, float blue) noexcept {
 }
 
 // Khronos Group 2017, extension KHR_materials_pbrSpecularGlossiness, example of converting between workflows:
-// metallic from the perceived brightness of both colours, base colour between what either says. Diffuse has
+// metallic from the perceived brightness of both colors, base color between what either says. Diffuse has
 // been scaled by 1 - max(specular) before.
 inline std::size_t solve_khronos(const Conventions& use, const std::array<const float*, 7>& in,
                                  const std::array<float*, 5>& out) noexcept {

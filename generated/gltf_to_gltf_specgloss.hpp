@@ -134,7 +134,7 @@ inline float approximate_root(float value) noexcept {
 enum class WidthParameter { kAlpha, kRoughness, kGlossiness };
 
 // What the parameters of both ends mean. Diffuse of the specular workflow is reflectance as it is, or counts
-// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base colour.
+// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base color.
 struct Conventions {
   float dielectric_f0;
   float diffuse_of_albedo;
@@ -229,8 +229,8 @@ inline void write_width(const Conventions& use, const HeldBlock<kRows, kSize>& b
 
 inline constexpr std::size_t kSpecularBlock = 128;
 
-// Base colour (three rows), metallic, width to diffuse (three rows), specular (three rows), width: Sztrajman
-// et al. 2019, equation (2). A specular channel is f + metallic (base colour - f), f that of a dielectric.
+// Base color (three rows), metallic, width to diffuse (three rows), specular (three rows), width: Sztrajman
+// et al. 2019, equation (2). A specular channel is f + metallic (base color - f), f that of a dielectric.
 inline std::size_t metallic_to_specular(const Conventions& use, const std::array<const float*, 5>& in,
                                         const std::array<float*, 7>& out) noexcept {
   constexpr std::size_t kBlock = kSpecularBlock;

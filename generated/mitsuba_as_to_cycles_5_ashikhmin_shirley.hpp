@@ -14,6 +14,7 @@
 #define REMAP_GENERATED_MITSUBA_AS_TO_CYCLES_5_ASHIKHMIN_SHIRLEY_HPP
 
 #include <cmath>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

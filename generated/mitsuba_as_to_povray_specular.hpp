@@ -13,6 +13,7 @@
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_POVRAY_SPECULAR_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_POVRAY_SPECULAR_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

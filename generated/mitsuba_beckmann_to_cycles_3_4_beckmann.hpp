@@ -14,6 +14,7 @@
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_CYCLES_3_4_BECKMANN_HPP
 
 #include <cmath>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

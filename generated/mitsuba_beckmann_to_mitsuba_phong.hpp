@@ -13,6 +13,7 @@
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_PHONG_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

@@ -14,6 +14,7 @@
 #define REMAP_GENERATED_MITSUBA_GGX_TO_THREEJS_R187_PHYSICAL_DIELECTRIC_HPP
 
 #include <cmath>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

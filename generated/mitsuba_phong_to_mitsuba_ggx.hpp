@@ -14,6 +14,7 @@
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_GGX_HPP
 
 #include <cmath>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

@@ -13,6 +13,7 @@
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_WARD_DUER_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_WARD_DUER_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

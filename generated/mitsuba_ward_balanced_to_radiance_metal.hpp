@@ -13,6 +13,7 @@
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_RADIANCE_METAL_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_RADIANCE_METAL_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

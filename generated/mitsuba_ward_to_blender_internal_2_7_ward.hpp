@@ -13,6 +13,7 @@
 #ifndef REMAP_GENERATED_MITSUBA_WARD_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

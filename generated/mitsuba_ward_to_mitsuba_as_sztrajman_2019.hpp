@@ -15,6 +15,7 @@
 #ifndef REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_AS_SZTRAJMAN_2019_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_AS_SZTRAJMAN_2019_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

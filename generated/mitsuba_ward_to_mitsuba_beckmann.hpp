@@ -13,6 +13,7 @@
 #ifndef REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_BECKMANN_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

@@ -13,6 +13,7 @@
 #ifndef REMAP_GENERATED_RADIANCE_PLASTIC_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_RADIANCE_PLASTIC_TO_MITSUBA_WARD_BALANCED_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

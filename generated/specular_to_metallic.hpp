@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // Materials of specular (specular workflow) as materials of metallic (metallic workflow).
-// By least difference of the pictures over base colour and metallic, prior 1e-06.
+// By least difference of the pictures over base color and metallic, prior 1e-06.
 // Diffuse is reflectance as it is, and a dielectric has F0 0.04: another convention costs more than any formula.
 #ifndef REMAP_GENERATED_SPECULAR_TO_METALLIC_HPP
 #define REMAP_GENERATED_SPECULAR_TO_METALLIC_HPP
@@ -134,7 +134,7 @@ inline float approximate_root(float value) noexcept {
 enum class WidthParameter { kAlpha, kRoughness, kGlossiness };
 
 // What the parameters of both ends mean. Diffuse of the specular workflow is reflectance as it is, or counts
-// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base colour.
+// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base color.
 struct Conventions {
   float dielectric_f0;
   float diffuse_of_albedo;
@@ -260,7 +260,7 @@ inline float or_nan(float value, std::uint32_t mask) noexcept {
 // Functions of a texel are inlined whatever a compiler thinks of their size: only then its loop becomes
 // vectors.
 //
-// The projection onto what base colour and metallic can say: least squares over diffuse reflectance and F0,
+// The projection onto what base color and metallic can say: least squares over diffuse reflectance and F0,
 // where errors count as they do in a picture: diffuse^2 + 2 mixed diffuse f0 + specular f0^2, a channel each.
 // With the constant part of Schlick's Fresnel equal on both sides, the difference of two pictures is such a
 // form; its numbers were fitted to pictures of 400 materials under eight lights, alpha 0.03 to 1.
@@ -333,7 +333,7 @@ struct Blend {
   return channel_error(blend, gram, channel, held(free_albedo(blend, channel.diffuse, channel.f0)));
 }
 
-// What the best base colour of this share leaves over the channels, each held in 0 to 1. Rounding may make it
+// What the best base color of this share leaves over the channels, each held in 0 to 1. Rounding may make it
 // negative.
 [[gnu::always_inline]] inline float error_of(const Texel& texel, const Conventions& use,
                                              float share) noexcept {
@@ -476,7 +476,7 @@ inline void find_shares(const Conventions& use, float prior, const SpecularTexel
   }
 }
 
-// Diffuse (three rows), specular (three rows), width to base colour (three rows), metallic, width.
+// Diffuse (three rows), specular (three rows), width to base color (three rows), metallic, width.
 inline std::size_t project(const Conventions& use, float prior, const std::array<const float*, 7>& in,
                            const std::array<float*, 5>& out) noexcept {
   constexpr std::size_t kBlock = kMetallicBlock;

@@ -4,7 +4,7 @@
 // Materials of specular (specular workflow) as materials of metallic (metallic workflow).
 // By a network of 6 x 300 x 4 (relu), learned from metallic materials as in section 8 of Sztrajman et al. 2019.
 // Table specular_to_metallic_network_sztrajman_2019.csv, sha256 a633944e1b27e9689b076221753448eb11ea2a64c481c727dea26429f53ad1e3; seed 7.
-// Error on unseen rows: base colour rms 0.0025, max 0.015; metallic rms 0.013, max 0.31.
+// Error on unseen rows: base color rms 0.0025, max 0.015; metallic rms 0.013, max 0.31.
 // A reproduction of the network of the paper, with its F0 0.03 of a dielectric. A baseline: specular_to_metallic leaves less of a difference.
 #ifndef REMAP_GENERATED_SPECULAR_TO_METALLIC_NETWORK_SZTRAJMAN_2019_HPP
 #define REMAP_GENERATED_SPECULAR_TO_METALLIC_NETWORK_SZTRAJMAN_2019_HPP
@@ -136,7 +136,7 @@ inline float approximate_root(float value) noexcept {
 enum class WidthParameter { kAlpha, kRoughness, kGlossiness };
 
 // What the parameters of both ends mean. Diffuse of the specular workflow is reflectance as it is, or counts
-// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base colour.
+// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base color.
 struct Conventions {
   float dielectric_f0;
   float diffuse_of_albedo;
@@ -632,7 +632,7 @@ inline void material_network(std::size_t count, const float* const* in, float* c
     for (std::size_t i = 0; i < count; ++i) out[m][i] = x2[m][i];
 }
 
-// Diffuse (three rows), specular (three rows), width to base colour (three rows), metallic, width: what the
+// Diffuse (three rows), specular (three rows), width to base color (three rows), metallic, width: what the
 // network gives of the first six, held in 0 to 1.
 inline std::size_t by_network(const Conventions& use, const std::array<const float*, 7>& in,
                               const std::array<float*, 5>& out) noexcept {

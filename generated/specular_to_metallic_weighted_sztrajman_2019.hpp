@@ -134,7 +134,7 @@ inline float approximate_root(float value) noexcept {
 enum class WidthParameter { kAlpha, kRoughness, kGlossiness };
 
 // What the parameters of both ends mean. Diffuse of the specular workflow is reflectance as it is, or counts
-// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base colour.
+// 1 - max(specular); a dielectric of the metallic workflow has `diffuse_of_albedo` times its base color.
 struct Conventions {
   float dielectric_f0;
   float diffuse_of_albedo;

@@ -13,6 +13,7 @@
 #ifndef REMAP_GENERATED_THREEJS_R187_STANDARD_METAL_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_THREEJS_R187_STANDARD_METAL_TO_MITSUBA_GGX_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

@@ -34,6 +34,7 @@ constexpr std::string_view kLayout =
 #define @guard@
 
 @include_cmath@
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

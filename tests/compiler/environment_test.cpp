@@ -318,7 +318,7 @@ TEST_CASE("study environments: no method has less than the least error, and copi
   options.alphas = {0.3};
   options.resolution = 48;  // that of the search
   options.samples = 256;
-  options.floor = true;
+  options.least_error = true;
   const EnvironmentsResult result = study_environments(options);
   const PictureSimilarity best = mean_similarity(comparisons_of(result, Method::kBest));
   for (const Method method : {Method::kCopy, Method::kPaper, Method::kNatural})

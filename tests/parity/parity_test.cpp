@@ -110,7 +110,7 @@ Network smooth_network(Activation activation, std::size_t input_count) {
 }
 
 // The kinds, forms and conventions that no committed fit has.
-std::vector<MadeModel> probed_models() {
+std::vector<MadeModel> subjects() {
   const Fit base = committed_fit();
   std::vector<MadeModel> all = {lowered(base), exact(base)};
   const auto add = [&](const std::string& id, RoughnessConvention source, RoughnessConvention target,
@@ -227,15 +227,15 @@ bool close(float value, double expected, double within) {
 
 // Judged as the alpha it stands for: an exponent is 2 / alpha^2 - 2 and doubles its relative error, a root
 // doubles nothing but is steep at 0. A float of the parameter itself is as close as can be.
-bool close_width(const MadeModel& probed_model, float value, double expected) {
-  const RoughnessConvention convention = probed_model.fit.target.roughness;
+bool close_width(const MadeModel& subject, float value, double expected) {
+  const RoughnessConvention convention = subject.fit.target.roughness;
   if (convention == RoughnessConvention::kAlpha || !std::isfinite(expected))
-    return close(value, expected, probed_model.alpha_within);
+    return close(value, expected, subject.alpha_within);
   return close(static_cast<float>(to_alpha(convention, value)), to_alpha(convention, expected),
-               probed_model.alpha_within + 1e-6);
+               subject.alpha_within + 1e-6);
 }
 
-void check_against_interpreter(const MadeModel& probed_model, const std::vector<float>& in,
+void check_against_interpreter(const MadeModel& subject, const std::vector<float>& in,
                                const std::vector<float>& out) {
   const std::size_t count = in.size() / 4;
   REQUIRE(out.size() == in.size() + 1);
@@ -244,14 +244,14 @@ void check_against_interpreter(const MadeModel& probed_model, const std::vector<
     const std::array<double, 3> specular = {in[count + i], in[2 * count + i], in[3 * count + i]};
     std::array<double, 3> expected{};
     bool inside = true;
-    const double width = evaluate_texel(probed_model.fit, in[i], specular, expected, &inside);
+    const double width = evaluate_texel(subject.fit, in[i], specular, expected, &inside);
     outside += inside ? 0 : 1;
-    bool right = close_width(probed_model, out[i], width);
+    bool right = close_width(subject, out[i], width);
     double scale = 1.0;  // extrapolation scales what the edge of the domain gives, and its error with it
     for (const double channel : specular)
-      if (std::isfinite(channel)) scale = std::max(scale, channel / probed_model.fit.domain.specular.max);
+      if (std::isfinite(channel)) scale = std::max(scale, channel / subject.fit.domain.specular.max);
     for (std::size_t c = 0; c < 3; ++c)
-      right = right && close(out[(c + 1) * count + i], expected[c], probed_model.specular_within * scale);
+      right = right && close(out[(c + 1) * count + i], expected[c], subject.specular_within * scale);
     if (!right && ++wrong <= 3)
       UNSCOPED_INFO("texel " << in[i] << " " << specular[0] << " " << specular[1] << " " << specular[2]
                              << ": header " << out[i] << " " << out[count + i] << " " << out[2 * count + i]
@@ -262,15 +262,15 @@ void check_against_interpreter(const MadeModel& probed_model, const std::vector<
   CHECK(out.back() == static_cast<float>(outside));
 }
 
-// The headers of `probed_models`, their texels and headers.hpp, in a folder of its own.
+// The headers of `subjects`, their texels and headers.hpp, in a folder of its own.
 class Headers {
  public:
-  explicit Headers(const std::vector<ProbedModel>& probed_models) : subjects_(probed_models) {
+  explicit Headers(const std::vector<MadeModel>& made) : subjects_(made) {
     std::string includes, entries;
-    for (const ProbedModel& probed_model : subjects_) {
-      const std::string& id = probed_model.fit.id;
-      write_file(path(id + ".hpp"), remapc::emit_header(probed_model.fit, probed_model.options));
-      inputs_.push_back(texels(probed_model.fit));
+    for (const MadeModel& subject : subjects_) {
+      const std::string& id = subject.fit.id;
+      write_file(path(id + ".hpp"), remapc::emit_header(subject.fit, subject.options));
+      inputs_.push_back(texels(subject.fit));
       includes += "#include \"" + id + ".hpp\"\n";
       entries += " ENTRY(" + id + ")";
     }
@@ -303,7 +303,7 @@ class Headers {
 
  private:
   TemporaryFolder folder_;
-  std::vector<ProbedModel> subjects_;
+  std::vector<MadeModel> subjects_;
   std::vector<std::vector<float>> inputs_;
 };
 
@@ -317,17 +317,16 @@ TEST_CASE("generated header: agrees with the interpreter for every compiler and 
 
 // One build with and one without optimisation for each compiler.
 TEST_CASE("generated header: every kind, form and convention agrees with the interpreter", "[slow]") {
-  const Headers headers(probed_models());
+  const Headers headers(subjects());
   for (const Build& build : builds())
     if (build.flags == "-O0" || build.flags == "-O3 -march=x86-64-v3") headers.check(build);
 }
 
 // In other tests a header follows others, which may have included what it lacks.
 TEST_CASE("generated header: needs no other header before it", "[slow]") {
-  const Headers headers(probed_models());
+  const Headers headers(subjects());
   std::string files;
-  for (const ProbedModel& probed_model : probed_models())
-    files += " " + headers.path(probed_model.fit.id + ".hpp");
+  for (const MadeModel& subject : subjects()) files += " " + headers.path(subject.fit.id + ".hpp");
   for (const std::string& compiler : compilers()) {
     INFO(compiler);
     CHECK(succeeds(compiler + " -std=c++17 -fsyntax-only -x c++" + files));
@@ -382,9 +381,9 @@ TEST_CASE("generated header: compiles alone, twice, beside another and in two fi
   const TemporaryFolder folder;
   std::vector<Fit> all;
   std::string includes, tests;
-  for (const MadeModel& probed_model : probed_models()) {
-    const Fit& fit = all.emplace_back(probed_model.fit);
-    write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit, probed_model.options));
+  for (const MadeModel& subject : subjects()) {
+    const Fit& fit = all.emplace_back(subject.fit);
+    write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit, subject.options));
     includes += "#include \"" + fit.id + ".hpp\"\n#include \"" + fit.id + ".hpp\"\n";
     tests += "  passed = passed && remap::" + fit.id + "::self_test();\n";
   }

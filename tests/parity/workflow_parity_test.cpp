@@ -8,7 +8,6 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
-#include "system/files.hpp"
 #include "fit_file/fit_json.hpp"
 #include "support/campaign.hpp"
 #include "support/skip.hpp"

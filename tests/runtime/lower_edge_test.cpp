@@ -10,6 +10,7 @@
 #include "lower/lower.hpp"
 #include "lower/prove.hpp"
 #include "model/evaluate.hpp"
+#include "remap/error.hpp"
 #include "support/campaign.hpp"
 #include "support/exact_scalar.hpp"
 #include "support/random_models.hpp"

@@ -11,6 +11,7 @@
 #include "sets/set_session.hpp"
 #include "support/shared_data.hpp"
 #include "support/skip.hpp"
+#include "system/files.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;
