@@ -199,8 +199,8 @@ void require_free_name(const std::string& name) {
                                                        "out",    "from",   "to",    "row", "widths",
                                                        "detail", "golden", "passed"};
   if (std::find(kTaken.begin(), kTaken.end(), name) == kTaken.end()) return;
-  throw remap::Error(remap::ErrorKind::kInput, "emit: the specular parameter is called " + name +
-                                                   ", as a variable of the header; expected another");
+  throw remap::Error(remap::ErrorKind::kInput, "emit: the specular parameter " + name +
+                                                   " has the name of a variable of the header (rename it)");
 }
 
 std::string two_digits(double value) { return remap::number_text(remap::rounded_up(value, 2)); }
@@ -288,7 +288,7 @@ std::string golden_text(const std::vector<remap::GoldenTexel>& texels) {
 
 MappingCode exact_code(const remap::Chain& chain, const remap::Domain&) {
   throw remap::Error(remap::ErrorKind::kUsage, "emit: a chain of " + std::to_string(chain.steps.size()) +
-                                                   " steps has no exact form; expected --lower");
+                                                   " steps has no exact form (remove --exact)");
 }
 
 namespace {
@@ -347,9 +347,7 @@ std::string header_text(const Fit& fit, const MappingCode& code) {
 std::string literal(double value) { return float_literal(static_cast<float>(value)); }
 
 std::string double_literal(double value) {
-  if (!std::isfinite(value))
-    throw remap::Error(remap::ErrorKind::kNumeric,
-                       "emit: a number is not finite; expected finite numbers only");
+  if (!std::isfinite(value)) throw remap::Error(remap::ErrorKind::kNumeric, "emit: a number is not finite");
   const std::string text = remap::number_text(value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }

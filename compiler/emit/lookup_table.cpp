@@ -33,15 +33,15 @@ std::vector<double> even_steps(const remap::Range& range, std::size_t count) {
 void require_sizes(const LookupOptions& options, bool has_specular_axis) {
   const auto require = [](const std::string& name, std::size_t size) {
     if (size < 2 || size > kMostLookupRows)
-      throw Error(ErrorKind::kUsage, name + ": is " + std::to_string(size) + "; expected 2 to " +
-                                         std::to_string(kMostLookupRows) + " samples");
+      throw Error(ErrorKind::kUsage, name + ": " + std::to_string(size) + " samples are out of range (2 to " +
+                                         std::to_string(kMostLookupRows) + ")");
   };
   require("size", options.size);
   require("specular size", options.specular_size);
   if (has_specular_axis && options.size > kMostLookupRows / options.specular_size)
-    throw Error(ErrorKind::kUsage, "size: " + std::to_string(options.size) + " x " +
-                                       std::to_string(options.specular_size) + "; expected at most " +
-                                       std::to_string(kMostLookupRows) + " rows");
+    throw Error(ErrorKind::kUsage,
+                "size: " + std::to_string(options.size) + " x " + std::to_string(options.specular_size) +
+                    " rows are too many (at most " + std::to_string(kMostLookupRows) + ")");
 }
 
 // Both outputs at one sample of the source.
@@ -124,7 +124,7 @@ class Sampler {
       throw Error(ErrorKind::kNumeric, fit_.id + ": gives " + number_text(target_width) + " and " +
                                            number_text(out[0]) + " at " + table_.axes[0].name + " " +
                                            number_text(width) + ", specular " + number_text(specular) +
-                                           "; expected finite numbers");
+                                           " (not finite)");
     return {target_width, out[0]};
   }
 

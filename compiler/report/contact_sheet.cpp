@@ -6,10 +6,9 @@
 namespace remapc {
 
 Image contact_sheet(std::size_t rows, std::size_t columns, int side) {
-  constexpr float kBackground = 0.12f;
   Image sheet{static_cast<int>(columns) * side, static_cast<int>(rows) * side, 3, {}};
   sheet.values.assign(3 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height),
-                      kBackground);
+                      kSheetBackground);
   return sheet;
 }
 

@@ -8,6 +8,9 @@
 
 namespace remapc {
 
+// The display value of a sheet where it shows no picture.
+inline constexpr float kSheetBackground = 0.12f;
+
 // Returns a dark sheet of display values for `rows` x `columns` square pictures of `side` pixels.
 Image contact_sheet(std::size_t rows, std::size_t columns, int side);
 

@@ -93,7 +93,7 @@ class ChainedConverter final : public Converter {
                       std::uint8_t* outside) const override {
     if (specular.empty() || specular.size() > kMostChannels)
       throw Error(ErrorKind::kUsage, "converter: got " + std::to_string(specular.size()) +
-                                         " specular channels; expected 1 to 3");
+                                         " specular channels (1 to 3 are supported)");
     std::size_t outside_count = 0;
     std::array<std::uint8_t, kBlock> flags;
     for (std::size_t start = 0; start < count; start += kBlock) {

@@ -26,7 +26,7 @@ class InterpretedConverter final : public Converter {
     const std::size_t channels = specular.size();
     if (channels > in.size())
       throw Error(ErrorKind::kUsage,
-                  "converter: got " + std::to_string(channels) + " specular channels; expected 1 to 3");
+                  "converter: got " + std::to_string(channels) + " specular channels (1 to 3 are supported)");
     std::size_t outside_count = 0;
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t c = 0; c < channels; ++c) in[c] = static_cast<double>(specular[c][i]);

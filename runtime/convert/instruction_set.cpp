@@ -49,12 +49,13 @@ InstructionSet instruction_set_from_name(const std::string& place, const std::st
   std::vector<std::string> names;
   for (const InstructionSet set : kSets) names.emplace_back(instruction_set_name(set));
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw Error(ErrorKind::kUsage, place + ": is " + name + suggestion(name, names));
+  if (found == names.end())
+    throw Error(ErrorKind::kUsage,
+                place + ": unknown instruction set '" + name + "'" + suggestion(name, names));
   const InstructionSet set = kSets[static_cast<std::size_t>(found - names.begin())];
   if (set > best)
-    throw Error(ErrorKind::kUsage, place + ": is " + name +
-                                       ", which this processor does not have; expected " +
-                                       std::string(instruction_set_name(best)) + " or less");
+    throw Error(ErrorKind::kUsage, place + ": this processor does not support " + name + " (choose " +
+                                       std::string(instruction_set_name(best)) + " or less)");
   return set;
 }
 

@@ -20,10 +20,10 @@ void require_evaluable(const ConverterData& data) {
   };
   for (const PiecewisePolynomial* polynomial : {&data.alpha_polynomial, &data.specular_polynomial})
     if (polynomial->degrees.size() > kMostPowers)
-      refuse("the degree in specular is " + std::to_string(polynomial->degrees.size() - 1) + "; expected " +
-             std::to_string(kMostPowers - 1) + " at most");
+      refuse("the degree in specular is " + std::to_string(polynomial->degrees.size() - 1) + " (at most " +
+             std::to_string(kMostPowers - 1) + " is supported)");
   if (!(data.specular.min >= 0.0 && data.specular.max > 0.0 && data.roughness.min >= 0.0))
-    refuse("the domain is empty or negative; expected specular up to more than 0, and widths from 0");
+    refuse("the domain is empty or negative (specular must reach above 0, roughness must not be negative)");
 }
 
 Range decimal(const Range& range) {
@@ -71,7 +71,7 @@ class DataConverter final : public Converter {
                       std::uint8_t* outside) const override {
     if (specular.size() != 1 && specular.size() != 3)
       throw Error(ErrorKind::kUsage, "converter: got " + std::to_string(specular.size()) +
-                                         " specular channels; expected 1 or 3");
+                                         " specular channels (1 or 3 are supported)");
     TexelRows rows{count, specular.size(), roughness, {}, roughness_out, {}, outside};
     for (std::size_t c = 0; c < specular.size(); ++c) {
       rows.specular[c] = specular[c];

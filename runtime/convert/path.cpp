@@ -133,18 +133,18 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
   std::vector<std::size_t> nodes;
   const auto add = [&](const std::string& model, const char* role, std::vector<std::string> known) {
     if (!holds(models_, model))
-      throw Error(ErrorKind::kUsage, model + ": is no " + role + " of a converter" +
+      throw Error(ErrorKind::kUsage, std::string("unknown ") + role + " '" + model + "'" +
                                          suggestion(model, unique_names(std::move(known))));
     if (std::find(nodes.begin(), nodes.end(), node(model)) != nodes.end())
       throw Error(ErrorKind::kUsage,
                   model +
-                      ": would be visited twice, which makes the path a cycle; expected a source, a "
-                      "target and models between that differ");
+                      ": the path would visit this model twice (choose a source, a target and models "
+                      "between that differ)");
     nodes.push_back(node(model));
   };
-  add(request.source, "source", sources);
+  add(request.source, "source model", sources);
   for (const std::string& model : request.via) add(model, "model", models_);
-  add(request.target, "target", targets);
+  add(request.target, "target model", targets);
   return nodes;
 }
 
@@ -157,11 +157,11 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
     if (legs.empty()) {
       const std::vector<std::string> reached = reachable_from(from), reaching_it = reaching(to);
       throw Error(ErrorKind::kUsage,
-                  from + " to " + to + ": no converters lead there; " + from + " reaches " +
+                  from + " to " + to + ": no converters lead there (" + from + " reaches " +
                       (reached.empty() ? "nothing" : joined(reached, ", ")) +
                       (reached.empty() ? "" : ", of which " + closest_name(to, reached) + " is nearest") +
                       "; " + to + " is reached from " +
-                      (reaching_it.empty() ? "nothing" : joined(reaching_it, ", ")));
+                      (reaching_it.empty() ? "nothing" : joined(reaching_it, ", ")) + ")");
     }
     for (const std::size_t edge : legs.front()) walk.push_back(models_[graph_.edges[edge].to]);
   }
@@ -171,8 +171,7 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
         walk.begin() + static_cast<std::ptrdiff_t>(i))
       twice = walk[i];
   throw Error(ErrorKind::kUsage, joined(walk, " -> ") + ": visits " + twice +
-                                     " twice, as would every other path through these models; expected a "
-                                     "path without a cycle");
+                                     " twice, as every path through these models does (choose other models)");
 }
 
 ConverterGraph shipped_graph(InstructionSet set) {

@@ -106,8 +106,9 @@ const Converter& find_converter(const std::string& source_model, const std::stri
     const ConverterInfo& info = converter->info();
     if (info.source.model == source_model && info.target.model == target_model) return *converter;
   }
-  throw Error(ErrorKind::kUsage, source_model + " to " + target_model +
-                                     ": there is no converter; expected models that one converter joins");
+  throw Error(ErrorKind::kUsage,
+              source_model + " to " + target_model +
+                  ": no converter joins these two models directly (search for a path instead)");
 }
 
 }  // namespace remap

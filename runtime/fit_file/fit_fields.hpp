@@ -54,7 +54,7 @@ WarpMapFit read_warp_fit(const Field& root);
 
 // Throws kInput where the root of a file is not that of a fit of kFitFormatVersion.
 inline void require_fit_format(const Field& root) {
-  if (root["format"].text() != "remap-fit") root.fail("is no fit file; expected \"format\": \"remap-fit\"");
+  if (root["format"].text() != "remap-fit") root.fail("not a fit file (\"format\" must be \"remap-fit\")");
   const std::int64_t version = root["version"].count();
   if (version != kFitFormatVersion)
     root.fail("has format version " + std::to_string(version) + "; this program reads version " +

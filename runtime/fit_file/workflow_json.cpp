@@ -100,9 +100,8 @@ AnyFit load_any_fit(const std::filesystem::path& path) {
 const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& place) {
   if (const Fit* found = std::get_if<Fit>(&fit)) return *found;
   throw Error(kind, place +
-                        ": converts whole materials; expected a fit of width and "
-                        "specular (such fits can be listed, shown and emitted; their header converts "
-                        "materials)");
+                        ": converts whole materials, but this needs a fit of roughness and specular "
+                        "(fits of materials can be listed, shown and emitted)");
 }
 
 }  // namespace remap

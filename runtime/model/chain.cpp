@@ -39,8 +39,8 @@ void require_links(const std::vector<Fit>& steps) {
                                          side_text(steps[i - 1].target) + ", but " + steps[i].id + " takes " +
                                          side_text(steps[i].source));
     if (!visited.insert(steps[i].target.model).second)
-      throw Error(ErrorKind::kUsage, "chain: comes to " + steps[i].target.model + " twice, by " +
-                                         steps[i].id + "; expected every model once");
+      throw Error(ErrorKind::kUsage, "chain: " + steps[i].id + " leads to " + steps[i].target.model +
+                                         " a second time (remove a step)");
   }
 }
 
@@ -208,8 +208,8 @@ Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   chain.target = steps.back().target;
   chain.id = id.empty() ? converter_id(chain.source.model, chain.target.model) : id;
   if (!is_valid_id(chain.id))
-    throw Error(ErrorKind::kUsage, "chain: id \"" + chain.id +
-                                       "\"; expected a C++ identifier without leading or doubled underscore");
+    throw Error(ErrorKind::kUsage, "chain: invalid id '" + chain.id +
+                                       "' (use a C++ identifier without leading or doubled underscore)");
   chain.domain = chain_domain(steps);
   chain.mapping = Chain{taken_apart(steps)};
   carry_errors(steps, &chain);

@@ -60,8 +60,7 @@ double mean_residual(const WorkflowConversion& conversion, std::span<const Specu
     ++count;
   }
   if (count == 0)
-    throw Error(ErrorKind::kInput,
-                "F0 of a dielectric: no texel without NaN; expected some of every part of the map");
+    throw Error(ErrorKind::kInput, "dielectric F0: cannot be estimated from maps without a valid texel");
   return std::sqrt(sum / static_cast<double>(count));
 }
 

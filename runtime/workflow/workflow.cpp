@@ -53,16 +53,16 @@ void require_network(const LearnedNetwork& learned, const std::string& place) {
   if (inputs == kNetworkInputs && outputs == kNetworkOutputs && !learned.network.layers.empty()) return;
   throw Error(ErrorKind::kInput,
               place + ": a network of " + std::to_string(inputs) + " inputs and " + std::to_string(outputs) +
-                  " outputs; expected diffuse and specular (6) to base color and metallic (4)");
+                  " outputs (diffuse and specular are 6 inputs, base color and metallic 4 outputs)");
 }
 
 void require_width(RoughnessConvention width, const std::string& place) {
   if (width == RoughnessConvention::kRoughness || width == RoughnessConvention::kGlossiness ||
       width == RoughnessConvention::kAlpha)
     return;
-  throw Error(ErrorKind::kInput, place + ": a workflow whose width is " +
+  throw Error(ErrorKind::kInput, place + ": a workflow cannot hold its roughness as " +
                                      std::string(convention_name(width)) +
-                                     "; expected roughness, glossiness or alpha");
+                                     " (choose roughness, glossiness or alpha)");
 }
 
 std::string width_meaning(RoughnessConvention width) {
@@ -115,21 +115,22 @@ void require_valid(const WorkflowConversion& conversion, const std::string& plac
   require_width(conversion.metallic.width, place);
   const double f0 = conversion.metallic.dielectric_f0;
   if (!(f0 >= 0.0 && f0 <= kLargestDielectricF0))
-    throw Error(ErrorKind::kInput, place + ": F0 of a dielectric is " + number_text(f0) + "; expected 0 to " +
-                                       number_text(kLargestDielectricF0));
+    throw Error(ErrorKind::kInput, place + ": dielectric F0 " + number_text(f0) + " is out of range (0 to " +
+                                       number_text(kLargestDielectricF0) + ")");
   if (const auto* projection = std::get_if<Projection>(&conversion.formula);
       projection != nullptr && !(projection->prior >= 0.0 && projection->prior <= kLargestPrior))
-    throw Error(ErrorKind::kInput, place + ": a prior of " + number_text(projection->prior) +
-                                       "; expected 0 to " + number_text(kLargestPrior));
+    throw Error(ErrorKind::kInput, place + ": prior " + number_text(projection->prior) +
+                                       " is out of range (0 to " + number_text(kLargestPrior) + ")");
   if (const auto* learned = std::get_if<LearnedNetwork>(&conversion.formula))
     require_network(*learned, place);
   if (!std::holds_alternative<KhronosSolver>(conversion.formula)) return;
   const bool scaled = conversion.specular.diffuse == DiffuseConvention::kScaled &&
                       conversion.metallic.diffuse == DiffuseConvention::kScaled;
   if (!scaled || f0 == 0.0)
-    throw Error(ErrorKind::kInput, place +
-                                       ": Khronos' solver with plain diffuse or an F0 of 0; expected diffuse "
-                                       "scaled on both sides, for which it was published");
+    throw Error(ErrorKind::kInput,
+                place +
+                    ": Khronos' solver requires a dielectric F0 above 0 and scaled diffuse "
+                    "on both sides");
 }
 
 std::vector<MaterialParameter> source_parameters(const WorkflowConversion& conversion) {

@@ -67,7 +67,7 @@ TEST_CASE(
 TEST_CASE("remapc with analytic fits: a manifest whose conversion makes no sense is refused with the place") {
   const Session session;
   session.write("fits/manifest.json", manifest("khronos"));
-  check_failure(session.remapc(build_of(session)), 1, "analytic[0]: Khronos' solver with plain diffuse");
+  check_failure(session.remapc(build_of(session)), 1, "analytic[0]: Khronos' solver requires");
   session.write("fits/manifest.json", manifest("projection", "-1"));
   check_failure(session.remapc(build_of(session)), 1, "a prior of -1");
   session.write("fits/manifest.json", manifest("equation-2"));

@@ -102,7 +102,7 @@ TEST_CASE("texremap path: its help ends with an example, and models are required
 
 TEST_CASE("texremap path: a cycle is wrong usage, in path and in convert") {
   const Session session;
-  const std::string twice = ": would be visited twice, which makes the path a cycle";
+  const std::string twice = ": the path would visit this model twice";
   check_refused(session.texremap(path_words("mitsuba/ward", "mitsuba/ward")), "mitsuba/ward" + twice);
   check_refused(session.texremap(path_words("mitsuba/ward", "mitsuba/as", {"--via", "mitsuba/as"})),
                 "mitsuba/as" + twice);
@@ -122,7 +122,7 @@ TEST_CASE("texremap path: a missing link is named") {
   if (missing.source.empty()) return skip("separate-models", "a path joins all models that ship");
   const Session session;
   check_refused(session.texremap(path_words(missing.source, missing.target)),
-                missing.source + " to " + missing.target + ": no converters lead there; " + missing.source +
+                missing.source + " to " + missing.target + ": no converters lead there (" + missing.source +
                     " reaches ");
 }
 

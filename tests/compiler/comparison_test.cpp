@@ -233,5 +233,5 @@ TEST_CASE("baselines: formulas give the numbers of their sources, or the reason 
   CHECK(find(widths, "copy number").map(0.25, 0.5).alpha == Approx(0.5));
   // pbrt-v3: roughness 1 gives 1.62142.
   CHECK(find(widths, "pbrt-v3").map(1.0, 0.5).alpha == Approx(1.62142));
-  CHECK(find(widths, "FBX2glTF").why_not == "a/x has roughness, no exponent");
+  CHECK(find(widths, "FBX2glTF").why_not == "a/x has roughness, not an exponent");
 }

@@ -296,7 +296,7 @@ TEST_CASE("study environments: a model copied to itself gives equal pictures") {
   CHECK(mean_similarity(comparisons_of(result, Method::kNatural)).rmse < 1e-3);
   CHECK(result.noise > 0.0);
   CHECK(result.remarks == std::vector<std::string>{
-                              "mitsuba/ggx -> mitsuba/ggx has no fit, so nothing is said of it as shipped"});
+                              "mitsuba/ggx -> mitsuba/ggx has no fit, so `shipped` is not compared"});
 }
 
 TEST_CASE(

@@ -251,9 +251,11 @@ TEST_CASE("lookup: the table does not depend on the number of threads, and progr
 TEST_CASE("lookup: invalid sizes and fits are refused") {
   LookupOptions options = small();
   options.size = 1;
-  CHECK_THROWS_WITH(sample_fit(fit_of(kPaper), options), Catch::Contains("size: is 1; expected 2 to"));
+  CHECK_THROWS_WITH(sample_fit(fit_of(kPaper), options),
+                    Catch::Contains("size: 1 samples are out of range (2 to"));
   options.size = kMostLookupRows;
-  CHECK_THROWS_WITH(sample_fit(fit_of(kAffine), options), Catch::Contains("1048576 x 5; expected at most"));
+  CHECK_THROWS_WITH(sample_fit(fit_of(kAffine), options),
+                    Catch::Contains("1048576 x 5 rows are too many (at most"));
   Fit fit = fit_of(kPaper);
   fit.mapping = Parametric{{{-1.0}}, {{1, kSlope}}};
   fit.target.roughness = RoughnessConvention::kRoughness;  // the root of a negative alpha

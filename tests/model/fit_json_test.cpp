@@ -84,7 +84,7 @@ TEST_CASE("fit file: complaints name the file and the field") {
   const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
   CHECK_THROWS_WITH(read("{"), Catch::StartsWith("x.json: invalid JSON"));
   CHECK_THROWS_WITH(read("[]"), Catch::StartsWith("x.json: expected "));
-  CHECK_THROWS_WITH(read(replaced(json, "remap-fit", "other")), Catch::Contains("is no fit file"));
+  CHECK_THROWS_WITH(read(replaced(json, "remap-fit", "other")), Catch::Contains("not a fit file"));
   CHECK_THROWS_WITH(read(replaced(json, "\"version\": 3", "\"version\": 2")),
                     Catch::Contains("format version 2; this program reads version 3"));
   CHECK_THROWS_WITH(read(replaced(json, "\"seed\"", "\"sed\"")), "x.json.split: has no field \"seed\"");

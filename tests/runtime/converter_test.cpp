@@ -82,9 +82,10 @@ TEST_CASE("converter: compiled ones are sorted, tested and found by their models
 }
 
 TEST_CASE("converter: a pair that no converter joins is refused") {
-  CHECK_THROWS_WITH(find_converter("mitsuba/ward", "mitsuba/sa"),
-                    "mitsuba/ward to mitsuba/sa: there is no converter; expected models that one converter "
-                    "joins");
+  CHECK_THROWS_WITH(
+      find_converter("mitsuba/ward", "mitsuba/sa"),
+      "mitsuba/ward to mitsuba/sa: no converter joins these two models directly (search for a path "
+      "instead)");
 }
 
 TEST_CASE("converter: two specular channels are refused") {

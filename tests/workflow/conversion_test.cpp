@@ -250,7 +250,7 @@ TEST_CASE("conversions that make no sense are refused") {
   const auto refuses = [](const WorkflowConversion& conversion, const std::string& message) {
     CHECK_THROWS_WITH(require_valid(conversion, "x"), Catch::Contains(message));
   };
-  refuses(plain(kClean, 1.2), "expected 0 to 0.9");
+  refuses(plain(kClean, 1.2), "out of range (0 to 0.9");
   refuses(plain(Projection{-1.0}), "prior of -1");
   refuses(plain(KhronosSolver{}), "scaled on both sides");
   WorkflowConversion exponent = plain(kClean);

@@ -139,8 +139,8 @@ void add_workflows_study(remap::Command& study) {
   auto options = std::make_shared<WorkflowsCommand>();
   add_options(*command, *options);
   command->footer(
-      "Example:\n  remap-study workflows --environment forest.exr --environment studio.exr --materials "
-      "measured -o study");
+      "Example:\n  remap-study workflows --environment forest.exr --environment studio.exr \\\n"
+      "    --materials measured -o study");
   command->callback([options] { run(*options); });
 }
 

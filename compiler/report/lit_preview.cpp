@@ -1,0 +1,193 @@
+#include "report/lit_preview.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+
+#include "model/interpreter.hpp"
+#include "remap/error.hpp"
+#include "renderer/image_similarity.hpp"
+#include "report/contact_sheet.hpp"
+#include "report/displayed_sphere.hpp"
+#include "report/lit_sphere.hpp"
+#include "report/preview.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Error;
+using remap::ErrorKind;
+
+constexpr std::size_t kColumns = 3;  // source, copied, converted
+
+// Background on each side of a picture, pixels.
+int margin_of(const LitPreviewOptions& options) { return options.resolution / 20; }
+
+int cell_of(const LitPreviewOptions& options) { return options.resolution + 2 * margin_of(options); }
+
+// Linear radiance of one sphere and the share of each pixel that it covers, row by row.
+struct CoveredPicture {
+  std::vector<float> radiance;  // red, green, blue; mean over the covered part of the pixel
+  std::vector<float> coverage;  // 0 to 1
+};
+
+// Averages a picture of side * n pixels down to side. Channel c comes from the material `first + c`, or from
+// `first` where the specular is grey.
+CoveredPicture covered_picture(const SpherePictures& pictures, std::size_t first, std::size_t material_count,
+                               int side) {
+  const auto width = static_cast<std::size_t>(side), fine = static_cast<std::size_t>(pictures.resolution());
+  const std::size_t step = fine / width;
+  CoveredPicture picture{std::vector<float>(3 * width * width, 0.0f),
+                         std::vector<float>(width * width, 0.0f)};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::vector<float> radiance = pictures.radiance(first + std::min(c, material_count - 1), 0);
+    for (std::size_t i = 0; i < pictures.pixels().size(); ++i) {
+      const std::size_t place = pictures.pixels()[i];
+      const std::size_t pixel = place / fine / step * width + place % fine / step;
+      picture.radiance[3 * pixel + c] += radiance[3 * i + c];
+      if (c == 0) picture.coverage[pixel] += 1.0f;
+    }
+  }
+  for (std::size_t pixel = 0; pixel < picture.coverage.size(); ++pixel) {
+    for (std::size_t c = 0; c < 3; ++c)
+      picture.radiance[3 * pixel + c] /= std::max(picture.coverage[pixel], 1.0f);
+    picture.coverage[pixel] /= static_cast<float>(step * step);
+  }
+  return picture;
+}
+
+// Pixels that show the sphere at least in part.
+std::vector<std::uint32_t> covered_pixels(const CoveredPicture& picture) {
+  std::vector<std::uint32_t> pixels;
+  for (std::size_t i = 0; i < picture.coverage.size(); ++i)
+    if (picture.coverage[i] > 0.0f) pixels.push_back(static_cast<std::uint32_t>(i));
+  return pixels;
+}
+
+// The same pixels in a cell of the sheet.
+std::vector<std::uint32_t> in_cell(const LitPreviewOptions& options, std::vector<std::uint32_t> pixels) {
+  const auto side = static_cast<std::uint32_t>(options.resolution);
+  const auto margin = static_cast<std::uint32_t>(margin_of(options));
+  const auto cell = static_cast<std::uint32_t>(cell_of(options));
+  for (std::uint32_t& pixel : pixels) pixel = (pixel / side + margin) * cell + pixel % side + margin;
+  return pixels;
+}
+
+std::vector<float> chosen(const CoveredPicture& picture, const std::vector<std::uint32_t>& pixels) {
+  std::vector<float> radiance;
+  for (const std::uint32_t pixel : pixels)
+    for (std::size_t c = 0; c < 3; ++c) radiance.push_back(picture.radiance[3 * pixel + c]);
+  return radiance;
+}
+
+// Display values over the background of the sheet, so that the rim of the sphere is smooth.
+std::vector<float> over_background(const CoveredPicture& picture, const std::vector<std::uint32_t>& pixels,
+                                   std::vector<float> colors) {
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float share = picture.coverage[pixels[i]];
+      colors[3 * i + c] = share * colors[3 * i + c] + (1.0f - share) * kSheetBackground;
+    }
+  return colors;
+}
+
+LitPreviewOptions filled(LitPreviewOptions options, const remap::Domain& domain) {
+  if (options.alphas.empty()) options.alphas = preview_alphas(domain);
+  if (options.specular.empty()) options.specular = {0.5 * domain.specular.max};
+  return options;
+}
+
+void require_options(const LitPreviewOptions& options) {
+  if (options.specular.size() != 1 && options.specular.size() != 3)
+    throw Error(ErrorKind::kUsage, "--specular: " + std::to_string(options.specular.size()) +
+                                       " values given (use one value, or R,G,B)");
+  for (const double alpha : options.alphas)
+    if (!(alpha > 0.0 && alpha <= 1.0))
+      throw Error(ErrorKind::kUsage, "--alpha: " + remap::number_text(alpha) + " is outside 0 to 1");
+  if (!(options.diffuse >= 0.0 && options.diffuse <= 1.0))
+    throw Error(ErrorKind::kUsage,
+                "--diffuse: " + remap::number_text(options.diffuse) + " is outside 0 to 1");
+}
+
+// The materials of one figure: source, copied and converted, each with one material for each specular value.
+std::vector<SphereMaterial> materials_of(const remap::Fit& fit, const LitPreviewOptions& options,
+                                         const LitFigure& figure) {
+  const BrdfModel source = builtin_brdf(fit.source.model), target = builtin_brdf(fit.target.model);
+  std::vector<SphereMaterial> materials;
+  for (const double value : options.specular)
+    materials.push_back({source, figure.alpha, value, options.diffuse});
+  for (const double value : options.specular)
+    materials.push_back({target, figure.alpha, value, options.diffuse});
+  for (const double value : figure.target_specular)
+    materials.push_back({target, std::clamp(figure.target_alpha, 1e-4, 1.0), value, options.diffuse});
+  return materials;
+}
+
+LitFigure converted_figure(const remap::Fit& fit, const LitPreviewOptions& options, double alpha) {
+  LitFigure figure;
+  figure.alpha = alpha;
+  figure.target_specular.resize(options.specular.size());
+  const double own = remap::evaluate_texel(fit, remap::from_alpha(fit.source.roughness, alpha),
+                                           options.specular, figure.target_specular, &figure.in_domain);
+  figure.target_alpha = remap::to_alpha(fit.target.roughness, own);
+  return figure;
+}
+
+// Draws the three spheres of one alpha into a row of the sheet and compares them.
+void show_row(const SpherePictures& pictures, const LitPreviewOptions& options, std::size_t row,
+              LitPreview* preview) {
+  const std::size_t count = options.specular.size();
+  std::array<DisplayedSphere, kColumns> shown;
+  std::vector<std::uint32_t> pixels;
+  for (std::size_t column = 0; column < kColumns; ++column) {
+    const CoveredPicture picture = covered_picture(pictures, column * count, count, options.resolution);
+    pixels = covered_pixels(picture);
+    shown[column] = displayed_sphere(chosen(picture, pixels), pixels, options.resolution);
+    place_picture(&preview->sheet, cell_of(options), row, column, in_cell(options, pixels),
+                  over_background(picture, pixels, shown[column].colors));
+  }
+  const auto similarity = [&](const DisplayedSphere& other) {
+    return LitSimilarity{sphere_similarity(shown[0], other, pixels, options.resolution),
+                         rms_difference(shown[0].colors, other.colors)};
+  };
+  preview->figures[row].copied = similarity(shown[1]);
+  preview->figures[row].converted = similarity(shown[2]);
+}
+
+}  // namespace
+
+Environment environment_for_preview(const std::string& name_or_file, double exposure) {
+  if (!(exposure > 0.0))
+    throw Error(ErrorKind::kUsage, "--exposure: " + remap::number_text(exposure) + " is not above 0");
+  std::vector<Environment> known = builtin_environments();
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const Environment& e) { return e.name == name_or_file; });
+  if (found == known.end() && !std::filesystem::exists(name_or_file))
+    throw Error(ErrorKind::kUsage, "--environment: unknown environment '" + name_or_file + "' (choose " +
+                                       environment_names(known) + ", or name an EXR or HDR file)");
+  Environment environment = found == known.end() ? load_environment(name_or_file) : *found;
+  const double scale = exposure / mean_luminance(environment);
+  return exposed(std::move(environment), scale);
+}
+
+LitPreview make_lit_preview(const remap::Fit& fit, const Environment& environment,
+                            const LitPreviewOptions& wanted) {
+  const LitPreviewOptions options = filled(wanted, fit.domain);
+  require_options(options);
+  LitPreview preview{options.specular, {}, contact_sheet(options.alphas.size(), kColumns, cell_of(options))};
+  const RadiancePyramid pyramid(std::span(&environment, 1));
+  SphereSampling sampling;
+  sampling.resolution = options.resolution * options.samples_per_axis;
+  sampling.samples = options.directions;
+  for (const double alpha : options.alphas) {
+    preview.figures.push_back(converted_figure(fit, options, alpha));
+    const SpherePictures pictures =
+        render_spheres(pyramid, materials_of(fit, options, preview.figures.back()), sampling);
+    show_row(pictures, options, preview.figures.size() - 1, &preview);
+  }
+  return preview;
+}
+
+}  // namespace remapc

@@ -1,0 +1,40 @@
+# Labels for pictures. To be sourced after steps.bash.
+
+readonly label_font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
+
+# label_columns PICTURE OUTPUT LABEL...: a dark strip below the picture, with a label centered under each of as many columns as
+# there are labels. `|` in a label starts a second, smaller line.
+label_columns() {
+  local -r unlabelled=$1 labelled=$2
+  shift 2
+  local -r columns=$# strip=64
+  local width height column=0 label middle
+  read -r width height < <(oiiotool --info "$unlabelled" | sed -n 's/.*: *\([0-9]*\) x *\([0-9]*\),.*/\1 \2/p')
+  local -a words=(--create "${width}x$((height + strip))" 3 --fill:color=0.12,0.12,0.12 "${width}x$((height + strip))"
+    "$unlabelled" --swap --paste +0+0)
+  for label in "$@"; do
+    middle=$(((2 * column + 1) * width / (2 * columns)))
+    words+=("--text:x=$middle:y=$((height + 24)):size=20:xalign=center:color=0.95,0.95,0.95:font=$label_font" "${label%%|*}")
+    if [[ $label == *'|'* ]]; then
+      words+=("--text:x=$middle:y=$((height + 48)):size=15:xalign=center:color=0.7,0.7,0.7:font=$label_font" "${label#*|}")
+    fi
+    ((column += 1))
+  done
+  oiiotool "${words[@]}" -d uint8 -o "$labelled"
+}
+
+# percent_off FILE N: the Nth "rms" of a JSON report as a percentage.
+percent_off() { LC_ALL=C printf '%.0f %% off' "$(json_number "$1" rms "$2")e2"; }
+
+# lit_spheres OUTPUT SOURCE_LABEL TARGET_LABEL REMAPC FIT PREVIEW_OPTION...: source, numbers copied and numbers converted under an
+# environment, each with its label and how far it is from the source (RMS of display values).
+lit_spheres() {
+  local -r result=$1 source_label=$2 target_label=$3 program=$4
+  shift 4
+  local folder
+  folder=$(mktemp --directory)
+  "$program" preview "$@" --json -o "$folder/spheres.png" >"$folder/figures.json"
+  label_columns "$folder/spheres.png" "$result" "$source_label" "$target_label|numbers copied: $(percent_off "$folder/figures.json" 1)" \
+    "$target_label|numbers converted: $(percent_off "$folder/figures.json" 2)"
+  rm -r "$folder"
+}
