@@ -157,15 +157,15 @@ void check_images(const std::vector<AttributeImage>& images) {
 
 }  // namespace
 
-TEST_CASE("texremap attributes: an EXR keeps all attributes in every kind of storage") {
+TEST_CASE("texremap attributes: an EXR keeps all attributes in every kind of storage", "[slow]") {
   check_images(exr_storage_images());
 }
-TEST_CASE("texremap attributes: an EXR keeps all attributes with any windows, layers and parts") {
+TEST_CASE("texremap attributes: an EXR keeps all attributes with any windows, layers and parts", "[slow]") {
   check_images(exr_structure_images());
 }
-TEST_CASE("texremap attributes: a TIFF keeps all attributes") { check_images(tiff_images()); }
-TEST_CASE("texremap attributes: a PNG keeps all attributes") { check_images(png_images()); }
-TEST_CASE("texremap attributes: JPEG, Targa, BMP and Radiance files keep all attributes") {
+TEST_CASE("texremap attributes: a TIFF keeps all attributes", "[slow]") { check_images(tiff_images()); }
+TEST_CASE("texremap attributes: a PNG keeps all attributes", "[slow]") { check_images(png_images()); }
+TEST_CASE("texremap attributes: JPEG, Targa, BMP and Radiance files keep all attributes", "[slow]") {
   check_images(small_format_images());
 }
 

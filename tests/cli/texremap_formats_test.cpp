@@ -83,7 +83,7 @@ void check_same_kind(const OIIO::ImageSpec& in, const OIIO::ImageSpec& out) {
 
 }  // namespace
 
-TEST_CASE("texremap: every format keeps its storage and all unconverted channels") {
+TEST_CASE("texremap: every format keeps its storage and all unconverted channels", "[slow]") {
   for (const Case& format : cases()) {
     const Session session;
     const std::string r = "r." + format.extension, s = "s." + format.extension;
