@@ -19,9 +19,3 @@ endfunction()
 function(remap_unoptimised target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O0>)
 endfunction()
-
-# remap_optimised(TARGET): for a test program that computes for itself.
-function(remap_optimised target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O2>)
-  set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
-endfunction()

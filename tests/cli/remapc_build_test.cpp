@@ -255,7 +255,7 @@ TEST_CASE("remapc chain: composes one fit, and refuses steps that do not join") 
                 2, "no exact form");
   check_failure(chain({"mitsuba_ward_to_mitsuba_ward_duer", "a_b_to_mitsuba_ward"}), 1, "takes a/b");
   check_failure(chain({"mitsuba_ward_to_mitsuba_ward_duer", "mitsuba_ward_duer_to_mitsuba_ward"}), 2,
-                "twice");
+                "a second time");
   check_failure(chain({"a_b_to_mitsuba_wart", "mitsuba_ward_to_mitsuba_ward_duer"}), 2,
                 "a_b_to_mitsuba_ward?");
   check_failure(chain({"a_b_to_mitsuba_ward"}), 2, "at least 2");

@@ -89,7 +89,7 @@ TEST_CASE("remapc import: what cannot be read or written is named") {
   check_failure(import("alpha.model", "fits"), 1, "invalid JSON");
   check_failure(import("d.json", "alpha.model"), 1, "alpha.model: folder cannot be created");
   session.write("alpha.model", kModel + "1.5 1:0.25 \n");
-  check_failure(import("d.json", "fits"), 1, "alpha.model:9: the file ends after 1");
+  check_failure(import("d.json", "fits"), 1, "alpha.model:9: the file has 1 vectors, but total_sv is 2");
   fs::remove(session.path("specular.model"));
   session.write("alpha.model", kModel + "1.5 1:0.25 \n-1.4 1:0 \n");
   check_failure(import("d.json", "fits"), 1, "specular.model: cannot be read");

@@ -131,15 +131,15 @@ TEST_CASE("remapc compare: fits and the formulas of today stand side by side") {
   CHECK(result.output.find("mitsuba_ward_to_mitsuba_as (parametric") != std::string::npos);
   CHECK(result.output.find("fitted from this table, training rows included") != std::string::npos);
   CHECK(result.output.find("alpha and specular unchanged") != std::string::npos);
-  CHECK(result.output.find("FBX2glTF, Yocto, Blender OBJ, assimp, obj2gltf (mitsuba/ward has alpha, no "
-                           "exponent)") != std::string::npos);
+  CHECK(result.output.find("FBX2glTF, Yocto, Blender OBJ, assimp, obj2gltf (mitsuba/ward has alpha, not "
+                           "an exponent)") != std::string::npos);
   CHECK(result.output.find("at edge") == std::string::npos);  // a column without figures
 
   const ProcessResult json = session.remapc(
       {"compare", session.path("t.csv"), session.path("fits/mitsuba_ward_to_mitsuba_as.json"), "--json"});
   CHECK(json.output.find("\"fitted_from_this_table\": true") != std::string::npos);
   CHECK(json.output.find("\"name\": \"pbrt-v3\"") != std::string::npos);
-  CHECK(json.output.find("does not apply: mitsuba/ward has alpha, no roughness") != std::string::npos);
+  CHECK(json.output.find("does not apply: mitsuba/ward has alpha, not roughness") != std::string::npos);
 }
 
 TEST_CASE("remapc compare: a fit of other models, an unknown one, and a table without rows are named") {

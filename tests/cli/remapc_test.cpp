@@ -58,7 +58,7 @@ TEST_CASE("remapc: wrong usage is exit code 2 and names the nearest") {
                 2, "did you mean mitsuba/ward?");
   check_failure(session.remapc({"sweep", "--source", "mitsuba/ward", "--target", "nothing/like", "-o",
                                 session.path("t")}),
-                2, "known: mitsuba/ward, ");
+                2, "(choose mitsuba/ward, ");
   auto sweep = session.sweep("t.csv");
   sweep.insert(sweep.end(), {"--objective", "natura"});
   check_failure(session.remapc(sweep), 2, "did you mean natural?");
@@ -91,9 +91,9 @@ TEST_CASE("remapc check and fit: a table that cannot be fitted is exit code 1, a
   session.write("few.csv", "# source: a/b\n# target: c/d\n" + kHeader + "0.1,0.2,0.3,0.4,0,ok\n");
   const ProcessResult check = session.remapc({"check", session.path("few.csv")});
   check_failure(check, 1, "1 error prevents a fit");
-  CHECK(check.output.find("rows: has 1 usable rows") != std::string::npos);
+  CHECK(check.output.find("rows: 1 usable rows") != std::string::npos);
   check_failure(session.remapc({"fit", session.path("few.csv"), "-o", session.path("fits")}), 1,
-                "has 1 usable rows");
+                "1 usable rows");
   CHECK_FALSE(fs::exists(session.path("fits")));
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("remapc sweep: killed or interrupted it leaves nothing under the final
     arguments[8] = "400";
     arguments.insert(arguments.begin(), REMAPC_PROGRAM);
     Process process(arguments);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
     process.send(signal);
     const ProcessResult result = process.wait();
     CHECK((signal == SIGKILL ? result.signal == SIGKILL : result.exit_code == 1));
@@ -169,7 +169,7 @@ TEST_CASE("remapc emit: --check finds a changed, a missing and an orphaned heade
   check_failure(session.remapc(check), 1, "out of date (run `remapc emit --all`)");
   CHECK(session.remapc(check).output.find("differs from its fit") != std::string::npos);
   fs::remove(header);
-  CHECK(session.remapc(check).output.find("is missing") != std::string::npos);
+  CHECK(session.remapc(check).output.find(".hpp: missing") != std::string::npos);
   write_file(header, original);
   session.write("generated/old_to_gone.hpp", "");
   CHECK(session.remapc(check).output.find("old_to_gone.hpp: no fit of this name") != std::string::npos);

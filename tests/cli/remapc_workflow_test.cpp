@@ -69,7 +69,7 @@ TEST_CASE("remapc with analytic fits: a manifest whose conversion makes no sense
   session.write("fits/manifest.json", manifest("khronos"));
   check_failure(session.remapc(build_of(session)), 1, "analytic[0]: Khronos' solver requires");
   session.write("fits/manifest.json", manifest("projection", "-1"));
-  check_failure(session.remapc(build_of(session)), 1, "a prior of -1");
+  check_failure(session.remapc(build_of(session)), 1, "prior -1 is out of range");
   session.write("fits/manifest.json", manifest("equation-2"));
   check_failure(session.remapc(build_of(session)), 1, "expected \"specular\" on this side");
 }
@@ -121,5 +121,5 @@ TEST_CASE("remapc build of a network: samples, fit and header, and nothing when 
   CHECK(nlohmann::json::parse(session.remapc(build_of(session)).output)["built"].empty());
   session.write("fits/manifest.json", manifest("0.04"));
   check_failure(session.remapc(build_of(session)), 1,
-                "F0 of a dielectric is 0.03 in the samples; expected 0.04");
+                "dielectric F0 is 0.03 in the samples and 0.04 in the manifest");
 }

@@ -167,7 +167,7 @@ TEST_CASE("texremap inputs: sRGB color is converted as linear light and written 
   const ProcessResult result = convert(session, words);
   require_success(result);
   CHECK(nlohmann::json::parse(result.output)["specular_color_space"] == "srgb");
-  CHECK_THAT(result.errors, Contains("s.png: specular is read as color in sRGB"));
+  CHECK_THAT(result.errors, Contains("s.png: specular is read as sRGB color"));
   const TestImage r = read_image(session.path("r.png")), s = read_image(session.path("s.png")),
                   out = read_image(session.path("out/s." + format));
   CHECK(out.spec.get_string_attribute("oiio:ColorSpace", "Linear") == (format == "png" ? "sRGB" : "Linear"));
@@ -197,7 +197,7 @@ TEST_CASE("texremap inputs: invalid texels are kept, clamped, or an error") {
   const ProcessResult kept = convert(session, words);
   require_success(kept);
   CHECK(nlohmann::json::parse(kept.output)["first_bad"] == std::vector<int>{6, 4});
-  CHECK_THAT(kept.errors, Contains("1 texels with NaN; the first bad texel is (6, 4)"));
+  CHECK_THAT(kept.errors, Contains("1 texels with NaN; first bad texel: (6, 4)"));
   CHECK(std::isnan(read_image(session.path("out/s.exr")).at(6, 4, 1)));
 
   words.back() = "clamp";

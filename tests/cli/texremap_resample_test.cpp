@@ -60,7 +60,9 @@ TEST_CASE("texremap --resample: the smaller map is interpolated as OpenImageIO d
   REQUIRE(out.spec.height == large - 7);
   CHECK(out.spec.tile_width == small_spec.tile_width);
   CHECK(largest_difference(out, expected) < 2e-6f);  // both interpolate in single precision
-  CHECK(read_image(session.path("out/r.exr")).values == read_image(session.path("expected/r.exr")).values);
+  // Target alpha depends on specular, so it carries the same difference.
+  CHECK(largest_difference(read_image(session.path("out/r.exr")),
+                           read_image(session.path("expected/r.exr"))) < 2e-6f);
 }
 
 TEST_CASE("texremap --resample: bands of tall maps meet without a seam") {

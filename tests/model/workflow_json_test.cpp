@@ -40,11 +40,11 @@ TEST_CASE("analytic fit: a file that is wrong is refused with the place") {
   };
   refuses("\"projection\"", "\"guess\"", ".formula: expected equation-2, projection");
   refuses("\"prior\"", "\"prio\"", "has no field \"prior\"");
-  refuses("1e-05", "-1", "a prior of -1; expected 0");
+  refuses("1e-05", "-1", "prior -1 is out of range (0");
   refuses("0.05", "1.5", "dielectric F0 1.5 is out of range (0 to 0.9");
   refuses("\"scaled\"", "\"linear\"", "source.diffuse: expected plain or scaled, found \"linear\"");
   refuses("\"workflow\": \"specular\"", "\"workflow\": \"metallic\"", "expected \"specular\" on this side");
-  refuses("\"glossiness\"", "\"exponent\"", "expected roughness, glossiness or alpha");
+  refuses("\"glossiness\"", "\"exponent\"", "choose roughness, glossiness or alpha");
   refuses("\"a_to_b\"", "\"a to b\"", "expected a C++ identifier");
   refuses("\"version\": 3", "\"version\": 9", "format version 9");
 }

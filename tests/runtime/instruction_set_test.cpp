@@ -29,5 +29,5 @@ TEST_CASE("instruction set: one that the processor lacks, or that there is not, 
     return "";
   };
   CHECK(message("avx512") == "--instructions: this processor does not support avx512 (choose avx2 or less)");
-  CHECK(message("avx") == "--instructions: is avx (did you mean avx2?)");
+  CHECK(message("avx") == "--instructions: unknown instruction set 'avx' (did you mean avx2?)");
 }

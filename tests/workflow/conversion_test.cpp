@@ -251,11 +251,11 @@ TEST_CASE("conversions that make no sense are refused") {
     CHECK_THROWS_WITH(require_valid(conversion, "x"), Catch::Contains(message));
   };
   refuses(plain(kClean, 1.2), "out of range (0 to 0.9");
-  refuses(plain(Projection{-1.0}), "prior of -1");
-  refuses(plain(KhronosSolver{}), "scaled on both sides");
+  refuses(plain(Projection{-1.0}), "prior -1 is out of range");
+  refuses(plain(KhronosSolver{}), "scaled diffuse on both sides");
   WorkflowConversion exponent = plain(kClean);
   exponent.specular.width = RoughnessConvention::kExponent;
-  refuses(exponent, "expected roughness, glossiness or alpha");
+  refuses(exponent, "choose roughness, glossiness or alpha");
   CHECK_THROWS_WITH(to_specular(plain(kClean), {}), Catch::Contains("expected the other direction"));
   CHECK_THROWS_WITH(convert_workflow(plain(kClean), 0, {}, {}), Catch::Contains("expected 7"));
 }

@@ -89,5 +89,5 @@ TEST_CASE("F0 of a dielectric: found in 8-bit maps, and said to be uncertain in 
   CHECK(!estimate_dielectric_f0(plain(kClean), stored_family(plain(Equation2{}), 500, 1.0f)).is_certain);
   const auto scaled = stored_family(gltf(Equation2{}), 2000, 0.0f);
   CHECK(estimate_dielectric_f0(gltf(kClean), scaled).f0 == Approx(0.04).margin(1e-3));
-  CHECK_THROWS_WITH(estimate_dielectric_f0(plain(kClean), {}), Catch::Contains("expected some"));
+  CHECK_THROWS_WITH(estimate_dielectric_f0(plain(kClean), {}), Catch::Contains("without a valid texel"));
 }
