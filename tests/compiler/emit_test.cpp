@@ -58,7 +58,7 @@ TEST_CASE("emit: a coefficient that is not a finite float is refused") {
 TEST_CASE("emit: a parameter with the name of a variable of the header is refused") {
   remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
   fit.target.specular = "count";
-  CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("called count"));
+  CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("parameter count has the name"));
 }
 
 TEST_CASE("emit: the data of converters reads back exactly, in the order of their ids") {
