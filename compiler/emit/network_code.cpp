@@ -212,7 +212,8 @@ double error_of(const Network& network, const remap::Domain& domain) {
       }
       const bool bounded = !last && network.activation == Activation::kTanh;
       next_magnitude.push_back(bounded ? 1.0 : sum);
-      next_error.push_back(1.1 * (handed + kFloatUnit * static_cast<double>(layers[l].input_count + 1) * sum) +
+      next_error.push_back(1.1 *
+                               (handed + kFloatUnit * static_cast<double>(layers[l].input_count + 1) * sum) +
                            (last ? 0.0 : 5e-7 * next_magnitude.back()));
     }
     magnitude = next_magnitude;

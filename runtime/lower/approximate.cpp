@@ -1,9 +1,10 @@
-#include "lower/lowered_value.hpp"
 #include "lower/approximate.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "lower/lowered_value.hpp"
 
 namespace remap {
 namespace {

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "command_line/command.hpp"
-#include "texremap/converters_option.hpp"
 #include "convert/path.hpp"
 #include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
+#include "texremap/converters_option.hpp"
 #include "workflow/workflow_models.hpp"
 
 namespace remap {

@@ -9,7 +9,8 @@
 
 int main(int argc, char** argv) {
   remap::watch_interruptions();
-  remap::Command app("Convert texture maps from the parameters of one BRDF model to those of another.", "texremap");
+  remap::Command app("Convert texture maps from the parameters of one BRDF model to those of another.",
+                     "texremap");
   app.set_version_flag("--version", std::string("texremap ") + remap::kVersion);
   app.require_subcommand(1);
   remap::add_convert_command(app);

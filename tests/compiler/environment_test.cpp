@@ -15,7 +15,6 @@
 #include "renderer/scene.hpp"
 #include "report/lit_sphere.hpp"
 #include "study/environments_report.hpp"
-#include "report/lit_sphere.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
@@ -295,8 +294,8 @@ TEST_CASE("study environments: a model copied to itself gives equal pictures") {
   // A match finds alpha again to 2e-7.
   CHECK(mean_similarity(comparisons_of(result, Method::kNatural)).rmse < 1e-3);
   CHECK(result.noise > 0.0);
-  CHECK(result.remarks == std::vector<std::string>{
-                              "mitsuba/ggx -> mitsuba/ggx has no fit, so `shipped` is not compared"});
+  CHECK(result.remarks ==
+        std::vector<std::string>{"mitsuba/ggx -> mitsuba/ggx has no fit, so `shipped` is not compared"});
 }
 
 TEST_CASE(

@@ -1,5 +1,4 @@
 // Lowering random models: what a Lowered says of itself holds, or the refusal says what would.
-#include "lower/lowered_value.hpp"
 #include "lower/lower.hpp"
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "lower/lowered_value.hpp"
 #include "lower/prove.hpp"
 #include "model/evaluate.hpp"
 #include "model/interpreter.hpp"

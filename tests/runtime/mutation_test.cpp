@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
-#include "system/files.hpp"
 #include "support/campaign.hpp"
 #include "support/example_fit.hpp"
 #include "support/temporary_folder.hpp"

@@ -147,7 +147,8 @@ void add_environments_study(remap::Command& study) {
   auto options = std::make_shared<EnvironmentsCommand>();
   add_options(*command, *options);
   command->footer(
-      "Example:\n  remap-study environments --environment forest.exr --environment studio.exr \\\n    -o study");
+      "Example:\n  remap-study environments --environment forest.exr --environment studio.exr \\\n    -o "
+      "study");
   command->callback([options] { run(*options); });
 }
 
