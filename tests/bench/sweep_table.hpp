@@ -1,7 +1,6 @@
 // A table of the built-in renderer, as users sweep it: 30 x 30 samples, pictures of 512^2.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "sweep/sweep.hpp"
@@ -18,10 +17,7 @@ inline remapc::Table sweep_table(const std::string& objective, const std::string
   options.objective_name = objective;
   options.sampling = "bench";
   options.samples = remapc::grid_samples({0.01, 1.0}, 30, {0.0, 1.0}, 30);
-  const auto journal = std::filesystem::temp_directory_path() / "remap-bench.journal";
-  remapc::Table table = remapc::run_sweep(*renderer, options, {}, journal, false);
-  std::filesystem::remove(journal);
-  return table;
+  return remapc::run_sweep(*renderer, options, {});
 }
 
 }  // namespace remap_bench
