@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "convert/material_converter.hpp"
+#include "convert/workflow_converter.hpp"
 #include "texremap/convert_options.hpp"
 #include "texture/texture_set.hpp"
+#include "warp/warp_fit.hpp"
 
 namespace remap {
 

@@ -71,7 +71,7 @@ struct Scratch {
 
 class Conversion {
  public:
-  Conversion(const MaterialConverter& converter, const MapConversion& maps);
+  Conversion(const Converter& converter, const MapConversion& maps);
   MapStatistics convert_rows(std::size_t begin, std::size_t end) const;
 
  private:
@@ -96,21 +96,17 @@ class Conversion {
   }
   void convert_segment(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
 
-  const MaterialConverter& converter_;
+  const Converter& converter_;
   const MapConversion& maps_;
   std::vector<Parameter> sources_;  // of the converter, as far as the maps have them
-  bool is_material_;                // more than roughness and specular
 };
 
 std::size_t channel_count(const SourceParameter& parameter) {
   return parameter.channels.empty() ? parameter.constants.size() : parameter.channels.size();
 }
 
-Conversion::Conversion(const MaterialConverter& converter, const MapConversion& maps)
-    : converter_(converter),
-      maps_(maps),
-      sources_(converter.sources()),
-      is_material_(converter.sources().size() > 2) {
+Conversion::Conversion(const Converter& converter, const MapConversion& maps)
+    : converter_(converter), maps_(maps), sources_(converter.sources()) {
   for (const Parameter beside : {Parameter::kMetalMask, Parameter::kNearbyMetallic})
     if (maps.sources.count(beside) > 0) sources_.push_back(beside);
   require_fitting();
@@ -156,7 +152,7 @@ bool Conversion::is_made(Parameter parameter) const {
 
 // The largest valid value. Roughness and specular alone have no limit.
 float Conversion::highest(Parameter parameter) const {
-  return is_material_ && parameter != Parameter::kWidth ? 1.0f : kLargest;
+  return !converter_.is_of_brdf() && parameter != Parameter::kWidth ? 1.0f : kLargest;
 }
 
 void Conversion::load_channel(const SourceParameter& parameter, std::size_t channel, const Segment& segment,
@@ -389,10 +385,6 @@ ConstChannelView float_channel(const float* first, std::size_t width, std::size_
 }
 
 MapStatistics convert_maps(const Converter& converter, const MapConversion& maps, int thread_count) {
-  return convert_maps(*make_material_converter(converter), maps, thread_count);
-}
-
-MapStatistics convert_maps(const MaterialConverter& converter, const MapConversion& maps, int thread_count) {
   const Conversion conversion(converter, maps);
   const std::size_t parts = std::clamp<std::size_t>(static_cast<std::size_t>(std::max(thread_count, 1)), 1,
                                                     std::max<std::size_t>(maps.height, 1));

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "convert/material_converter.hpp"
+#include "convert/converter.hpp"
 #include "model/convention.hpp"
 #include "texture/channel_view.hpp"
 #include "texture/map_statistics.hpp"
@@ -68,12 +68,9 @@ struct MapConversion {
   std::size_t first_row = 0;         // position of row 0 in the whole map, for positions and dithering
 };
 
-// Converts every texel. The results equal those of MaterialConverter::convert for each texel, for any number
+// Converts every texel. The results equal those of Converter::convert for each texel, for any number
 // of threads. Throws kInput if the channels of a parameter other than a color differ and, with
 // BadTexels::kFail, for the first invalid texel; kUsage if channels do not match the converter.
-MapStatistics convert_maps(const MaterialConverter& converter, const MapConversion& maps,
-                           int thread_count = 1);
-// The same for roughness and specular alone.
 MapStatistics convert_maps(const Converter& converter, const MapConversion& maps, int thread_count = 1);
 
 // Copies a channel: bit for bit between equal pixel types, else as floats. Returns the number of values that

@@ -40,7 +40,7 @@ struct DoubtStatistics {
 };
 
 // The reliability of metallic over all covered texels without NaN. All members are 0 if they were not
-// requested or if the converter cannot diagnose (MaterialConverter::can_diagnose).
+// requested or if the converter cannot diagnose (Converter::can_diagnose).
 struct MetallicStatistics {
   std::size_t texel_count = 0;
   // Sum of squared residuals in units of 2^-40. The integer sum does not depend on the order.

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "convert/shipped_converters.hpp"
+#include "convert/workflow_converter.hpp"
 #include "remap/error.hpp"
 #include "support/example_fit.hpp"
 #include "support/temporary_folder.hpp"

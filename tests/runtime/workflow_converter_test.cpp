@@ -1,11 +1,12 @@
 // Whole materials between workflows, as a texture pass converts them.
+#include "convert/workflow_converter.hpp"
+
 #include <array>
 #include <random>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "convert/material_converter.hpp"
 #include "workflow/materials.hpp"
 
 using namespace remap;

@@ -1,6 +1,6 @@
 #include "warp/input/texture_material.hpp"
 
-#include "convert/material_converter.hpp"
+#include "convert/material_rows.hpp"
 #include "discovery/discovery.hpp"
 #include "remap/error.hpp"
 #include "texture/convert_maps.hpp"

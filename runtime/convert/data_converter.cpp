@@ -1,10 +1,10 @@
-// A converter that runs as data: its polynomials through the kernel of an instruction set.
+#include "convert/data_converter.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
-#include "convert/converter.hpp"
 #include "convert/lowered_kernel.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
@@ -66,18 +66,11 @@ class DataConverter final : public Converter {
              specular_.rows()};
   }
 
-  std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out,
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
                       std::uint8_t* outside) const override {
-    if (specular.size() != 1 && specular.size() != 3)
-      throw Error(ErrorKind::kUsage, "converter: got " + std::to_string(specular.size()) +
-                                         " specular channels (1 or 3 are supported)");
-    TexelRows rows{count, specular.size(), roughness, {}, roughness_out, {}, outside};
-    for (std::size_t c = 0; c < specular.size(); ++c) {
-      rows.specular[c] = specular[c];
-      rows.specular_out[c] = specular_out[c];
-    }
-    return kernel_(pass_, rows);
+    const auto& specular = in[Parameter::kSpecular];
+    return kernel_(pass_, {count, specular.count, in[Parameter::kWidth].row[0], specular.row,
+                           out[Parameter::kWidth].row[0], out[Parameter::kSpecular].row, outside});
   }
 
   bool self_test() const override { return gives_golden_texels() && agrees_with_baseline(); }
@@ -88,7 +81,7 @@ class DataConverter final : public Converter {
       float width = 0.0f, mapped = 0.0f;
       const std::array<const float*, 1> in = {&golden.specular};
       const std::array<float*, 1> out = {&mapped};
-      convert(1, &golden.width, in, &width, out, nullptr);
+      Converter::convert(1, &golden.width, in, &width, out, nullptr);
       if (!is_close(width, golden.width_out, golden.width_within) ||
           !is_close(mapped, golden.specular_out, golden.specular_within))
         return false;
