@@ -4,7 +4,7 @@
 #include <string>
 
 #include "emit/mapping_code.hpp"
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remapc {
 

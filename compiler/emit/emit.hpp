@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "converter_data/converter_data.hpp"
-#include "fit_file/any_fit.hpp"
 #include "lower/lower.hpp"
-#include "model/fit.hpp"
+#include "remap/any_fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remapc {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fit/rows/regression.hpp"
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remapc {
 

@@ -1,7 +1,7 @@
 // The file format of lookup tables.
 #include "emit/lookup_table.hpp"
 #include "fit/rows/split.hpp"
-#include "model/convention.hpp"
+#include "remap/convention.hpp"
 #include "remap/version.hpp"
 #include "text/number_text.hpp"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "workflow/workflow.hpp"
+#include "remap/workflow.hpp"
 
 namespace remapc {
 

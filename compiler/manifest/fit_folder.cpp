@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "fit_file/fit_json.hpp"
 #include "manifest/manifest.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remapc {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "fit_file/any_fit.hpp"
+#include "remap/any_fit.hpp"
 
 namespace remapc {
 

@@ -1,4 +1,4 @@
-#include "convert/chained_converter.hpp"
+#include "remap/chained_converter.hpp"
 
 #include <algorithm>
 #include <array>

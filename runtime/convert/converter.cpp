@@ -1,4 +1,4 @@
-#include "convert/converter.hpp"
+#include "remap/converter.hpp"
 
 #include <algorithm>
 #include <array>

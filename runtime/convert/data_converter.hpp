@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "convert/converter.hpp"
 #include "converter_data/converter_data.hpp"
 #include "lower/lowered.hpp"
+#include "remap/converter.hpp"
 
 namespace remap {
 

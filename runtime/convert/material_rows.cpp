@@ -1,4 +1,4 @@
-#include "convert/material_rows.hpp"
+#include "remap/material_rows.hpp"
 
 #include <algorithm>
 

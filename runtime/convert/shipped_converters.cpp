@@ -1,4 +1,4 @@
-#include "convert/shipped_converters.hpp"
+#include "remap/shipped_converters.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 
 #include "convert/data_converter.hpp"
 #include "convert/shipped_text.hpp"
-#include "fit_file/fit_json.hpp"
 #include "lower/lower.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "system/files.hpp"
 
 namespace remap {

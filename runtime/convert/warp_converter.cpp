@@ -1,4 +1,4 @@
-#include "convert/warp_converter.hpp"
+#include "remap/warp_converter.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "convert/warp_kernel.hpp"
-#include "convert/workflow_converter.hpp"
 #include "convert/workflow_kernel.hpp"
+#include "remap/workflow_converter.hpp"
 
 namespace remap {
 namespace {

@@ -1,4 +1,4 @@
-#include "convert/workflow_converter.hpp"
+#include "remap/workflow_converter.hpp"
 
 #include <algorithm>
 #include <array>

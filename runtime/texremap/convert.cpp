@@ -10,10 +10,10 @@
 
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
-#include "convert/chained_converter.hpp"
-#include "convert/warp_converter.hpp"
-#include "fit_file/fit_json.hpp"
+#include "remap/chained_converter.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
+#include "remap/warp_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/convert_options.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "command_line/resource_use.hpp"
-#include "convert/path.hpp"
+#include "remap/path.hpp"
 #include "texremap/conversion_jobs.hpp"
 #include "texture/material_survey.hpp"
 #include "texture/texture_pass.hpp"

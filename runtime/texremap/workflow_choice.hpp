@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "convert/workflow_converter.hpp"
+#include "remap/warp_fit.hpp"
+#include "remap/workflow_converter.hpp"
 #include "texremap/convert_options.hpp"
 #include "texture/texture_set.hpp"
-#include "warp/warp_fit.hpp"
 
 namespace remap {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "maps/channel_rows.hpp"
+#include "maps/metallic_field.hpp"
 #include "remap/error.hpp"
-#include "texture/channel_rows.hpp"
-#include "texture/metallic_field.hpp"
 
 namespace remap {
 namespace {

@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "convert/converter.hpp"
-#include "texture/convert_maps.hpp"
+#include "remap/convert_maps.hpp"
+#include "remap/converter.hpp"
 #include "texture/image_io.hpp"
 #include "texture/texture_set.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "bench/bench.hpp"
 #include "bench/builds.hpp"
-#include "convert/chained_converter.hpp"
+#include "remap/chained_converter.hpp"
 
 namespace remap_bench {
 namespace {

@@ -11,8 +11,8 @@
 #include "emit/emit.hpp"
 #include "emit/mapping_code.hpp"
 #include "fit/fit_table.hpp"
-#include "fit_file/fit_json.hpp"
 #include "model/chain.hpp"
+#include "remap/fit_file.hpp"
 #include "support/shared_data.hpp"
 #include "system/files.hpp"
 

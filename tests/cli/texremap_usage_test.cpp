@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "convert/shipped_converters.hpp"
-#include "fit_file/fit_json.hpp"
+#include "remap/fit_file.hpp"
+#include "remap/shipped_converters.hpp"
 #include "support/example_fit.hpp"
 
 using namespace remap;

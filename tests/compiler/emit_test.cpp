@@ -6,9 +6,9 @@
 #include <catch2/catch.hpp>
 
 #include "emit/text_template.hpp"
-#include "fit_file/fit_json.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "support/random_warp.hpp"
 #include "system/files.hpp"
 

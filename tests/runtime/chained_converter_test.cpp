@@ -1,5 +1,5 @@
 // Chains of converters against their steps one after another, and against the interpreter.
-#include "convert/chained_converter.hpp"
+#include "remap/chained_converter.hpp"
 
 #include <cmath>
 

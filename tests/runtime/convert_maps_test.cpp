@@ -1,5 +1,5 @@
 // The conversion of buffers in memory, compared with the converter applied to each texel.
-#include "texture/convert_maps.hpp"
+#include "remap/convert_maps.hpp"
 
 #include <cmath>
 #include <cstring>

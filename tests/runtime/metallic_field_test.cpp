@@ -1,5 +1,5 @@
 // The field for cases with a known answer: constants, ramps, holes.
-#include "texture/metallic_field.hpp"
+#include "maps/metallic_field.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Paths through graphs of converters that only say what they are: against every path there is, and refusals.
-#include "convert/path.hpp"
+#include "remap/path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
+#include "remap/shipped_converters.hpp"
 
 using namespace remap;
 using Names = std::vector<std::string>;

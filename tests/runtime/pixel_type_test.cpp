@@ -1,5 +1,5 @@
 // Pixel types, compared with Imath's half and with integer arithmetic.
-#include "texture/pixel_type.hpp"
+#include "remap/pixel_type.hpp"
 
 #include <Imath/half.h>
 #include <bit>

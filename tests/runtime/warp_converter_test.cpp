@@ -1,5 +1,5 @@
 // The pass of a compiled warp against the same warp in double precision, one texel at a time.
-#include "convert/warp_converter.hpp"
+#include "remap/warp_converter.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Whole materials between workflows, as a texture pass converts them.
-#include "convert/workflow_converter.hpp"
+#include "remap/workflow_converter.hpp"
 
 #include <array>
 #include <random>

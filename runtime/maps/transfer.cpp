@@ -1,4 +1,4 @@
-#include "texture/transfer.hpp"
+#include "remap/transfer.hpp"
 
 #include <algorithm>
 #include <cmath>

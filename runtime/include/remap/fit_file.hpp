@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "fit_file/any_fit.hpp"
-#include "model/fit.hpp"
+#include "remap/any_fit.hpp"
 #include "remap/error.hpp"
+#include "remap/fit.hpp"
 
 namespace remap {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "convert/converter.hpp"
+#include "remap/converter.hpp"
 
 namespace remap {
 

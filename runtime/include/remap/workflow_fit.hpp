@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "model/fit.hpp"
-#include "workflow/workflow.hpp"
+#include "remap/fit.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
 

@@ -1,4 +1,4 @@
-#include "texture/map_statistics.hpp"
+#include "remap/map_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>

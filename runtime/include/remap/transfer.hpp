@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/convention.hpp"
+#include "remap/convention.hpp"
 
 namespace remap {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <variant>
 
-#include "model/fit.hpp"
-#include "warp/warp_fit.hpp"
-#include "workflow/workflow_fit.hpp"
+#include "remap/fit.hpp"
+#include "remap/warp_fit.hpp"
+#include "remap/workflow_fit.hpp"
 
 namespace remap {
 

@@ -11,11 +11,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "convert/converter.hpp"
-#include "model/convention.hpp"
-#include "texture/channel_view.hpp"
-#include "texture/map_statistics.hpp"
-#include "texture/transfer.hpp"
+#include "remap/channel_view.hpp"
+#include "remap/convention.hpp"
+#include "remap/converter.hpp"
+#include "remap/map_statistics.hpp"
+#include "remap/transfer.hpp"
 
 namespace remap {
 

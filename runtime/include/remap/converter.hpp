@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "convert/instruction_set.hpp"
-#include "convert/material_rows.hpp"
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
+#include "remap/instruction_set.hpp"
+#include "remap/material_rows.hpp"
 
 namespace remap {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "texture/pixel_type.hpp"
+#include "remap/pixel_type.hpp"
 
 namespace remap {
 

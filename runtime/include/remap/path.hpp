@@ -3,13 +3,15 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "convert/converter.hpp"
-#include "convert/path_search.hpp"
+#include "remap/converter.hpp"
 
 namespace remap {
+
+struct DirectedGraph;
 
 // Taken as the image error of a converter that does not know its own, such as a published formula: a tenth of
 // the picture, between the 6 % of related models and the 30 % of lobes with and without long tails.
@@ -81,7 +83,7 @@ class ConverterGraph {
 
   std::vector<const Converter*> converters_;  // by id
   std::vector<std::string> models_;           // sorted
-  DirectedGraph graph_;                       // nodes as models_, edges as converters_, costs in 1e-9
+  std::shared_ptr<DirectedGraph> graph_;      // nodes as models_, edges as converters_, costs in 1e-9
 };
 
 // The graph of all shipped converters, without detours.

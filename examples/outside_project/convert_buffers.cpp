@@ -2,13 +2,12 @@
 // buffer holds specular (sRGB) and glossiness in its alpha channel, and is converted in place.
 #include <cstdint>
 #include <cstdio>
+#include <remap/chained_converter.hpp>
+#include <remap/convert_maps.hpp>
+#include <remap/error.hpp>
+#include <remap/path.hpp>
 #include <string>
 #include <vector>
-
-#include "convert/chained_converter.hpp"
-#include "convert/path.hpp"
-#include "remap/error.hpp"
-#include "texture/convert_maps.hpp"
 
 int main() try {
   constexpr std::size_t kWidth = 256, kHeight = 256;

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "workflow/workflow.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
 

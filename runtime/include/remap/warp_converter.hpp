@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "convert/converter.hpp"
-#include "warp/warp_fit.hpp"
-#include "workflow/workflow_models.hpp"
+#include "remap/converter.hpp"
+#include "remap/warp_fit.hpp"
+#include "remap/workflow_models.hpp"
 
 namespace remap {
 

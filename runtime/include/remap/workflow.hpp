@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "model/convention.hpp"
-#include "model/mapping.hpp"
+#include "remap/convention.hpp"
+#include "remap/mapping.hpp"
 
 namespace remap {
 

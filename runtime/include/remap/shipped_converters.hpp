@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "convert/converter.hpp"
+#include "remap/converter.hpp"
 
 namespace remap {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "warp/compiled_warp.hpp"
+#include "remap/compiled_warp.hpp"
 
 namespace remap {
 

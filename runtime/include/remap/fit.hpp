@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "model/convention.hpp"
-#include "model/mapping.hpp"
+#include "remap/convention.hpp"
+#include "remap/mapping.hpp"
 
 namespace remap {
 

@@ -1,4 +1,4 @@
-#include "texture/pixel_type.hpp"
+#include "remap/pixel_type.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -46,12 +46,12 @@ Stored from_float(float value) noexcept {
     return {float_to_half(value)};
   } else if constexpr (std::is_integral_v<Stored>) {
     // The product is exact in double, so the sum below rounds to nearest.
-    constexpr double kLargest = static_cast<double>(std::numeric_limits<Stored>::max());
+    constexpr double kHighest = static_cast<double>(std::numeric_limits<Stored>::max());
     constexpr double kLowest = std::is_signed_v<Stored> ? -1.0 : 0.0;
     double clipped = value == value ? static_cast<double>(value) : 0.0;
     clipped = clipped > kLowest ? clipped : kLowest;
     clipped = clipped < 1.0 ? clipped : 1.0;
-    const double scaled = clipped * kLargest;
+    const double scaled = clipped * kHighest;
     return static_cast<Stored>(scaled + (scaled < 0.0 ? -0.5 : 0.5));
   } else {
     return static_cast<Stored>(value);

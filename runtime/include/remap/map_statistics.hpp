@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "convert/material_rows.hpp"
+#include "remap/material_rows.hpp"
 
 namespace remap {
 

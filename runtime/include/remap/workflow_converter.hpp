@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "convert/converter.hpp"
-#include "workflow/workflow_models.hpp"
+#include "remap/converter.hpp"
+#include "remap/workflow_models.hpp"
 
 namespace remap {
 

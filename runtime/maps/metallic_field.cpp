@@ -1,9 +1,9 @@
-#include "texture/metallic_field.hpp"
+#include "maps/metallic_field.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "convert/material_rows.hpp"
+#include "remap/material_rows.hpp"
 
 namespace remap {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "texture/channel_view.hpp"
+#include "remap/channel_view.hpp"
 
 namespace remap {
 

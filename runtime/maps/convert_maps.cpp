@@ -1,4 +1,4 @@
-#include "texture/convert_maps.hpp"
+#include "remap/convert_maps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <memory>
 #include <span>
 
+#include "maps/channel_rows.hpp"
 #include "remap/error.hpp"
+#include "remap/map_statistics.hpp"
 #include "text/number_text.hpp"
-#include "texture/channel_rows.hpp"
-#include "texture/map_statistics.hpp"
 
 namespace remap {
 namespace {
