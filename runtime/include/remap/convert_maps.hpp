@@ -1,5 +1,5 @@
 // Converts maps in memory. texremap uses it for each band of its files; a program can call it on its own
-// buffers (examples/convert_buffers.cpp).
+// buffers (examples/outside_project/convert_buffers.cpp).
 #pragma once
 
 #include <array>
