@@ -1,4 +1,4 @@
-// The instruction sets that converters are built for, and which of them this processor has.
+// The instruction sets that converters are compiled for, and those of this processor.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace remap {
 
-// Each holds the ones before it. Elsewhere than on x86-64 there is the baseline only.
+// Each includes the ones before it. Other processors than x86-64 have the baseline only.
 enum class InstructionSet {
-  kBaseline,  // what the whole program is compiled for
+  kBaseline,  // that of the whole program
   kAvx2,
   kAvx512,  // F, VL, BW and DQ: Intel's servers since 2017, AMD's processors since 2022
 };
@@ -17,13 +17,14 @@ enum class InstructionSet {
 // `baseline`, `avx2`, `avx512`: the word on the command line and in JSON.
 std::string_view instruction_set_name(InstructionSet set);
 
-// The widest that this processor, its operating system and this build have.
+// The widest set that this processor, its operating system and this build support.
 InstructionSet best_instruction_set();
 
 // All up to `best`, from the baseline.
 std::vector<InstructionSet> instruction_sets(InstructionSet best = best_instruction_set());
 
-// The set of that name. Throws kUsage, as from `place`, where there is no such set or it is beyond `best`.
+// The set of that name. Throws kUsage, with `place` at the start of the message, if the name is unknown or
+// the set is beyond `best`.
 InstructionSet instruction_set_from_name(const std::string& place, const std::string& name,
                                          InstructionSet best = best_instruction_set());
 

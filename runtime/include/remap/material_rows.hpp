@@ -1,4 +1,4 @@
-// Materials as rows of planar floats: which parameters there are, and the rows of each.
+// The parameters of materials, and materials as rows of planar floats.
 #pragma once
 
 #include <array>
@@ -9,44 +9,44 @@
 
 namespace remap {
 
-// What maps say of a material, and what a conversion says of its result.
+// The parameters of materials, and measures of a conversion.
 enum class Parameter {
-  kWidth,      // of the highlight: roughness, glossiness, alpha or an exponent
+  kWidth,      // of the highlight: roughness, glossiness, alpha or a Phong exponent
   kSpecular,   // reflectance at normal incidence
   kDiffuse,    // of the specular workflow
   kBaseColor,  // of the metallic workflow
   kMetallic,
-  kMetalMask,       // source only: which of several metallic values that look alike is meant
-  kNearbyMetallic,  // source only: the metallic around a texel, taken where its own is a guess
-  kResidual,        // target only: what metallic cannot say of a texel (workflow/diagnosis.hpp)
-  kMetallicWidth,   // target only: share of [0, 1] in which metallic could lie
-  kDoubts,          // target only: a sum of Doubt, over 255: 8 bits hold it
+  kMetalMask,       // source only: chooses among metallic values that look alike
+  kNearbyMetallic,  // source only: metallic around a texel, used if its own is undetermined
+  kResidual,        // target only: the part of a texel that metal-rough cannot represent
+  kMetallicWidth,   // target only: the share of [0, 1] that metallic could take
+  kDoubts,          // target only: the sum of Doubt values, divided by 255, so that 8 bits hold it
 };
 inline constexpr std::size_t kParameterCount = 10;
 
-// Why the metallic material of a texel may not be the one that was meant; powers of two.
+// Reasons why the metallic material of a texel may differ from the intended one; powers of two.
 enum class Doubt {
-  kClamped = 1,     // a parameter beyond 0 to 1, or a base color that would have to be
-  kTwoAnswers = 2,  // metallic values apart from each other, none between them, look alike
-  kDark = 4,        // metallic is a guess, and diffuse and specular are too dark to tell
-  kGuess = 8,       // metallic is a guess: its width is above kGuessWidth
+  kClamped = 1,     // a parameter is outside [0, 1], or the base color would be
+  kTwoAnswers = 2,  // two separate metallic values look alike
+  kDark = 4,        // metallic is undetermined, because diffuse and specular are dark
+  kGuess = 8,       // metallic is undetermined: kMetallicWidth is above kGuessWidth
 };
-// Width of metallic above which it is a guess: maps that were authored in both workflows differ by 0.15 rms
-// there, by less than 0.01 below half of it.
+// The value of kMetallicWidth above which metallic is undetermined: maps authored in both workflows differ by
+// 0.15 RMS there, and by less than 0.01 below half of it.
 inline constexpr float kGuessWidth = 0.2f;
-// Diffuse and F0 below which a texel counts as dark, linear.
+// A texel is dark if diffuse and F0, linear, are below this value.
 inline constexpr float kDarkTexel = 0.06f;
 
 // `width`, `specular`, `diffuse`, `base_color`, `metallic`, `metal_mask`, `nearby_metallic`, `residual`,
 // `metallic_width`, `doubts`.
 std::string_view parameter_name(Parameter parameter);
-// `base_color`, as for files and messages; `roughness` for the width, whatever its parameter.
+// The name in files and messages: `base_color`; always `roughness` for the width.
 std::string plain_name(Parameter parameter);
 // `--base-color`; `--roughness` for the width.
 std::string parameter_option(Parameter parameter);
-// Whether it is said of the result, and no parameter of it: kResidual, kMetallicWidth, kDoubts.
+// Whether it measures the result: kResidual, kMetallicWidth, kDoubts.
 bool is_measure(Parameter parameter);
-// Whether it has three channels, or may have.
+// Whether it can have three channels.
 bool is_color(Parameter parameter);
 
 // The rows of one parameter: none, one, or one each for red, green and blue.
@@ -56,7 +56,7 @@ struct ParameterRows {
   std::size_t count = 0;
 };
 
-// Those of all parameters; `count` is 0 for what is not there.
+// The rows of all parameters; `count` is 0 for an absent one.
 template <typename Float>
 class MaterialRows {
  public:
