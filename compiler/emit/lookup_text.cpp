@@ -1,5 +1,7 @@
 // The file format of lookup tables.
+#include "emit/convention_text.hpp"
 #include "emit/lookup_table.hpp"
+#include "emit/text_template.hpp"
 #include "fit/rows/split.hpp"
 #include "model/convention.hpp"
 #include "remap/version.hpp"
@@ -11,14 +13,6 @@ namespace {
 using remap::number_text;
 
 constexpr int kFormatVersion = 1;
-
-// One text for each element, with commas between.
-template <typename List, typename Text>
-std::string joined(const List& list, const Text& text_of) {
-  std::string text;
-  for (const auto& element : list) text += (text.empty() ? "" : ",") + text_of(element);
-  return text;
-}
 
 class Head {
  public:
@@ -36,22 +30,7 @@ class Head {
 
 // What the widths of a table in alpha mean, where that is not the model's own parameter.
 void add_convention(Head& head, const std::string& column, remap::RoughnessConvention own) {
-  switch (own) {
-    case remap::RoughnessConvention::kAlpha:
-      break;
-    case remap::RoughnessConvention::kRoughness:
-      head.add(column, "roughness^2");
-      break;
-    case remap::RoughnessConvention::kExponent:
-      head.add(column, "sqrt(2 / (exponent + 2))");
-      break;
-    case remap::RoughnessConvention::kGlossiness:
-      head.add(column, "(1 - glossiness)^2");
-      break;
-    case remap::RoughnessConvention::kSquared:
-      head.add(column, "sqrt(squared)");
-      break;
-  }
+  if (own != remap::RoughnessConvention::kAlpha) head.add(column, convention_text(own).formula);
 }
 
 std::string name_of(const LookupAxis& axis) { return axis.name; }
@@ -95,18 +74,23 @@ std::string lookup_text(const remap::Fit& fit, const LookupTable& table) {
   head.add("source", fit.source);
   head.add("target", fit.target);
   if (!fit.table.sha256.empty()) head.add("fitted_table_sha256", fit.table.sha256);
-  head.add("axes", joined(table.axes, name));
+  head.add("axes", joined(table.axes, ",", name));
   head.add("size",
-           joined(table.axes, [](const LookupAxis& a) { return std::to_string(a.positions.size()); }));
-  head.add("domain_min", joined(table.axes, [](const auto& a) { return number_text(a.positions.front()); }));
-  head.add("domain_max", joined(table.axes, [](const auto& a) { return number_text(a.positions.back()); }));
-  head.add("columns", joined(table.columns, name));
+           joined(table.axes, ",", [](const LookupAxis& a) { return std::to_string(a.positions.size()); }));
+  head.add("domain_min",
+           joined(table.axes, ",", [](const auto& a) { return number_text(a.positions.front()); }));
+  head.add("domain_max",
+           joined(table.axes, ",", [](const auto& a) { return number_text(a.positions.back()); }));
+  head.add("columns", joined(table.columns, ",", name));
   add_reading(head, fit, table);
-  head.add("lookup_error_max", joined(table.columns, [](const auto& c) { return error_text(c.max_error); }));
-  head.add("lookup_error_rms", joined(table.columns, [](const auto& c) { return error_text(c.rms_error); }));
+  head.add("lookup_error_max",
+           joined(table.columns, ",", [](const auto& c) { return error_text(c.max_error); }));
+  head.add("lookup_error_rms",
+           joined(table.columns, ",", [](const auto& c) { return error_text(c.rms_error); }));
   head.add("lookup_error_samples", std::to_string(table.judged_count));
 
-  std::string text = head.text() + joined(table.axes, name) + "," + joined(table.columns, name) + "\n";
+  std::string text =
+      head.text() + joined(table.axes, ",", name) + "," + joined(table.columns, ",", name) + "\n";
   const std::size_t speculars = table.axes.size() == 2 ? table.axes[1].positions.size() : 1;
   for (std::size_t row = 0; row < table.columns[0].values.size(); ++row) {
     text += number_text(table.axes[0].positions[row / speculars]);
