@@ -132,8 +132,10 @@ void add_emit_command(remap::Command& app) {
   command->add_option("-o,--output", options->output, "Folder for the headers")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->add_flag("--check", options->check,
-                    "Write nothing; exit code 1 if a header is missing or differs from its fit");
+  command->add_flag(
+      "--check", options->check,
+      "Write nothing; exit code 1 if a header, or with --all converters.json, is missing or differs "
+      "from what the fits give");
   command->option_group(remap::kRareOptions);
   remap::Option* lower =
       command
