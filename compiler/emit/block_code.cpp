@@ -1,5 +1,5 @@
-// The domain rule as C++: the text of runtime/convert/code, which texremap runs over vectors of texels, with
-// what it is written over.
+// The domain rule as C++: the text of runtime/convert/code, which texremap also runs over vectors of texels,
+// with the definitions that this text needs.
 #include "emit/convention_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
@@ -7,7 +7,7 @@
 namespace remapc {
 namespace {
 
-// What the rule takes from this converter.
+// What the rule needs of one converter.
 constexpr std::string_view kMapping = R"(
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {

@@ -25,8 +25,6 @@ void require_free_name(const std::string& name) {
                                                    " has the name of a variable of the header (rename it)");
 }
 
-std::string two_digits(double value) { return number_text(remap::rounded_up(value, 2)); }
-
 std::string error_text(const std::string& name, const remap::ErrorFigures& figures) {
   return name + " rms " + two_digits(figures.rms) + ", 99 % " + two_digits(figures.p99) + ", max " +
          two_digits(figures.max);

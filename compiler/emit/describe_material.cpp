@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "emit/header_data.hpp"
-#include "text/number_text.hpp"
 #include "text/report_text.hpp"
 #include "workflow/conversion.hpp"
 
@@ -54,8 +53,7 @@ GoldenValues golden_values(const WorkflowConversion& conversion, const remap::Me
 
 std::string training_lines(const remap::NetworkTraining& training) {
   const auto text = [](const remap::ErrorFigures& figures) {
-    return "rms " + remap::number_text(remap::rounded_up(figures.rms, 2)) + ", max " +
-           remap::number_text(remap::rounded_up(figures.max, 2));
+    return "rms " + two_digits(figures.rms) + ", max " + two_digits(figures.max);
   };
   return "Table " + training.table.name + ", sha256 " + training.table.sha256 + "; seed " +
          std::to_string(training.split.seed) + ".\nError on unseen rows: base color " +
@@ -70,7 +68,7 @@ std::string provenance(const remap::WorkflowFit& fit) {
   return text;
 }
 
-// Texels of all kinds, the same on every machine: fractions of multiples of irrational numbers.
+// Texels over the whole range, the same on every machine: fractions of multiples of irrational numbers.
 WarpTexel candidate(std::size_t number) {
   constexpr std::array<double, remap::kWarpParameters> kSteps = {0.7548777, 0.5698403, 0.4301597, 0.8191725,
                                                                  0.6710436, 0.5497005, 0.4503046};
@@ -82,7 +80,8 @@ WarpTexel candidate(std::size_t number) {
   return texel;
 }
 
-// How far a texel is from where the nearest node changes, in nodes; what blends has no such places.
+// The distance of a texel, in nodes, to where the nearest node changes. Blended tables have no such
+// places: 1.
 double distance_to_tie(const remap::CompiledWarp& warp, const WarpTexel& texel) {
   double distance = 1.0;
   if (!std::holds_alternative<remap::CopiedNodes>(warp.table.entries)) return distance;

@@ -1,4 +1,5 @@
-// The three steps from a fit to its header: lowering (lower/lower.hpp), description (header_data.hpp), text.
+// The three steps from a fit to its header: lower() (lower/lower.hpp) gives polynomials with proven bounds,
+// describe() the data of the header (header_data.hpp), fill() its text.
 #include "emit/emit.hpp"
 
 #include <algorithm>

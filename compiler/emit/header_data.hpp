@@ -61,10 +61,10 @@ struct HeaderEnd {
   std::string workflow = {}, diffuse = {};  // of whole materials: `specular`, `plain`
 };
 
-// A texel and what the fit gives for it, a number a channel of every parameter.
+// A texel and what the fit gives for it: one number for each channel of each parameter.
 struct GoldenValues {
   std::vector<float> in, out;
-  std::vector<float> within;  // of each output; empty where the formula of a material decides
+  std::vector<float> within;  // error of each output that is allowed; empty: the template has one for all
 };
 
 struct HeaderData {
@@ -89,7 +89,8 @@ HeaderData describe(const remap::WarpMapFit& fit);
 // The text. Throws kNumeric where a number is not finite as a float.
 std::string fill(const HeaderData& data);
 
-// Parts of describe().
+// Parts of describe(). Errors are rounded up to two digits.
+std::string two_digits(double error);
 MappingData lowered_mapping(const remap::Lowered& lowered);
 MappingData exact_mapping(const remap::MappingKind& mapping, const remap::Domain& domain);
 

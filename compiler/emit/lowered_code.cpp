@@ -73,7 +73,7 @@ std::vector<std::string> factor_names(const PiecewisePolynomial& polynomial) {
   return names;
 }
 
-// Returns the sum over powers of specular, whose factors have these names.
+// Statements that return the sum over powers of specular, whose factors have these names.
 std::string sum_code(const PiecewisePolynomial& polynomial, const std::vector<std::string>& names) {
   if (names.size() == 1) return "return " + names[0] + ";\n";
   const bool moved = polynomial.middle != 0.0f;

@@ -14,11 +14,11 @@ enum class CodeForm {
   // `float target_alpha(float alpha)` and `float specular_slope(float alpha)`: a factor for every channel.
   kProportional,
   // `float target_alpha(float alpha, float specular)`; `struct Terms` of float[kBlock] rows, `alpha` among
-  // them, from which `void specular_terms(Count, Terms&)` makes the others, for any type of count; `float
+  // them, from which `void specular_terms(Count, Terms&)` computes the others, for any type of count; `float
   // target_specular(const Terms&, std::size_t i, float specular)`.
   kTerms,
   // `void target_alpha_rows(std::size_t count, const float* alpha, const float* specular, float* out)` and
-  // target_specular_rows of the same shape, count up to kBlock: for sums that are long.
+  // target_specular_rows of the same shape, count up to kBlock: for long sums.
   kRows,
 };
 
@@ -35,7 +35,7 @@ MappingCode mapping_code(const FittedGaussians& gaussians);
 MappingCode mapping_code(const remap::Mlp& mlp);
 
 // Functions of namespace detail: held_width(), channel_outside(), and convert_block(), which converts up to
-// kBlock texels by the functions of `code`; Mapping and Block, which it takes.
+// kBlock texels by the functions of `code`; also its parameter types Mapping and Block.
 std::string block_code(const ConverterHeader& header, const std::string& specular_name,
                        const MappingCode& code);
 
@@ -54,10 +54,10 @@ MaterialCode material_code(const WarpHeader& header);
 
 // `void NAME(std::size_t count, const float* const* in, float* const* out)`, count up to kBlock: rows of the
 // inputs of a network that is folded() to rows of its outputs. `network_helpers` come once before the
-// functions of one activation; `kBlock`, `bits` and `float_from_bits` are taken from around them.
+// functions of one activation. Both use `kBlock`, `bits` and `float_from_bits` of the header.
 std::string network_helpers(remap::Activation activation);
 std::string network_function(const std::string& name, const remap::Network& network);
-// A good kBlock for it.
+// The kBlock, up to 128, with which the rows of all layers fit the first-level cache.
 int network_block(const remap::Network& network);
 
 // Parts of the code of polynomials and curves.

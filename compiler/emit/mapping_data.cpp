@@ -1,4 +1,4 @@
-// How headers compute a mapping: the data of their code, and how far from the fit float arithmetic leaves it.
+// How headers compute a mapping: the data of their code, and a bound of its rounding errors.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,6 @@ constexpr double kFloatUnit = 6e-8, kDoubleUnit = 2.3e-16;
 
 std::string shape_text(const remap::LoweredFunction& function) {
   const remap::PiecewisePolynomial& polynomial = function.polynomial;
-  const auto digits = [](double value) { return remap::number_text(remap::rounded_up(value, 2)); };
   int degree = 0;
   for (const int d : polynomial.degrees) degree = std::max(degree, d);
   std::string text = "degree " + std::to_string(degree);
@@ -27,13 +26,13 @@ std::string shape_text(const remap::LoweredFunction& function) {
     text += " in alpha / (alpha + " + remap::number_text(remap::decimal_value(polynomial.pole)) + ")";
   if (polynomial.degrees.size() > 2)
     text += ", " + std::to_string(polynomial.degrees.size() - 1) + " in specular";
-  text += ", proven within " + digits(function.bound) + " (sampled " + digits(function.sampled) + ")";
+  text += ", proven within " + two_digits(function.bound) + " (sampled " + two_digits(function.sampled) + ")";
   if (function.rises_with_alpha) text += ", rising with alpha";
   if (function.rises_with_specular) text += ", rising with specular";
   return text;
 }
 
-// What float arithmetic leaves of Horner's rule (Higham 2002, section 5.1), literals rounded too.
+// The rounding error of Horner's rule in floats (Higham 2002, section 5.1), including that of the literals.
 double alpha_error(const remap::Parametric& form, const Domain& domain) {
   double error = 0.0;
   for (std::size_t j = 0; j < form.roughness.size(); ++j)
@@ -46,8 +45,9 @@ double alpha_error(const remap::Parametric& form, const Domain& domain) {
   return error;
 }
 
-// The same for curves: a rise is a series of eight terms, or 1 less an exponential of 2e-7, that is, within
-// ten roundings of what it is at most; four more for the sum of a curve, four for every power of specular.
+// The same for curves. A rise is a series of eight terms, or 1 minus an exponential with an error of 2e-7;
+// both are within ten roundings of its largest value. The sum of a curve adds four roundings, every power of
+// specular four more.
 double specular_error(const remap::Parametric& form, const Domain& domain) {
   const auto risen = [](double factor, double rate, double largest) {
     return std::fabs(factor) * (rate * largest <= kSeriesLimit ? 2.0 * largest : 1.0 / rate);
@@ -94,8 +94,9 @@ int squarings_of(const remap::KernelExpansion& expansion, const Domain& domain) 
   return squarings;
 }
 
-// What double precision leaves: 1e-13 of the weights for the exponential and the sum; what normalising the
-// inputs loses where a domain is narrow, by the steepest slope of a Gaussian, sqrt(2 gamma / e).
+// The rounding error in double precision: 4e-13 of the weights for the exponential and the sum, and the error
+// of the normalized inputs, which grows where a domain is narrow, times the steepest slope of a Gaussian,
+// sqrt(2 gamma / e).
 double error_of(const remap::KernelExpansion& expansion, const Domain& domain) {
   double weights = 0.0, moved = 0.0;
   for (const double weight : expansion.weights) weights += std::fabs(weight);
@@ -109,8 +110,8 @@ double error_of(const remap::KernelExpansion& expansion, const Domain& domain) {
          8.0 * kDoubleUnit * std::fabs(expansion.output.offset);
 }
 
-// A bound on what float arithmetic leaves of a folded network, first order: every unit errs by its terms'
-// roundings and hands on what it was given through its weights. Activations have slopes of at most 1.1.
+// A first-order bound of the rounding error of a folded network in floats: each unit adds the roundings of
+// its terms to the errors of its inputs times its weights. Activations have slopes of at most 1.1.
 double error_of(const Network& network, const Domain& domain) {
   std::vector<double> magnitude = {1.0, domain.specular.max}, error = {0.0, 0.0};
   magnitude[0] = network.inputs[0].pole == 0.0 ? domain.alpha.max : 1.0;
@@ -119,15 +120,15 @@ double error_of(const Network& network, const Domain& domain) {
     std::vector<double> next_magnitude, next_error;
     const bool last = &layer == &network.layers.back();
     for (std::size_t j = 0; j < layer.output_count(); ++j) {
-      double sum = std::fabs(layer.biases[j]), handed = 0.0;
+      double sum = std::fabs(layer.biases[j]), inherited = 0.0;
       for (std::size_t k = 0; k < layer.input_count; ++k) {
         const double weight = std::fabs(layer.weights[j * layer.input_count + k]);
         sum += weight * magnitude[k];
-        handed += weight * error[k];
+        inherited += weight * error[k];
       }
       const bool bounded = !last && network.activation == remap::Activation::kTanh;
       next_magnitude.push_back(bounded ? 1.0 : sum);
-      next_error.push_back(1.1 * (handed + kFloatUnit * static_cast<double>(layer.input_count + 1) * sum) +
+      next_error.push_back(1.1 * (inherited + kFloatUnit * static_cast<double>(layer.input_count + 1) * sum) +
                            (last ? 0.0 : 5e-7 * next_magnitude.back()));
     }
     magnitude = next_magnitude;
@@ -169,6 +170,8 @@ MappingData fitted(const remap::Chain& chain, const Domain&) {
 }
 
 }  // namespace
+
+std::string two_digits(double error) { return remap::number_text(remap::rounded_up(error, 2)); }
 
 MappingData lowered_mapping(const remap::Lowered& lowered) {
   return {lowered,

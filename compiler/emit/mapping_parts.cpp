@@ -13,29 +13,6 @@ inline float @name@(@parameters@) noexcept {
 }
 )";
 
-constexpr std::string_view kTerms = R"(
-@comment@
-struct Terms {
-  float alpha[kBlock], @rows@;
-};
-
-@table@
-template <class Count>
-inline void specular_terms(Count count, Terms& terms) noexcept {
-  const std::size_t size = count;
-  REMAP_INDEPENDENT_LOOP
-  for (std::size_t i = 0; i < size; ++i) {
-    @alpha@
-    @statements@
-    @store@
-  }
-}
-
-inline float target_specular(const Terms& terms, std::size_t i, @specular@) noexcept {
-  @sum@
-}
-)";
-
 }  // namespace
 
 std::string function_code(const FunctionParts& parts) {
@@ -49,14 +26,15 @@ std::string function_code(const FunctionParts& parts) {
 std::string terms_code(const TermsParts& parts) {
   const auto row = [](const std::string& name) { return name + "[kBlock]"; };
   const auto store = [](const std::string& name) { return "terms." + name + "[i] = " + name + ";\n"; };
-  return fill_template(kTerms, {{"comment", parts.comment},
-                                {"table", parts.table},
-                                {"rows", joined(parts.names, ", ", row)},
-                                {"alpha", parts.uses_alpha ? "const float alpha = terms.alpha[i];" : ""},
-                                {"statements", parts.statements},
-                                {"store", joined(parts.names, "", store)},
-                                {"specular", parts.uses_specular ? "float specular" : "float"},
-                                {"sum", parts.sum}});
+  return "\n" + fill_template(code_file("specular_terms"),
+                              {{"comment", parts.comment},
+                               {"table", parts.table},
+                               {"rows", joined(parts.names, ", ", row)},
+                               {"alpha", parts.uses_alpha ? "const float alpha = terms.alpha[i];" : ""},
+                               {"statements", parts.statements},
+                               {"store", joined(parts.names, "", store)},
+                               {"specular", parts.uses_specular ? "float specular" : "float"},
+                               {"sum", parts.sum}});
 }
 
 std::string horner_code(const std::vector<std::string>& coefficients, const std::string& result,

@@ -13,22 +13,7 @@ using remap::Network;
 constexpr std::size_t kCacheFloats = 6144;  // of rows: three quarters of a first-level cache of 32 KB
 constexpr std::size_t kUnitsAtOnce = 4;     // hidden units between two layers, `two_layers` in layers.in
 
-constexpr std::string_view kNetwork = R"(
-@tables@
-
-// Inputs are normalised in the first layer, outputs scaled back in the last.
-inline void @name@(std::size_t count, const float* const* in, float* const* out) noexcept {
-  float x0[@inputs@][kBlock];
-  for (std::size_t k = 0; k < @inputs@; ++k)
-    for (std::size_t i = 0; i < count; ++i) x0[k][i] = in[k][i];
-  @poles@
-  @layers@
-  for (std::size_t m = 0; m < @outputs@; ++m)
-    for (std::size_t i = 0; i < count; ++i) out[m][i] = @last@[m][i];
-}
-)";
-
-// The rows of both inputs behind the signature that the domain rule calls.
+// A network behind the signature that the domain rule calls.
 constexpr std::string_view kRowsWrapper = R"(
 inline void @name@(std::size_t count, const float* alpha, const float* specular, float* out) noexcept {
   const float* const in[] = {alpha, specular};
@@ -88,13 +73,13 @@ std::string network_function(const std::string& name, const Network& network) {
   for (std::size_t l = 0; l < network.layers.size(); ++l)
     tables += layer_table("k_" + name + "_" + std::to_string(l), network.layers[l]);
   const std::string calls = layer_calls(name, network.layers, &last);
-  return fill_template(kNetwork, {{"tables", tables},
-                                  {"name", name},
-                                  {"inputs", std::to_string(network.inputs.size())},
-                                  {"outputs", std::to_string(network.outputs.size())},
-                                  {"poles", poles},
-                                  {"layers", calls},
-                                  {"last", last}});
+  return "\n" + fill_template(code_file("network"), {{"tables", tables},
+                                                     {"name", name},
+                                                     {"inputs", std::to_string(network.inputs.size())},
+                                                     {"outputs", std::to_string(network.outputs.size())},
+                                                     {"poles", poles},
+                                                     {"layers", calls},
+                                                     {"last", last}});
 }
 
 int network_block(const Network& network) {

@@ -10,7 +10,7 @@ namespace {
 
 using remap::Parametric;
 
-// Past this an exponential is below the smallest float.
+// The exponential of minus a larger argument is below the smallest float.
 constexpr double kLargestArgument = 87.0;
 
 std::vector<std::string> literals(const std::vector<double>& values) {
@@ -108,7 +108,7 @@ std::string curves_code(const FittedCurves& curves) {
   return text;
 }
 
-// What the curves of all terms take.
+// What the statements of the curves use.
 struct Uses {
   bool alpha = false, square = false, exponential = false, smaller = false;
 };

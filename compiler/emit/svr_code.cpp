@@ -9,31 +9,6 @@ namespace {
 
 using remap::KernelExpansion;
 
-constexpr std::string_view kExpansion = R"(
-// Weight and vector of each Gaussian.
-@vectors@
-
-inline void @name@(std::size_t count, const float* alpha, const float* specular, float* out) noexcept {
-  double x[kBlock], y[kBlock], sum[kBlock];
-  for (std::size_t i = 0; i < count; ++i) {
-    const double a = static_cast<double>(alpha[i]), s = static_cast<double>(specular[i]);
-    x[i] = @x@;
-    y[i] = @y@;
-    sum[i] = @bias@;
-  }
-  for (const auto& gaussian : @table@) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const double dx = x[i] - gaussian[1], dy = y[i] - @vector_y@;
-      const double dx_2 = dx * dx, square = dy * dy + dx_2;
-      double value = exp_of_minus(square * @gamma@);
-      @squarings@
-      sum[i] = value * gaussian[0] + sum[i];
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<float>(sum[i] * @range@ + @offset@);
-}
-)";
-
 std::string normalized_text(const remap::Scaling& scaling, const std::string& value) {
   const std::string t =
       scaling.pole == 0.0 ? value : value + " / (" + value + " + " + double_literal(scaling.pole) + ")";
@@ -57,17 +32,18 @@ std::string rows_function(const std::string& name, const std::string& table, con
     squaring_text += "value = value * value;\n";
   }
   const bool two = width == 2;
-  return fill_template(kExpansion, {{"vectors", table_code("double", table, width + 1, vectors)},
-                                    {"table", table},
-                                    {"name", name},
-                                    {"x", normalized_text(expansion.inputs[0], "a")},
-                                    {"y", two ? normalized_text(expansion.inputs[1], "s") : "s * 0.0"},
-                                    {"vector_y", two ? "gaussian[2]" : "0.0"},
-                                    {"bias", double_literal(expansion.bias)},
-                                    {"gamma", double_literal(gamma)},
-                                    {"squarings", squaring_text},
-                                    {"range", double_literal(1.0 / expansion.output.scale)},
-                                    {"offset", double_literal(expansion.output.offset)}});
+  return "\n" + fill_template(code_file("gaussians"),
+                              {{"vectors", table_code("double", table, width + 1, vectors)},
+                               {"table", table},
+                               {"name", name},
+                               {"x", normalized_text(expansion.inputs[0], "a")},
+                               {"y", two ? normalized_text(expansion.inputs[1], "s") : "s * 0.0"},
+                               {"vector_y", two ? "gaussian[2]" : "0.0"},
+                               {"bias", double_literal(expansion.bias)},
+                               {"gamma", double_literal(gamma)},
+                               {"squarings", squaring_text},
+                               {"range", double_literal(1.0 / expansion.output.scale)},
+                               {"offset", double_literal(expansion.output.offset)}});
 }
 
 }  // namespace

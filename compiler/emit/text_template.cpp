@@ -52,7 +52,7 @@ std::string fill_line(std::string_view line, const std::map<std::string, std::st
     const bool alone = filled == indentation && end + 1 == line.size();
     vanishes = alone && value->second.empty();
     std::string_view text = value->second;
-    if (alone && text.ends_with('\n')) text.remove_suffix(1);  // the line brings its own end
+    if (alone && text.ends_with('\n')) text.remove_suffix(1);  // the line adds its own end
     filled += indented(text, indentation);
     line.remove_prefix(end + 1);
   }

@@ -1,5 +1,7 @@
 // Appearance warps as C++: the pass of runtime/warp/code with the numbers of the warp.
 #include <array>
+#include <span>
+#include <type_traits>
 
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
@@ -10,19 +12,16 @@ namespace {
 
 using remap::PackedWarp;
 
-std::string text_of(float value) { return remap::float_literal(value); }
-template <typename Whole>
-std::string text_of(Whole value) {
-  return std::to_string(value);
-}
-
 // `a,b,c`, as many a line as given; without spaces, since tables have a quarter of a million numbers.
 template <typename Numbers>
-std::string list_text(const Numbers& numbers, std::size_t count, std::size_t a_line) {
+std::string list_text(const Numbers& numbers, std::size_t a_line) {
   std::string text;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (i > 0) text += i % a_line == 0 ? ",\n" : ",";
-    text += text_of(numbers[i]);
+    if constexpr (std::is_same_v<typename Numbers::value_type, float>)
+      text += remap::float_literal(numbers[i]);
+    else
+      text += std::to_string(numbers[i]);
   }
   return text;
 }
@@ -30,14 +29,7 @@ std::string list_text(const Numbers& numbers, std::size_t count, std::size_t a_l
 template <typename Number>
 std::string array_text(const std::string& type, const std::string& name, const std::vector<Number>& numbers,
                        std::size_t a_line) {
-  return "inline constexpr " + type + " " + name + "[] = {\n" + list_text(numbers, numbers.size(), a_line) +
-         "};\n";
-}
-
-template <typename Numbers>
-std::string small_array_text(const std::string& name, const Numbers& numbers) {
-  return "inline constexpr float " + name + "[] = {" + list_text(numbers, numbers.size(), numbers.size()) +
-         "};\n";
+  return "inline constexpr " + type + " " + name + "[] = {\n" + list_text(numbers, a_line) + "};\n";
 }
 
 // What one kind of coordinates or of table adds to the header.
@@ -48,7 +40,7 @@ struct Part {
 
 std::string width_text(const PackedWarp& warp) {
   const std::array numbers = {warp.least_alpha, warp.largest_alpha, warp.width_start, warp.width_scale};
-  return "{" + list_text(numbers, 4, 4) + "}";
+  return "{" + list_text(numbers, 4) + "}";
 }
 
 Part part_of(const PackedWarp& warp, const remap::PackedSeparable& terms) {
@@ -65,11 +57,17 @@ Part part_of(const PackedWarp& warp, const remap::PackedQuadratic& terms) {
 }
 
 std::string grid_text(const PackedWarp& warp) {
-  return "{" + std::to_string(warp.nodes) + ", {" + list_text(warp.low, warp.dimension, 3) + "}, {" +
-         list_text(warp.scale, warp.dimension, 3) + "}}";
+  const auto used = [&](const auto& numbers) {
+    return list_text(std::span(numbers).first(warp.dimension), 3);
+  };
+  return "{" + std::to_string(warp.nodes) + ", {" + used(warp.low) + "}, {" + used(warp.scale) + "}}";
 }
 
-constexpr std::string_view kDecodedTable = R"(
+constexpr std::string_view kBlendedTable = R"(inline constexpr std::size_t kNodes = @count@;
+inline constexpr float kLeast[] = {@least@};
+inline constexpr float kLargest[] = {@largest@};
+@codes@
+
 // The codes as the pass reads them, decoded when they are first asked for.
 struct DecodedTable {
   DecodedTable() noexcept { decode_entries(kCodes, kNodes, kLeast, kLargest, entries); }
@@ -77,22 +75,34 @@ struct DecodedTable {
 };
 inline BlendedView<kDimension> table() noexcept {
   static const DecodedTable decoded;
-  return {)";
+  return {@grid@, decoded.entries};
+}
+)";
 
 Part part_of(const PackedWarp& warp, const remap::BlendedNodes& entries) {
-  return {"blended", "inline constexpr std::size_t kNodes = " +
-                         std::to_string(entries.codes.size() / remap::kWarpParameters) + ";\n" +
-                         small_array_text("kLeast", entries.least) +
-                         small_array_text("kLargest", entries.largest) +
-                         array_text("std::uint8_t", "kCodes", entries.codes, 32) +
-                         std::string(kDecodedTable) + grid_text(warp) + ", decoded.entries};\n}\n"};
+  const std::size_t count = entries.codes.size() / remap::kWarpParameters;
+  return {"blended",
+          fill_template(kBlendedTable, {{"count", std::to_string(count)},
+                                        {"least", list_text(entries.least, 7)},
+                                        {"largest", list_text(entries.largest, 7)},
+                                        {"codes", array_text("std::uint8_t", "kCodes", entries.codes, 32)},
+                                        {"grid", grid_text(warp)}})};
 }
 
+constexpr std::string_view kCopiedTable = R"(@palette@
+@indices@
+
+inline CopiedView<kDimension> table() noexcept {
+  return {@grid@, kIndices, kPalette};
+}
+)";
+
 Part part_of(const PackedWarp& warp, const remap::CopiedNodes& entries) {
-  return {"copied", array_text("float", "kPalette", std::get<remap::PackedCopied>(warp.table).palette, 7) +
-                        array_text("std::uint16_t", "kIndices", entries.indices, 20) +
-                        "\ninline CopiedView<kDimension> table() noexcept {\n  return {" + grid_text(warp) +
-                        ", kIndices, kPalette};\n}\n"};
+  const std::vector<float>& palette = std::get<remap::PackedCopied>(warp.table).palette;
+  return {"copied", fill_template(kCopiedTable,
+                                  {{"palette", array_text("float", "kPalette", palette, 7)},
+                                   {"indices", array_text("std::uint16_t", "kIndices", entries.indices, 20)},
+                                   {"grid", grid_text(warp)}})};
 }
 
 }  // namespace
