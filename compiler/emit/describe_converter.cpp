@@ -15,7 +15,7 @@ namespace {
 using remap::Fit;
 using remap::number_text;
 
-// Names of the template beside which a parameter's own name would not compile.
+// Refuses names of variables of the template: with such a parameter the header would not compile.
 void require_free_name(const std::string& name) {
   constexpr std::array<std::string_view, 13> kTaken = {"count",  "start",  "size",  "i",   "in",
                                                        "out",    "from",   "to",    "row", "widths",

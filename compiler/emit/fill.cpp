@@ -32,7 +32,7 @@ std::string row_members(const Parameters& parameters, const std::string& type) {
   });
 }
 
-// `prefix` and the member of every channel: &in.diffuse[0], &in.diffuse[1], ...
+// `prefix` and the member of each channel: &in.diffuse[0], &in.diffuse[1], ...
 std::string channels(const Parameters& parameters, const std::string& prefix) {
   return joined(parameters, ", ", [&](const MaterialParameter& parameter) {
     const std::string text = prefix + parameter.name;
@@ -46,7 +46,7 @@ std::string channel_count(const Parameters& parameters) {
   return std::to_string(count);
 }
 
-// A row of all texels for each channel.
+// One row for each channel, with the values of all texels.
 std::string golden_rows(const std::vector<GoldenValues>& golden, std::vector<float> GoldenValues::*part) {
   std::string text;
   for (std::size_t channel = 0; channel < (golden[0].*part).size(); ++channel) {
@@ -65,7 +65,7 @@ bool takes_roots(const ConverterHeader& header) {
          has_root(convention_text(header.target).from_alpha);
 }
 
-// What stands in the frame.
+// What a header has of its own within the frame.
 struct Body {
   std::vector<std::string> includes;
   std::string text;

@@ -31,7 +31,7 @@ struct FittedGaussians {
 struct MappingData {
   std::variant<remap::Lowered, FittedCurves, FittedGaussians, remap::Mlp> code;  // networks are folded()
   std::string description;  // how it is computed, and how exactly; up to two lines
-  // How far from the fit the header may be: target alpha, target specular within the domain.
+  // Bounds of the difference between header and fit: target alpha, target specular within the domain.
   double alpha_error = 1e-6, specular_error = 1e-6;
 };
 

@@ -159,7 +159,7 @@ class Sampler {
     return errors;
   }
 
-  // Grid cell and place in it.
+  // A grid cell, and a place in it from 0 to 1.
   struct Place {
     std::size_t i, j;
     double t, u;

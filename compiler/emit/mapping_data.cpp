@@ -13,7 +13,7 @@ using remap::Domain;
 using remap::Layer;
 using remap::Network;
 
-// Above the units roundoff of a float and of a double.
+// Slightly more than the unit roundoff of a float and of a double.
 constexpr double kFloatUnit = 6e-8, kDoubleUnit = 2.3e-16;
 
 std::string shape_text(const remap::LoweredFunction& function) {

@@ -1,4 +1,4 @@
-// Functions that the code of polynomials and of curves has in common.
+// Functions that the code of polynomials and the code of curves share.
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
 

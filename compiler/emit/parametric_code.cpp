@@ -1,5 +1,4 @@
 // The parametric kind as it was fitted: polynomials for the width, exponentials for the specular.
-#include <algorithm>
 #include <set>
 
 #include "emit/mapping_code.hpp"
@@ -37,7 +36,7 @@ struct Rise {
   bool is_series() const { return largest <= kSeriesLimit; }
 };
 
-// The ramp and the bump of a curve, without those that are 0.
+// The ramp and the bump of a curve, unless they are 0.
 std::vector<Rise> rises_of(const remap::AlphaCurve& curve, const std::string& name, double largest_alpha) {
   std::vector<Rise> rises = {
       {name + "_ramp", curve.ramp, curve.ramp_rate, "alpha", curve.ramp_rate * largest_alpha},
@@ -72,7 +71,7 @@ std::string curve_code(const remap::AlphaCurve& curve, const std::string& name, 
          joined(rises, "", [](const Rise& rise) { return " + " + rise.name; }) + pole + ";\n";
 }
 
-// Statements that return target alpha: rows of a polynomial in alpha, one a power of specular.
+// Statements that return target alpha: a polynomial in alpha for each power of specular.
 std::string alpha_statements(const Parametric& form) {
   std::string text;
   std::vector<std::string> names;

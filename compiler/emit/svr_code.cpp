@@ -1,6 +1,4 @@
 // Sums of Gaussians as fitted: loops over the vectors, in double precision, since large weights cancel.
-#include <algorithm>
-
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
 

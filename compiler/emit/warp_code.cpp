@@ -12,7 +12,7 @@ namespace {
 
 using remap::PackedWarp;
 
-// `a,b,c`, as many a line as given; without spaces, since tables have a quarter of a million numbers.
+// `a,b,c`, `a_line` numbers on each line; without spaces, since tables have a quarter of a million numbers.
 template <typename Numbers>
 std::string list_text(const Numbers& numbers, std::size_t a_line) {
   std::string text;
@@ -32,7 +32,7 @@ std::string array_text(const std::string& type, const std::string& name, const s
   return "inline constexpr " + type + " " + name + "[] = {\n" + list_text(numbers, a_line) + "};\n";
 }
 
-// What one kind of coordinates or of table adds to the header.
+// The file of code and the numbers of one kind of coordinates or of table.
 struct Part {
   std::string_view file;
   std::string numbers;

@@ -7,10 +7,10 @@
 namespace remapc {
 namespace {
 
-// Adds what a formula is made of.
+// The code of each formula.
 struct CodeOf {
   MaterialCode operator()(const remap::Equation2&) const {
-    // Products may be fused; towards metallic that is amplified.
+    // Compilers may fuse products; towards metallic the difference grows.
     return code(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "", "4e-6f");
   }
   MaterialCode operator()(const remap::Projection& projection) const {
