@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/remapc_session.hpp"
-#include "worker/fake_session.hpp"
+#include "compiler/worker/fake_session.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;

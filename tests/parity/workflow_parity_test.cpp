@@ -9,11 +9,11 @@
 
 #include "emit/emit.hpp"
 #include "fit_file/fit_json.hpp"
+#include "runtime/workflow/materials.hpp"
 #include "support/campaign.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
-#include "workflow/materials.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;
