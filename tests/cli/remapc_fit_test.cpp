@@ -14,7 +14,7 @@ TEST_CASE("remapc fit: a missing table is named with the reason") {
   check_failure(session.remapc({"fit", session.path("no.csv")}), 1, "no.csv: cannot be read: No such file");
 }
 
-TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it in the fit") {
+TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it in the fit", "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   const ProcessResult fitted =
@@ -42,7 +42,7 @@ TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it i
     CHECK(plot.find(word) != std::string::npos);
 }
 
-TEST_CASE("remapc fit: each kind of regression can be asked for, and a form") {
+TEST_CASE("remapc fit: each kind of regression can be asked for, and a form", "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   const auto fit = [&](std::vector<std::string> more) {
@@ -71,7 +71,7 @@ TEST_CASE("remapc fit: each kind of regression can be asked for, and a form") {
   check_failure(fit({"--activation", "step"}), 2, "--activation");
 }
 
-TEST_CASE("remapc fit: a plot that cannot be written is named before the work") {
+TEST_CASE("remapc fit: a plot that cannot be written is named before the work", "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   auto fit = session.fit("t.csv", "out");
@@ -87,7 +87,7 @@ TEST_CASE("remapc fit: a plot that cannot be written is named before the work") 
   CHECK_FALSE(fs::exists(session.path("out/mitsuba_ward_to_mitsuba_as.json")));
 }
 
-TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plotted") {
+TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plotted", "[slow]") {
   const Session session;
   session.write("exact.csv", made_table(12, 4));  // of the paper's form
   auto fit = session.fit("exact.csv");

@@ -52,7 +52,7 @@ void check_plot(const Session& session, const ProcessResult& result, const std::
 
 }  // namespace
 
-TEST_CASE("remap-study environments: writes tables and a summary") {
+TEST_CASE("remap-study environments: writes tables and a summary", "[needs]") {
   const Session session;
   // Only the first pair has a fit.
   const std::string fit = "mitsuba_ward_to_mitsuba_as.json";
@@ -105,7 +105,7 @@ TEST_CASE("remap-study environments: has help with an example") {
   CHECK(result.output.find("Example:\n  remap-study environments") != std::string::npos);
 }
 
-TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes") {
+TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes", "[needs]") {
   const Session session;
   const std::vector<std::string> small = {
       "workflows",    "--count", "2",      "--alphas",           "0.2,0.5",        "--samples", "64",
@@ -134,7 +134,7 @@ TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes")
                 "remap-study");
 }
 
-TEST_CASE("remap-study warp: figures as JSON, tables, a plot and sheets") {
+TEST_CASE("remap-study warp: figures as JSON, tables, a plot and sheets", "[needs]") {
   const Session session;
   const ProcessResult result = session.study({"warp", "--size", "32", "--stroke-sets", "1", "--material",
                                               "wood", "--json", "-o", session.path("study"), "--pictures"});

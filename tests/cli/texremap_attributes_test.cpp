@@ -187,7 +187,7 @@ TEST_CASE("texremap attributes: a mip-mapped texture keeps the attributes of its
   check_used(all, {"tif", "tx"});
 }
 
-TEST_CASE("texremap attributes: files of other programs keep all attributes that can be written") {
+TEST_CASE("texremap attributes: files of other programs keep all attributes that can be written", "[needs]") {
   const fs::path folder = shared_data("textures");
   if (folder.empty()) return;
   Comparison all = comparison(kForeignExceptions);

@@ -132,7 +132,7 @@ TEST_CASE("texremap: a missing last byte is noticed") {
   CHECK(session.convert(roughness, specular, {"--force"}, {size}).exit_code == 0);
 }
 
-TEST_CASE("texremap: a full disk is reported and keeps the old results") {
+TEST_CASE("texremap: a full disk is reported and keeps the old results", "[needs]") {
   const Session session;
   const SmallDisk disk(session.path("out"), "size=200k");
   if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
@@ -186,7 +186,8 @@ TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and 
   }
 }
 
-TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the others are complete") {
+TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the others are complete",
+          "[needs]") {
   const Tree tree;
   const SmallDisk disk(tree.path("out"), "size=100k");
   if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
@@ -216,7 +217,7 @@ TEST_CASE("texremap: a disk that is full from the start gets no file") {
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("texremap: an unwritable folder is named, and nothing is left in it") {
+TEST_CASE("texremap: an unwritable folder is named, and nothing is left in it", "[needs]") {
   const Tree tree;
   if (!permissions_hold(tree)) return;
   write_sets(tree, "png", kTreeMapSize);
@@ -234,7 +235,7 @@ TEST_CASE("texremap: an unwritable folder is named, and nothing is left in it") 
   fs::permissions(tree.path("out"), fs::perms::owner_all);
 }
 
-TEST_CASE("texremap: unreadable files and folders are named, and the others are converted") {
+TEST_CASE("texremap: unreadable files and folders are named, and the others are converted", "[needs]") {
   const Tree tree;
   if (!permissions_hold(tree)) return;
   write_sets(tree, "png", kTreeMapSize);

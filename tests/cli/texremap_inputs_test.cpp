@@ -64,7 +64,7 @@ TEST_CASE("texremap inputs: one channel of a packed map is converted, the others
           as_stored(converted_texel(in.at(x, 7, 1), {0.4f, 0.4f, 0.4f})[0], OIIO::TypeUInt8));
 }
 
-TEST_CASE("texremap inputs: the ORM map of BoomBox keeps occlusion and metallic") {
+TEST_CASE("texremap inputs: the ORM map of BoomBox keeps occlusion and metallic", "[needs]") {
   const fs::path map = shared_data("textures/BoomBox_occlusionRoughnessMetallic.png");
   if (map.empty()) return;
   const Session session;

@@ -187,7 +187,7 @@ RoundTrip round_trip(const Material& material, const std::vector<std::string>& m
 
 }  // namespace
 
-TEST_CASE("texremap round trips: BoomBox and a chess king return from the specular workflow") {
+TEST_CASE("texremap round trips: BoomBox and a chess king return from the specular workflow", "[needs]") {
   const fs::path folder = shared_data("textures");
   if (folder.empty()) return;
   const auto file = [&](const char* name) { return (folder / name).string(); };

@@ -161,7 +161,7 @@ TEST_CASE("texremap tree: the tiles of a set are one set") {
   CHECK(fs::exists(tree.path("missing/hero_Specular.1002.exr")));
 }
 
-TEST_CASE("texremap tree: six tiles of a real UDIM set") {
+TEST_CASE("texremap tree: six tiles of a real UDIM set", "[needs]") {
   const fs::path tiles = shared_data("textures/grid_udim");
   if (tiles.empty()) return;
   const Tree tree;

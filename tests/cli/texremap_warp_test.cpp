@@ -36,7 +36,7 @@ struct WarpSession : Session {
 
 }  // namespace
 
-TEST_CASE("texremap warps: every texel of a folder equals the warp") {
+TEST_CASE("texremap warps: every texel of a folder equals the warp", "[needs]") {
   const WarpSession session;
   const std::string set = GENERATE("baseline", "avx2");
   if (set == "avx2" && !has_avx2()) return;

@@ -104,7 +104,8 @@ TEST_CASE("texremap workflows: metallic to specular is equation (2)") {
     }
 }
 
-TEST_CASE("texremap workflows: specular to metallic has the bits of the library, on any number of threads") {
+TEST_CASE("texremap workflows: specular to metallic has the bits of the library, on any number of threads",
+          "[needs]") {
   const Session session;
   write_specular(session);
   const std::string threads = GENERATE("1", "3");

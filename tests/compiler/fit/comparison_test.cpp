@@ -8,7 +8,6 @@
 #include "fit/baselines.hpp"
 #include "fit/edge.hpp"
 #include "fit/fit_table.hpp"
-#include "fit/rows/folds.hpp"
 #include "fit_file/fit_json.hpp"
 #include "remap/error.hpp"
 
@@ -96,7 +95,7 @@ TEST_CASE("comparison: an excluded candidate is neither chosen nor a reference")
   CHECK(choice({candidate(9, 1e-3, 1e-3)}, {false}) == 1);
 }
 
-TEST_CASE("comparison: auto chooses the form of the paper for a table made from it") {
+TEST_CASE("comparison: auto chooses the form of the paper for a table made from it", "[slow]") {
   const remap::Fit fit = fit_of(table_of(paper_surface), quick_options());
   REQUIRE(fit.method.count("form") == 1);
   CHECK(fit.method.at("form") == "paper");
@@ -107,13 +106,13 @@ TEST_CASE("comparison: auto chooses the form of the paper for a table made from 
   for (const Candidate& one : fit.candidates) CHECK(one.edge_alpha_rms > 0.0);
 }
 
-TEST_CASE("comparison: auto chooses a richer form if the table needs it") {
+TEST_CASE("comparison: auto chooses a richer form if the table needs it", "[slow]") {
   const remap::Fit fit = fit_of(table_of(bumpy_surface, 18, 8), quick_options());
   CHECK(remap::kind_name(fit.mapping) != "parametric");
   CHECK(fit.specular_error.rms < 4e-3);  // the bump is 0.03 high
 }
 
-TEST_CASE("comparison: the same seed gives the same bytes for any number of jobs") {
+TEST_CASE("comparison: the same seed gives the same bytes for any number of jobs", "[slow]") {
   const Table table = table_of(bumpy_surface, 12, 5);
   const std::string one = fit_to_json(fit_of(table, quick_options(1)));
   CHECK(one == fit_to_json(fit_of(table, quick_options(2))));
@@ -132,7 +131,7 @@ TEST_CASE("comparison: an interruption ends it") {
                     "enough");
 }
 
-TEST_CASE("comparison: tables with one specular, with duplicates and with outliers are fitted") {
+TEST_CASE("comparison: tables with one specular, with duplicates and with outliers are fitted", "[slow]") {
   // With one specular value, regressors of two inputs are underdetermined.
   const Table flat = table_of(paper_surface, 20, 1);
   const remap::Fit of_flat = fit_of(flat, quick_options());
@@ -189,22 +188,6 @@ TEST_CASE("edge: chroma shifts by the closed form, and faults are reported") {
   const Parametric negative{{{1.0}},
                             {{1, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}}, {2, {-0.8, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
   CHECK(look_beyond(negative, domain).fault.find("specular1 1.5") != std::string::npos);
-}
-
-TEST_CASE("folds: equal rows share a fold, folds are even, draws depend on the seed only") {
-  Table table = table_of(paper_surface, 10, 5);
-  const std::vector<TableRow> once = table.rows;
-  table.rows.insert(table.rows.end(), once.begin(), once.end());
-  const auto folds = draw_folds(table.rows, 5, 7);
-  std::array<int, 5> sizes{};
-  for (std::size_t i = 0; i < once.size(); ++i) {
-    CHECK(folds[i] == folds[i + once.size()]);
-    ++sizes[folds[i]];
-  }
-  for (const int size : sizes) CHECK(size == 10);
-  CHECK(folds == draw_folds(table.rows, 5, 7));
-  CHECK(folds != draw_folds(table.rows, 5, 8));
-  CHECK(draw_rows(table.rows, 30, 1).size() == 30);
 }
 
 TEST_CASE("baselines: formulas give the numbers of their sources, or the reason why they do not apply") {

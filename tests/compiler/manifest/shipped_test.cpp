@@ -107,7 +107,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("shipped: inside its domain a converter gives valid parameters of the target, and rises") {
+TEST_CASE("shipped: inside its domain a converter gives valid parameters of the target, and rises",
+          "[slow]") {
   for (const remap::Fit& fit : shipped()) {
     INFO(fit.id);
     const double specular_slack = fit.has_errors() ? 2.0 * fit.specular_error.max + 1e-3 : 1e-3;
@@ -126,7 +127,7 @@ TEST_CASE("shipped: inside its domain a converter gives valid parameters of the 
   }
 }
 
-TEST_CASE("shipped: chains agree with their steps") {
+TEST_CASE("shipped: chains agree with their steps", "[slow]") {
   for (const remap::Fit& fit : shipped()) {
     if (!std::holds_alternative<remap::Chain>(fit.mapping)) continue;
     INFO(fit.id);

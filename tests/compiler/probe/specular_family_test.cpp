@@ -140,7 +140,7 @@ TEST_CASE("polynomial: a parabola has its minimum at the vertex or the nearer en
   CHECK(polynomial_minima({0.0, 0.0, -1.0}, {-1.0, 2.0}).front().value == -4.0);
 }
 
-TEST_CASE("family: a few pictures give all others of a model without a law") {
+TEST_CASE("family: a few pictures give all others of a model without a law", "[slow]") {
   // Two pictures whatever the law of their weights, one where only the strength changes.
   const BlendRenderer blend = quadratic_blend();
   const auto quadratic = family_of(blend, "disguised/blend");
@@ -170,7 +170,8 @@ TEST_CASE("family: a law that bends sharply has no family") {
   CHECK_FALSE(family_of(stairs, "disguised/law"));
 }
 
-TEST_CASE("sweep: a target that is quadratic in specular is matched as direct renders show it, everywhere") {
+TEST_CASE("sweep: a target that is quadratic in specular is matched as direct renders show it, everywhere",
+          "[slow]") {
   const BlendRenderer renderer = quadratic_blend();
   const std::vector<SamplePoint> samples = {{0.12, 0.3}, {0.3, 0.05}, {0.3, 0.6}, {0.5, 0.9}};
   for (const std::string objective : {"natural", "paper"}) {

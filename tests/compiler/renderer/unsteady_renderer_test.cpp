@@ -97,7 +97,7 @@ TEST_CASE("noise: pictures without noise are taken once, and the table says so")
   CHECK(comment(table, "target_noise").empty());
 }
 
-TEST_CASE("noise: a noisy source or target is matched by mean pictures") {
+TEST_CASE("noise: a noisy source or target is matched by mean pictures", "[slow]") {
   const bool is_source = GENERATE(true, false);
   const std::string noisy = "strange/ggx", plain = "mitsuba/ggx-plain";
   const Table table = strange_sweep({0.1}, is_source ? noisy : plain, is_source ? plain : noisy, kSamples);

@@ -144,7 +144,7 @@ TEST_CASE("lit sphere: light is reflected where a mirror ball reflects it") {
   CHECK(std::fabs(above.right) < 0.1);
 }
 
-TEST_CASE("lit sphere: under uniform light it shows the directional albedo") {
+TEST_CASE("lit sphere: under uniform light it shows the directional albedo", "[slow]") {
   const Environment even = constant_environment(2.0f);
   for (const std::string name : {"mitsuba/ward", "mitsuba/ward-balanced", "mitsuba/beckmann", "mitsuba/ggx",
                                  "mitsuba/as", "mitsuba/phong"})
@@ -162,7 +162,8 @@ TEST_CASE("lit sphere: under uniform light it shows the directional albedo") {
     }
 }
 
-TEST_CASE("lit sphere: microfacets without absorption reflect at most the light that they receive") {
+TEST_CASE("lit sphere: microfacets without absorption reflect at most the light that they receive",
+          "[slow]") {
   const Environment even = constant_environment(1.0f);
   // Mitsuba combines Ashikhmin-Shirley's distribution with Beckmann's shadowing, which reflects 6 % too much
   // at the rim.
@@ -256,7 +257,7 @@ TEST_CASE("environment: files that do not hold a map are refused") {
   CHECK_THROWS_AS(load_environment(folder.path() / "text.exr"), remap::Error);
 }
 
-TEST_CASE("environment: maps of Blender are read") {
+TEST_CASE("environment: maps of Blender are read", "[needs]") {
   const std::filesystem::path folder = "/usr/share/blender/datafiles/studiolights/world";
   if (!std::filesystem::is_directory(folder))
     return remap::skip("blender-data", "Debian's blender-data is not installed");
@@ -312,7 +313,8 @@ TEST_CASE(
   CHECK(comparisons_csv(options, study_environments(options)) == comparisons_csv(options, result));
 }
 
-TEST_CASE("study environments: no method has less than the least error, and copies of a model reach it") {
+TEST_CASE("study environments: no method has less than the least error, and copies of a model reach it",
+          "[slow]") {
   EnvironmentsOptions options = small_study();
   options.alphas = {0.3};
   options.resolution = 48;  // that of the search

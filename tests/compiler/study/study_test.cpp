@@ -83,7 +83,7 @@ TEST_CASE("materials: at least thirty, named once, with a source, and physical")
   CHECK(names.size() >= 30);
 }
 
-TEST_CASE("materials: values equal those of the database") {
+TEST_CASE("materials: values equal those of the database", "[needs]") {
   const auto path = remap::shared_data("materials/physicallybased.json");
   if (path.empty()) return;
   const nlohmann::json database = nlohmann::json::parse(remap::read_file(path));
@@ -101,7 +101,7 @@ TEST_CASE("materials: values equal those of the database") {
     CHECK(record(database, material.name).at("ior").get<double>() == material.ior);
 }
 
-TEST_CASE("conductors: specular of Ward is smooth up to 1, flagged beyond, and comes back") {
+TEST_CASE("conductors: specular of Ward is smooth up to 1, flagged beyond, and comes back", "[needs]") {
   const remap::TemporaryFolder folder;
   const auto renderer = make_builtin_renderer();
   const ConductorsStudy study = study_conductors(*renderer, small_study({0.1, 0.3}));
@@ -141,7 +141,7 @@ TEST_CASE("conductors: specular of Ward is smooth up to 1, flagged beyond, and c
   check_plot(conductors_plot_script(study));
 }
 
-TEST_CASE("dielectrics: two stages are smooth and stable, three never worse") {
+TEST_CASE("dielectrics: two stages are smooth and stable, three never worse", "[needs]") {
   const remap::TemporaryFolder folder;
   const auto renderer = make_builtin_renderer();
   StudyOptions options = small_study({0.3});

@@ -44,7 +44,7 @@ std::size_t line_count(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("study warp: the registration is nearest to the known answer, without folds and tears") {
+TEST_CASE("study warp: the registration is nearest to the known answer, without folds and tears", "[slow]") {
   const WarpSummary registration = summary(WarpGroup::kMethod, "registration");
   CHECK(registration.figures.mean < 30.0);
   for (const char* other : {"paper", "histogram", "affine", "nearest"}) {
@@ -67,7 +67,7 @@ TEST_CASE("study warp: the registration is nearest to the known answer, without 
   CHECK(summary(WarpGroup::kDimensions, "2").figures.mean == registration.figures.mean);
 }
 
-TEST_CASE("study warp: the sampling of the study is that of fits, and finer tables are nearer") {
+TEST_CASE("study warp: the sampling of the study is that of fits, and finer tables are nearer", "[slow]") {
   CHECK(summary(WarpGroup::kPoints, "350").figures.mean ==
         Approx(summary(WarpGroup::kMethod, "registration").figures.mean).epsilon(1e-9));
   double last = 100.0;
@@ -99,7 +99,7 @@ TEST_CASE("study warp: figures of results that are known") {
   CHECK(measures.of_copy(mixed, leaf.strokes[0]).rms == Approx(141.0).margin(20.0));
 }
 
-TEST_CASE("study warp: tables have all rows, pictures all cells") {
+TEST_CASE("study warp: tables have all rows, pictures all cells", "[slow]") {
   const WarpsOptions& options = small_options();
   const std::size_t variants = warp_variants().size();
   const std::string csv = warps_csv(options, small_result());

@@ -41,7 +41,7 @@ WorkflowFigures figures(const WorkflowsOptions& options, const WorkflowCompariso
 
 }  // namespace
 
-TEST_CASE("study workflows: floor, projection, equation (3), in this order, in both conventions") {
+TEST_CASE("study workflows: floor, projection, equation (3), in this order, in both conventions", "[slow]") {
   const WorkflowsOptions options = small_study(20);
   const WorkflowsResult result = study_workflows(options);
   REQUIRE(result.comparisons.size() == 2);
@@ -175,7 +175,7 @@ TEST_CASE("study workflows: groups without a file are left out, and a bad file i
     }
 }
 
-TEST_CASE("study workflows: measured materials are read") {
+TEST_CASE("study workflows: measured materials are read", "[needs]") {
   const auto path = remap::shared_data("materials/physicallybased.json");
   if (path.empty()) return;
   const MaterialSet set = study_materials({path.parent_path(), 40, 5, 1});

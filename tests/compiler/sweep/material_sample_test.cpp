@@ -87,7 +87,8 @@ TEST_CASE("material sample: the way back finds base color and metallic, by rende
   }
 }
 
-TEST_CASE("material sample: the same seed gives the same table for any number of jobs, and more rows go on") {
+TEST_CASE("material sample: the same seed gives the same table for any number of jobs, and more rows go on",
+          "[slow]") {
   const MaterialSampleOptions options = random_options("mitsuba/ggx-metallic", "mitsuba/ggx", 5);
   const std::string table = material_table_text(sampled(options, 1));
   CHECK(material_table_text(sampled(options, 2)) == table);

@@ -47,7 +47,7 @@ TEST_CASE("sweep: objective paper reproduces the published table at its samples"
   CHECK(specular_error <= 2e-3);
 }
 
-TEST_CASE("sweep: Beckmann to GGX and Ward to GGX give the figures measured elsewhere") {
+TEST_CASE("sweep: Beckmann to GGX and Ward to GGX give the figures measured elsewhere", "[slow]") {
   // Measured by an independent prototype: natural .1221 and 1.032, paper .157 and 1.265; Ward without Fresnel
   // .1188 and .712. Tolerances are half a unit of the last digit given, and a little.
   const auto renderer = make_builtin_renderer();

@@ -80,7 +80,7 @@ TEST_CASE("table: comma, tab or semicolon is detected; spaces, quotes, BOM and C
   }
 }
 
-TEST_CASE("table: the published table loads by its preset and by a column map") {
+TEST_CASE("table: the published table loads by its preset and by a column map", "[needs]") {
   const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
   if (path.empty()) return;
   const Table preset = read_table(path, column_map("sztrajman-2019"));

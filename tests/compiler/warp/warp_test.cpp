@@ -169,7 +169,7 @@ TEST_CASE("affine: with one stroke the map follows the common axes", "[warp]") {
   CHECK((found.offset - Eigen::RowVector2d(-1.0, 0.5)).norm() < 1e-12);
 }
 
-TEST_CASE("warp: near the truth, without tears and folds", "[warp]") {
+TEST_CASE("warp: near the truth, without tears and folds", "[warp][slow]") {
   for (const WarpSet& set : {leaf_set(128), rust_set(128)}) {
     CAPTURE(set.name);
     std::vector<Figures> figures;
@@ -194,7 +194,7 @@ TEST_CASE("warp: near the truth, without tears and folds", "[warp]") {
   }
 }
 
-TEST_CASE("warp: more accurate than histogram matching and affine on both sets", "[warp]") {
+TEST_CASE("warp: more accurate than histogram matching and affine on both sets", "[warp][slow]") {
   const std::array sets = {leaf_set(128), rust_set(128)};
   const auto error_by = [&](WarpMethod method) {
     WarpOptions options;
@@ -227,7 +227,8 @@ TEST_CASE("simplex search: the valley of Rosenbrock and a paraboloid", "[warp]")
   CHECK(counted(found) < 1.0);
 }
 
-TEST_CASE("paper: the simplex search lowers the published energy and changes the result little", "[warp]") {
+TEST_CASE("paper: the simplex search lowers the published energy and changes the result little",
+          "[warp][slow]") {
   const WarpSet set = leaf_set(128);
   const auto strokes = strokes_of(set, 0);
   WarpOptions options;
@@ -281,7 +282,7 @@ TEST_CASE("warp: other BRDF models keep the appearance", "[warp]") {
 }
 
 TEST_CASE("warp: an exact table gives only texels of the template, about as near to the copy as blends",
-          "[warp]") {
+          "[warp][slow]") {
   const WarpSet set = leaf_set(128);
   const auto strokes = strokes_of(set, 0);
   WarpOptions options;
@@ -415,27 +416,4 @@ TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", 
         refused("\"codes\": \"", "\"codes\": \"A", "base64 in whole groups");
       }
     }
-}
-
-TEST_CASE("warp fits: invalid tables are refused", "[warp]") {
-  const auto refused = [](const remap::CompiledWarp& warp, const std::string& message) {
-    CHECK_THROWS_WITH(remap::require_valid(warp, "leaf"), Catch::Contains("leaf: " + message));
-  };
-  remap::CompiledWarp warp = remap::random_warp({2, true, true}, 3);
-  auto& entries = std::get<remap::CopiedNodes>(warp.table.entries);
-  entries.indices[5] = static_cast<std::uint16_t>(entries.palette.size());
-  refused(warp, "an index beyond the palette");
-  entries.indices[5] = 0;
-  entries.palette[1][3] = std::numeric_limits<float>::quiet_NaN();
-  refused(warp, "another value in the palette");
-  entries.palette[1][3] = -0.5f;
-  refused(warp, "another value in the palette");
-  entries.palette.clear();
-  refused(warp, "another size of the palette; expected 1 to 65536 texels");
-  warp = remap::random_warp({3, true, false}, 3);
-  std::get<remap::QuadraticTerms>(warp.coordinates.terms).weights.pop_back();
-  refused(warp, "other weights of quadratic terms; expected 36");
-  warp = remap::random_warp({3, false, false}, 3);
-  warp.table.nodes = 300;
-  refused(warp, "another number of nodes; expected 2 to 4096 a dimension and at most 2^24");
 }

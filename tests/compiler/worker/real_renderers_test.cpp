@@ -86,7 +86,7 @@ void check_identity(const Table& table, double alpha_tolerance, double specular_
 
 }  // namespace
 
-TEST_CASE("real renderers: Mitsuba 3 renders the hub's ggx and beckmann") {
+TEST_CASE("real renderers: Mitsuba 3 renders the hub's ggx and beckmann", "[slow]") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "mitsuba3", "ggx")) return;
   Disagreement worst;
@@ -110,7 +110,7 @@ TEST_CASE("real renderers: Mitsuba 3 renders the hub's ggx and beckmann") {
             << ", largest " << worst.inside << ", at the silhouette " << worst.largest << "\n";
 }
 
-TEST_CASE("real renderers: Mitsuba 3's diffuse adds to its highlight") {
+TEST_CASE("real renderers: Mitsuba 3's diffuse adds to its highlight", "[slow]") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "mitsuba3", "ggx")) return;
   const auto material = [&](const std::string& name) {
@@ -120,7 +120,7 @@ TEST_CASE("real renderers: Mitsuba 3's diffuse adds to its highlight") {
   CHECK(disagreement(renderers, material("mitsuba3/ggx"), material("mitsuba/ggx-plain"), scene).rms < 1e-5);
 }
 
-TEST_CASE("real renderers: Mitsuba 3 shows the torus, from its mesh, as the hub does") {
+TEST_CASE("real renderers: Mitsuba 3 shows the torus, from its mesh, as the hub does", "[slow]") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "mitsuba3", "ggx")) return;
   const auto material = [&](const std::string& name) {
@@ -133,7 +133,7 @@ TEST_CASE("real renderers: Mitsuba 3 shows the torus, from its mesh, as the hub 
   }
 }
 
-TEST_CASE("real renderers: hub to Mitsuba 3 is the identity") {
+TEST_CASE("real renderers: hub to Mitsuba 3 is the identity", "[slow]") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "mitsuba3", "ggx")) return;
   check_identity(small_sweep(renderers, "mitsuba/ggx-plain", "mitsuba3/ggx", {0.03, 0.9}), 1e-5, 1e-4);
@@ -141,20 +141,20 @@ TEST_CASE("real renderers: hub to Mitsuba 3 is the identity") {
                  1e-4);
 }
 
-TEST_CASE("real renderers: Radiance's plastic equals the hub's balanced Ward") {
+TEST_CASE("real renderers: Radiance's plastic equals the hub's balanced Ward", "[slow]") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "radiance", "plastic")) return;
   check_identity(small_sweep(renderers, "radiance/plastic", "mitsuba/ward-balanced", {0.03, 0.9}), 1e-5,
                  1e-5);
 }
 
-TEST_CASE("real renderers: Cycles 3.4's GGX equals the hub's") {
+TEST_CASE("real renderers: Cycles 3.4's GGX equals the hub's", "[slow]") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "cycles-3.4", "ggx")) return;
   check_identity(small_sweep(renderers, "cycles-3.4/ggx", "mitsuba/ggx-plain", {0.03, 0.9}), 1e-4, 1e-3);
 }
 
-TEST_CASE("real renderers: Cycles 5's GGX follows the curve of its other masking") {
+TEST_CASE("real renderers: Cycles 5's GGX follows the curve of its other masking", "[slow]") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "cycles-5", "ggx")) return;
   SweepOptions options;
@@ -173,7 +173,8 @@ TEST_CASE("real renderers: Cycles 5's GGX follows the curve of its other masking
   }
 }
 
-TEST_CASE("real renderers: Radiance to three.js, quadratic in F0, follows the curve of another search") {
+TEST_CASE("real renderers: Radiance to three.js, quadratic in F0, follows the curve of another search",
+          "[slow]") {
   const RendererSet renderers(known_workers({}), settings());
   if (!is_here(renderers, "radiance", "plastic") || !is_here(renderers, "threejs-r187", "standard-metal"))
     return;

@@ -200,7 +200,7 @@ TEST_CASE("find sets: a broken link and a pipe are problems, the rest is found")
   CHECK(found.problems[1].message.ends_with("c_rough.png: cannot be read: not a file"));
 }
 
-TEST_CASE("find sets: an unreadable folder is a problem, the rest is found") {
+TEST_CASE("find sets: an unreadable folder is a problem, the rest is found", "[needs]") {
   const SetSession session{"a_rough.png", "locked/b_rough.png", "open/c_rough.png"};
   fs::permissions(session.root(), fs::perms(0755));
   fs::permissions(session.root() / "locked", fs::perms::none);
@@ -234,7 +234,7 @@ TEST_CASE("find sets: maps without a stem are named for their folder") {
   CHECK(set_paths(find_sets(session.root() / "hero/", {})) == std::vector<std::string>{"hero"});
 }
 
-TEST_CASE("find sets: real assets") {
+TEST_CASE("find sets: real assets", "[needs]") {
   const fs::path data = shared_data("textures");
   if (data.empty()) return;
   const Discovery found = find_sets(data, {});

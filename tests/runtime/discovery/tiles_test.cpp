@@ -174,7 +174,7 @@ TEST_CASE("existing tiles: the tiles of the folder, by number") {
   CHECK_THROWS_AS(existing_tiles(folder.path() / "none" / "a.<UDIM>.exr"), Error);
 }
 
-TEST_CASE("existing tiles: the six of a real set") {
+TEST_CASE("existing tiles: the six of a real set", "[needs]") {
   const std::filesystem::path data = shared_data("textures/grid_udim");
   if (data.empty()) return;
   std::vector<int> numbers;

@@ -1,15 +1,12 @@
-// Numbers as text, names that are near, files that appear whole.
+// Numbers as text, and names that are near.
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 #include <random>
 
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
-#include "support/temporary_folder.hpp"
-#include "system/files.hpp"
 #include "text/nearest_name.hpp"
 #include "text/number_text.hpp"
 
@@ -55,21 +52,4 @@ TEST_CASE("nearest name: a slip is forgiven, another word is not") {
   CHECK(nearest_name("mitsuba/gx", names) == "mitsuba/ggx");
   CHECK(nearest_name("renderman", names).empty());
   CHECK(suggestion("renderman", names) == " (choose mitsuba/ward, mitsuba/ggx, cycles-5/ggx)");
-}
-
-TEST_CASE("write file: replaces the old one whole, and leaves it where it fails") {
-  const TemporaryFolder folder;
-  const auto path = folder.path() / "sub" / "a.txt";
-  write_file(path, "one");
-  write_file(path, "two");
-  CHECK(read_file(path) == "two");
-  CHECK(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}) == 1);
-  CHECK_THROWS_WITH(write_file(path / "b.txt", "x"), Catch::Contains("folder"));
-  CHECK(read_file(path) == "two");
-}
-
-TEST_CASE("read file: a folder and a missing file are told apart") {
-  const TemporaryFolder folder;
-  CHECK_THROWS_WITH(read_file(folder.path()), Catch::Contains("is a folder"));
-  CHECK_THROWS_WITH(read_file(folder.path() / "no"), Catch::Contains("No such file"));
 }

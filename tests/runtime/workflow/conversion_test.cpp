@@ -87,7 +87,7 @@ TEST_CASE("Khronos' solver: the published formula by hand") {
         0.0f);
 }
 
-TEST_CASE("projection: as good as looking everywhere, off the family too") {
+TEST_CASE("projection: as good as looking everywhere, off the family too", "[slow]") {
   std::mt19937 random(5);
   for (const bool scaled : {false, true}) {
     const WorkflowConversion conversion = scaled ? gltf(Projection{0.0}) : plain(Projection{0.0});

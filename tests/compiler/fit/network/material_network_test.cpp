@@ -53,7 +53,7 @@ MaterialNetworkOptions quick_options() {
 
 }  // namespace
 
-TEST_CASE("material network: learns the way back, says how well, and returns from its file") {
+TEST_CASE("material network: learns the way back, says how well, and returns from its file", "[slow]") {
   const remap::WorkflowFit fit = fit_material_network(family_table(1000, 0.03), "bytes", quick_options());
   CHECK(fit.id == "back");
   CHECK(fit.conversion.source_model() == "mitsuba/ggx");

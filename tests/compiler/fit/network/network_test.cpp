@@ -154,7 +154,7 @@ TEST_CASE("network training: reported errors are those of the stored network") {
   }
 }
 
-TEST_CASE("network training: six inputs and four outputs are learned by both optimisers") {
+TEST_CASE("network training: six inputs and four outputs are learned by both optimisers", "[needs][slow]") {
   const Samples seen = metallic_samples(kSlowBuild ? 400 : 1500, 1), unseen = metallic_samples(500, 2);
   for (const std::size_t units : {std::size_t{12}, std::size_t{60}}) {
     if (kSlowBuild && units > 12) {

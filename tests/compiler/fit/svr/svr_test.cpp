@@ -16,6 +16,7 @@
 #include "model/evaluate.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
+#include "support/campaign.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
@@ -27,14 +28,6 @@ using remap::KernelExpansion;
 using remap::Svr;
 
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
 
 // A smooth conversion; `coupling` makes target alpha depend on specular.
 std::vector<TableRow> made_rows(int widths = 12, int speculars = 6, double coupling = 0.0) {
@@ -49,6 +42,9 @@ std::vector<TableRow> made_rows(int widths = 12, int speculars = 6, double coupl
   }
   return rows;
 }
+
+// Few enough for a search in half a second, and enough for every stage of it.
+std::vector<TableRow> few_rows() { return made_rows(8, 4); }
 
 // Hyper-parameters that fit made_rows() well, for tests of other things.
 SvrOptions given() {
@@ -107,12 +103,11 @@ double predicted(const svm_model& model, const KernelExpansion& expansion, doubl
 
 }  // namespace
 
-TEST_CASE("svr: errors on unseen rows of the published table") {
+TEST_CASE("svr: errors on unseen rows of the published table", "[slow][campaign][needs]") {
   const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
   if (path.empty()) return;
   const Table table = read_table(path, column_map("sztrajman-2019"));
-  if (kSanitized) std::cout << "one seed of five: sanitized build\n";
-  const int seeds = kSanitized ? 1 : 5;
+  const int seeds = remap::is_full_campaign() && !remap::kSlowBuild ? 5 : 1;
   double alpha = 0.0, specular = 0.0, largest = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
     const RowSplit split = split_rows(table, table_domain(table), static_cast<std::uint64_t>(seed), 0.2);
@@ -138,7 +133,7 @@ TEST_CASE("svr: errors on unseen rows of the published table") {
   std::cout << "published table, mean of " << seeds << " splits: alpha rms " << alpha << ", specular rms "
             << specular << " max " << largest << "\n";
   // scikit-learn's grid search on splits of its own: alpha 3.3e-4, specular 2.9e-4, max 8.5e-4. Measured here
-  // over five: 1.2e-4, 1.2e-4, 5.8e-4.
+  // over five: 1.2e-4, 1.2e-4, 5.8e-4. The first seed alone has to keep the same bounds.
   CHECK(alpha <= 1.6e-4);
   CHECK(specular <= 1.6e-4);
   CHECK(largest <= 8.5e-4);
@@ -161,7 +156,7 @@ TEST_CASE("svr: a fit equals libsvm's prediction with its vectors") {
   }
 }
 
-TEST_CASE("svr: a smooth table is fitted to the width of the tube") {
+TEST_CASE("svr: a smooth table is fitted to the width of the tube", "[slow]") {
   SvrOptions options;
   const Regression fit = fit_svr(made_rows(12, 6, 0.2), options);
   const Errors errors = errors_of(fit.mapping, made_rows(23, 11, 0.2));
@@ -174,17 +169,15 @@ TEST_CASE("svr: a smooth table is fitted to the width of the tube") {
       CHECK(fit.method.contains(output + "." + key));
 }
 
-TEST_CASE("svr: the result does not depend on the number of threads") {
-  const std::vector<TableRow> rows = made_rows();
+TEST_CASE("svr: the result does not depend on the number of threads", "[slow]") {
+  const std::vector<TableRow> rows = few_rows();
   SvrOptions options;
   options.jobs = 1;
   const Regression one = fit_svr(rows, options);
-  for (const unsigned jobs : {2u, 5u}) {
-    options.jobs = jobs;
-    const Regression many = fit_svr(rows, options);
-    CHECK(many.mapping == one.mapping);
-    CHECK(many.method == one.method);
-  }
+  options.jobs = 3;
+  const Regression many = fit_svr(rows, options);
+  CHECK(many.mapping == one.mapping);
+  CHECK(many.method == one.method);
 }
 
 TEST_CASE("svr: hyper-parameters are read back from the record number for number") {
@@ -212,14 +205,14 @@ TEST_CASE("svr: progress rises to 1, and what it throws ends the fit") {
     if (share < last || share > 1.0) fell = true;
     last = share;
   };
-  fit_svr(made_rows(), {}, watch);
+  fit_svr(few_rows(), {}, watch);
   CHECK(!fell);
   CHECK(last == 1.0);
 
   const auto stop = [](double share) {
     if (share > 0.1) throw remap::Error(remap::ErrorKind::kInterrupted, "stopped");
   };
-  CHECK_THROWS_WITH(fit_svr(made_rows(), {}, stop), "stopped");
+  CHECK_THROWS_WITH(fit_svr(few_rows(), {}, stop), "stopped");
 }
 
 TEST_CASE("svr: tables that cannot be fitted are refused") {
@@ -235,8 +228,8 @@ TEST_CASE("svr: tables that cannot be fitted are refused") {
   }
 }
 
-TEST_CASE("svr: unusual tables give finite results") {
-  std::vector<TableRow> rows = made_rows();
+TEST_CASE("svr: unusual tables give finite results", "[slow]") {
+  std::vector<TableRow> rows = few_rows();
   SECTION("two alphas") { rows = made_rows(2, 6); }
   SECTION("duplicates: the same fit as once") {  // bit for bit: the mean of two equal numbers is exact
     std::vector<TableRow> twice = rows;

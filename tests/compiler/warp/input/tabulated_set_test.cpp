@@ -43,7 +43,7 @@ LocalGeometry geometry_of_cell(int half, int difference, int azimuth) {
 
 }  // namespace
 
-TEST_CASE("MERL: a model written as a measured BRDF is read as that model", "[warp]") {
+TEST_CASE("MERL: a model written as a measured BRDF is read as that model", "[warp][slow]") {
   const remap::TemporaryFolder folder;
   const auto file = folder.path() / "model.binary";
   constexpr std::array<double, 3> kScales = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};

@@ -111,8 +111,8 @@ TEST_CASE("sampled features: distances are the integral over directions", "[warp
   }
 }
 
-TEST_CASE("distances without a closed form find the same correspondence", "[warp]") {
-  for (const WarpSet& set : {leaf_set(96), rust_set(96)}) {
+TEST_CASE("distances without a closed form find the same correspondence", "[warp][slow]") {
+  for (const WarpSet& set : {leaf_set(64), rust_set(64)}) {
     const auto strokes = strokes_of(set, 0);
     for (const auto distance : {AppearanceDistance::kCubeRoot, AppearanceDistance::kLog}) {
       const WarpFit fit = fit_warp(set.source, set.target, strokes, by(distance));
@@ -127,7 +127,7 @@ TEST_CASE("distances without a closed form find the same correspondence", "[warp
 }
 
 TEST_CASE("dielectrics: exact Fresnel reflectance is near Schlick's, and finds the same correspondence",
-          "[warp]") {
+          "[warp][slow]") {
   const WarpSet set = leaf_set(64);
   WarpSet exact = set;
   const MapModel model = builtin_map_model("mitsuba/ggx-dielectric");
@@ -159,7 +159,7 @@ TEST_CASE("models for maps: all models of the renderer except conductors", "[war
   CHECK_THROWS_WITH(builtin_map_model("mitsuba/gxx"), Catch::Contains("mitsuba/ggx"));
 }
 
-TEST_CASE("tables: a tabulated material has the positions of its parameters", "[warp]") {
+TEST_CASE("tables: a tabulated material has the positions of its parameters", "[warp][slow]") {
   const WarpSet set = leaf_set(48);
   const auto strokes = strokes_of(set, 0);
   const TabulatedMaterial source = tabulated(set.source), target = tabulated(set.target);
@@ -189,7 +189,7 @@ TEST_CASE("profiles: the distance of section 4, for different radii", "[warp]") 
   CHECK((first - second).squaredNorm() == Approx(squares).epsilon(0.01));
 }
 
-TEST_CASE("profiles: retargeted by strokes", "[warp]") {
+TEST_CASE("profiles: retargeted by strokes", "[warp][slow]") {
   // Two latent variables, albedo and length, which differ between the waxes by monotone functions.
   const auto radii = even_radii(0.05, 80);
   constexpr std::size_t kEdge = 24;
