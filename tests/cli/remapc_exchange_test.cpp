@@ -45,7 +45,7 @@ std::vector<std::string> data_lines(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("remapc import: models of libsvm become a fit that list, show and emit take") {
+TEST_CASE("remapc import: models of libsvm become a fit that list, show and emit take", "[slow]") {
   const Session session;
   write_models(session);
   const ProcessResult result = session.remapc({"import", session.path("d.json"), "-o", session.path("fits")});

@@ -48,8 +48,8 @@ TEST_CASE("remapc with analytic fits: build, list, show and emit take them", "[s
         read_file(session.path("fits/painted_to_metal.json")));
 }
 
-TEST_CASE(
-    "remapc with analytic fits: what works on width and specular refuses them and says what takes them") {
+TEST_CASE("remapc with analytic fits: what works on width and specular refuses them and says what takes them",
+          "[slow]") {
   const Session session;
   session.write("fits/manifest.json", manifest());
   REQUIRE(session.remapc(build_of(session)).exit_code == 0);

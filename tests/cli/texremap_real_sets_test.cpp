@@ -67,7 +67,7 @@ std::size_t count_of(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[needs]") {
+TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[needs][slow]") {
   const fs::path folder = shared_data("textures");
   if (folder.empty()) return;
   const Tree tree;
@@ -102,7 +102,8 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
   }
 }
 
-TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps the precision that JPEG loses", "[needs]") {
+TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps the precision that JPEG loses",
+          "[needs][slow]") {
   const fs::path map = shared_data("textures/king_black_roughness.jpg");
   if (map.empty()) return;
   const Tree tree;

@@ -141,7 +141,7 @@ TEST_CASE("conductors: specular of Ward is smooth up to 1, flagged beyond, and c
   check_plot(conductors_plot_script(study));
 }
 
-TEST_CASE("dielectrics: two stages are smooth and stable, three never worse", "[needs]") {
+TEST_CASE("dielectrics: two stages are smooth and stable, three never worse", "[needs][slow]") {
   const remap::TemporaryFolder folder;
   const auto renderer = make_builtin_renderer();
   StudyOptions options = small_study({0.3});

@@ -62,7 +62,7 @@ TEST_CASE("study workflows: floor, projection, equation (3), in this order, in b
         figures(options, plain, "equation (3), mean, 0.03").rmse);
 }
 
-TEST_CASE("study workflows: metallic materials come back, and their pictures are the same") {
+TEST_CASE("study workflows: metallic materials come back, and their pictures are the same", "[slow]") {
   WorkflowsOptions options = small_study(1);
   options.materials.clear();
   const MetallicReflection reflection{0.04, 1.0};
@@ -128,7 +128,7 @@ TEST_CASE(
   CHECK_THROWS_WITH(study_family({}, 0, 1, 0), Contains("--family-count must be at least 1"));
 }
 
-TEST_CASE("study workflows: tables, sheets and the same figures for any number of jobs") {
+TEST_CASE("study workflows: tables, sheets and the same figures for any number of jobs", "[slow]") {
   WorkflowsOptions options = small_study(2);
   options.sheets = true;
   const WorkflowsResult result = study_workflows(options);

@@ -50,7 +50,7 @@ TEST_CASE("converter: an output row may be its input row") {
   }
 }
 
-TEST_CASE("converter: every instruction set computes the same bits") {
+TEST_CASE("converter: every instruction set computes the same bits", "[slow]") {
   const auto& baseline = shipped_converters(InstructionSet::kBaseline);
   for (const InstructionSet set : instruction_sets()) {
     const auto& converters = shipped_converters(set);

@@ -109,7 +109,7 @@ TEST_CASE("lowered converter: every instruction set computes the same bits") {
   }
 }
 
-TEST_CASE("lowered converter: a mapping that no few polynomials can follow is refused") {
+TEST_CASE("lowered converter: a mapping that no few polynomials can follow is refused", "[slow]") {
   Fit fit = example_fit();
   fit.mapping = curved(60.0);
   try {

@@ -151,7 +151,7 @@ TEST_CASE("lowering: a pole next to the domain") {
   CHECK_FALSE(lower_or_refuse(at_zero, {{0.0, 1.0}, {0.0, 1.0}}).has_value());
 }
 
-TEST_CASE("lowering: Gaussians from flat to narrower than a cell") {
+TEST_CASE("lowering: Gaussians from flat to narrower than a cell", "[slow]") {
   for (const double gamma : {1e-9, 0.05, 5.0, 50.0, 1e3, 1e5, 1e8, 1e300})
     for (const double centre : {-3.0, 0.3337, 0.99999}) {
       INFO("gamma " << gamma << " centre " << centre);

@@ -97,7 +97,7 @@ TEST_CASE("damaged files: converted or refused, nothing else", "[slow][campaign]
   }
 }
 
-TEST_CASE("odd sizes: one texel, strips, and any number of channels") {
+TEST_CASE("odd sizes: one texel, strips, and any number of channels", "[slow]") {
   const auto converter = make_lowered_converter(example_fit());
   const TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 100000}, {100000, 1}, {3, 2}})

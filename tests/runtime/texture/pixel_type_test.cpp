@@ -61,7 +61,7 @@ TEST_CASE("pixel type: every half converts to float as in Imath, and back") {
   }
 }
 
-TEST_CASE("pixel type: floats are rounded to half as Imath rounds them") {
+TEST_CASE("pixel type: floats are rounded to half as Imath rounds them", "[slow]") {
   std::mt19937 random(1);
   for (int i = 0; i < 2'000'000; ++i) check_half(std::bit_cast<float>(static_cast<std::uint32_t>(random())));
   // Exactly between two halves, and one unit to either side: ties go to even.
