@@ -1,46 +1,73 @@
-# Runs after a test program is linked: writes a script that tells ctest of each of its cases.
+# Runs after a test program is linked: writes a script that tells ctest of its cases.
 #   cmake -D PROGRAM=FILE -D NAME=NAME -D FOLDERS=FOLDER,... -D PROPERTIES=... -D SCRIPT=FILE -P discover_tests.cmake
-# A case has the labels of the folders that the program covers, and one of these: quick without a tag, slow with
-# [slow], and slow as well as campaign with [slow][campaign], which is longer under REMAP_CAMPAIGN=full.
+# The cases of a file that have neither [slow] nor [needs] are one test with the label quick: a start of a program that links
+# OpenImageIO takes a quarter of a second of processor time. Every other case is a test of its own, with these labels: quick with
+# [needs], which is what a case that may be skipped has; slow with [slow]; slow and campaign with [slow][campaign], which is longer
+# under REMAP_CAMPAIGN=full. A test has as a label, too, the folder of sources that its file mirrors (tests/compiler/table is that
+# of compiler/table), or FOLDERS where it mirrors none.
 #
 # Names are kept in lists, so that semicolons and brackets are replaced while they are there.
 cmake_minimum_required(VERSION 3.25)
 
+# Lines "name<tab>@file:line".
 function(list_cases result)
-  execute_process(COMMAND ${PROGRAM} ${ARGN} --list-test-names-only OUTPUT_VARIABLE output ERROR_VARIABLE errors)
-  string(REPLACE ";" "<semicolon>" names "${output}")
-  string(REPLACE "[" "<open>" names "${names}")
-  string(REPLACE "]" "<close>" names "${names}")
-  string(REPLACE "\n" ";" names "${names}")
-  list(REMOVE_ITEM names "")
-  set(${result} ${names} PARENT_SCOPE)
+  execute_process(COMMAND ${PROGRAM} ${ARGN} --list-test-names-only --verbosity high
+                  OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  string(REPLACE ";" "<semicolon>" cases "${output}")
+  string(REPLACE "[" "<open>" cases "${cases}")
+  string(REPLACE "]" "<close>" cases "${cases}")
+  string(REPLACE "\n" ";" cases "${cases}")
+  list(FILTER cases INCLUDE REGEX "\t@.*:[0-9]+$")
+  set(${result} ${cases} PARENT_SCOPE)
 endfunction()
 
-list_cases(names)
-list_cases(slow_names "[slow]")
-list_cases(campaign_names "[campaign]")
-if(NOT names)
+list_cases(cases)
+list_cases(slow_cases "[slow]")
+list_cases(campaign_cases "[campaign]")
+list_cases(needing_cases "[needs]")
+if(NOT cases)
   message(FATAL_ERROR "${PROGRAM} lists no test case")
 endif()
-string(REPLACE "," ";" folders "${FOLDERS}")
 get_filename_component(working_folder ${SCRIPT} DIRECTORY)
-
 set(script "")
-foreach(name IN LISTS names)
-  if(name IN_LIST campaign_names)
-    set(speed slow campaign)
-  elseif(name IN_LIST slow_names)
-    set(speed slow)
+
+# add(NAME LABELS ARGUMENT...): a test of this program.
+function(add name labels)
+  list(JOIN ARGN "]==] [==[" arguments)
+  string(APPEND script
+    "add_test([==[${NAME}: ${name}]==] [==[${PROGRAM}]==] [==[${arguments}]==])\n"
+    "set_tests_properties([==[${NAME}: ${name}]==] PROPERTIES WORKING_DIRECTORY [==[${working_folder}]==] "
+    "SKIP_RETURN_CODE 77 LABELS [==[${labels}]==] ${PROPERTIES})\n")
+  set(script "${script}" PARENT_SCOPE)
+endfunction()
+
+set(quick_files "")
+foreach(case IN LISTS cases)
+  string(REGEX REPLACE "\t@.*$" "" name "${case}")
+  string(REGEX REPLACE "^.*\t@(.*/)?tests/(.*)\\.cpp:[0-9]+$" "\\2" file "${case}")
+  if(file MATCHES "^((compiler|runtime)/.*)/")
+    set(folders ${CMAKE_MATCH_1})
   else()
+    string(REPLACE "," ";" folders "${FOLDERS}")
+  endif()
+  if(case IN_LIST campaign_cases)
+    set(speed slow campaign)
+  elseif(case IN_LIST slow_cases)
+    set(speed slow)
+  elseif(case IN_LIST needing_cases)
     set(speed quick)
+  else()
+    if(NOT file IN_LIST quick_files)
+      list(APPEND quick_files ${file})
+      get_filename_component(stem ${file} NAME)
+      add(${file} "quick;${folders}" --filenames-as-tags "[#${stem}]~[slow]~[needs]~[.]")
+    endif()
+    continue()
   endif()
   string(REPLACE "<semicolon>" ";" name "${name}")
   string(REPLACE "<open>" "[" name "${name}")
   string(REPLACE "<close>" "]" name "${name}")
   string(REGEX REPLACE "([],[])" "\\\\\\1" pattern "${name}")  # commas and brackets are operators of Catch2
-  string(APPEND script
-    "add_test([==[${NAME}: ${name}]==] [==[${PROGRAM}]==] [==[${pattern}]==])\n"
-    "set_tests_properties([==[${NAME}: ${name}]==] PROPERTIES WORKING_DIRECTORY [==[${working_folder}]==] "
-    "SKIP_RETURN_CODE 77 LABELS [==[${speed};${folders}]==] ${PROPERTIES})\n")
+  add("${name}" "${speed};${folders}" "${pattern}")
 endforeach()
 file(WRITE ${SCRIPT} "${script}")

@@ -13,6 +13,7 @@ namespace {
 
 // Of the running test case. A case may say the same several times.
 std::set<std::string> reasons;
+bool is_listed_alone = false;
 bool any_skipped = false;
 
 bool is_required(const std::string& what) {
@@ -25,6 +26,12 @@ bool is_required(const std::string& what) {
 class SkipListener : public Catch::TestEventListenerBase {
  public:
   using TestEventListenerBase::TestEventListenerBase;
+
+  void testCaseStarting(const Catch::TestCaseInfo& info) override {
+    is_listed_alone = false;
+    for (const std::string& tag : info.lcaseTags)
+      is_listed_alone = is_listed_alone || tag == "needs" || tag == "slow" || tag == ".";
+  }
 
   void testCaseEnded(const Catch::TestCaseStats& stats) override {
     if (stats.totals.assertions.allOk())
@@ -39,18 +46,25 @@ CATCH_REGISTER_LISTENER(SkipListener)
 
 namespace remap {
 
+void may_skip() {
+  if (!is_listed_alone) FAIL_CHECK("this case may be skipped: give it the tag [needs]");
+}
+
 void skip(const std::string& what, const std::string& reason) {
+  may_skip();
   if (is_required(what)) FAIL_CHECK("REMAP_REQUIRE names " << what << ", but: " << reason);
   reasons.insert(what + ": " + reason);
 }
 
 bool has_program(const std::string& program) {
+  may_skip();
   if (std::system(("command -v '" + program + "' >/dev/null 2>&1").c_str()) == 0) return true;
   skip(program, "not installed");
   return false;
 }
 
 bool has_avx2() {
+  may_skip();
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return true;
 #endif

@@ -48,10 +48,10 @@ int check_cases(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("errors: typical mistakes with remapc are answered as committed") {
+TEST_CASE("errors: typical mistakes with remapc are answered as committed", "[slow]") {
   CHECK(check_cases("remapc.txt") >= 15);
 }
 
-TEST_CASE("errors: typical mistakes with texremap are answered as committed") {
+TEST_CASE("errors: typical mistakes with texremap are answered as committed", "[slow]") {
   CHECK(check_cases("texremap.txt") >= 15);
 }

@@ -44,7 +44,7 @@ std::string checked_help(std::vector<std::string> words, const std::string& file
 
 }  // namespace
 
-TEST_CASE("help: every program and command prints the committed text, of at most 80 columns") {
+TEST_CASE("help: every program and command prints the committed text, of at most 80 columns", "[slow]") {
   const std::vector<std::pair<std::string, std::string>> programs = {
       {"remapc", REMAPC_PROGRAM}, {"texremap", REMAP_TEXREMAP}, {"remap-study", REMAP_STUDY}};
   std::set<std::string> known;

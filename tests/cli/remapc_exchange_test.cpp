@@ -45,7 +45,7 @@ std::vector<std::string> data_lines(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("remapc import: models of libsvm become a fit that list, show and emit take") {
+TEST_CASE("remapc import: models of libsvm become a fit that list, show and emit take", "[slow]") {
   const Session session;
   write_models(session);
   const ProcessResult result = session.remapc({"import", session.path("d.json"), "-o", session.path("fits")});
@@ -79,7 +79,7 @@ TEST_CASE("remapc import: a table measures the errors") {
   CHECK(shown.output.find("24 rows (trained elsewhere)") != std::string::npos);
 }
 
-TEST_CASE("remapc import: what cannot be read or written is named") {
+TEST_CASE("remapc import: what cannot be read or written is named", "[slow]") {
   const Session session;
   write_models(session);
   const auto import = [&](const std::string& file, const std::string& folder) {
@@ -96,7 +96,7 @@ TEST_CASE("remapc import: what cannot be read or written is named") {
   CHECK_FALSE(fs::exists(session.path("fits")));
 }
 
-TEST_CASE("remapc export: a parametric fit is a table over its width, an imported one over both") {
+TEST_CASE("remapc export: a parametric fit is a table over its width, an imported one over both", "[slow]") {
   const Session session;
   write_models(session);
   session.write("t.csv", made_table(8, 3));
@@ -132,7 +132,7 @@ TEST_CASE("remapc export: a parametric fit is a table over its width, an importe
   CHECK(data_lines(table)[0] == "source_alpha,target_roughness");
 }
 
-TEST_CASE("remapc export: what is unknown, too small or cannot be written is named") {
+TEST_CASE("remapc export: what is unknown, too small or cannot be written is named", "[slow]") {
   const Session session;
   session.write("t.csv", made_table(8, 3));
   REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);

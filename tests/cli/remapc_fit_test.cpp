@@ -14,7 +14,7 @@ TEST_CASE("remapc fit: a missing table is named with the reason") {
   check_failure(session.remapc({"fit", session.path("no.csv")}), 1, "no.csv: cannot be read: No such file");
 }
 
-TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it in the fit") {
+TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it in the fit", "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   const ProcessResult fitted =
@@ -42,7 +42,7 @@ TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it i
     CHECK(plot.find(word) != std::string::npos);
 }
 
-TEST_CASE("remapc fit: each kind of regression can be asked for, and a form") {
+TEST_CASE("remapc fit: each kind of regression can be asked for, and a form", "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   const auto fit = [&](std::vector<std::string> more) {
@@ -71,7 +71,7 @@ TEST_CASE("remapc fit: each kind of regression can be asked for, and a form") {
   check_failure(fit({"--activation", "step"}), 2, "--activation");
 }
 
-TEST_CASE("remapc fit: a plot that cannot be written is named before the work") {
+TEST_CASE("remapc fit: a plot that cannot be written is named before the work", "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   auto fit = session.fit("t.csv", "out");
@@ -87,7 +87,7 @@ TEST_CASE("remapc fit: a plot that cannot be written is named before the work") 
   CHECK_FALSE(fs::exists(session.path("out/mitsuba_ward_to_mitsuba_as.json")));
 }
 
-TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plotted") {
+TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plotted", "[slow]") {
   const Session session;
   session.write("exact.csv", made_table(12, 4));  // of the paper's form
   auto fit = session.fit("exact.csv");
@@ -106,7 +106,7 @@ TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plott
   CHECK(fs::exists(session.path("black.svg")));
 }
 
-TEST_CASE("remapc fit: gnuplot's failure is shown") {
+TEST_CASE("remapc fit: gnuplot's failure is shown", "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   session.write("bin/gnuplot",
@@ -120,7 +120,7 @@ TEST_CASE("remapc fit: gnuplot's failure is shown") {
   CHECK_FALSE(fs::exists(session.path("plot.svg")));
 }
 
-TEST_CASE("remapc compare: fits and the formulas of today stand side by side") {
+TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
@@ -142,7 +142,8 @@ TEST_CASE("remapc compare: fits and the formulas of today stand side by side") {
   CHECK(json.output.find("does not apply: mitsuba/ward has alpha, not roughness") != std::string::npos);
 }
 
-TEST_CASE("remapc compare: a fit of other models, an unknown one, and a table without rows are named") {
+TEST_CASE("remapc compare: a fit of other models, an unknown one, and a table without rows are named",
+          "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
@@ -162,7 +163,7 @@ TEST_CASE("remapc fit: an output folder that cannot be is named") {
   check_failure(session.remapc({"fit", session.path("t.csv"), "-o", session.path("t.csv")}), 1, "folder");
 }
 
-TEST_CASE("remapc compare: fits of one id are told apart by their files") {
+TEST_CASE("remapc compare: fits of one id are told apart by their files", "[slow]") {
   const Session session;
   session.write("t.csv", made_table(8, 3));
   REQUIRE(session.remapc(session.fit("t.csv", "a")).exit_code == 0);
@@ -175,7 +176,7 @@ TEST_CASE("remapc compare: fits of one id are told apart by their files") {
   CHECK(session.remapc({"compare", session.path("t.csv"), a}).output.find(a) == std::string::npos);
 }
 
-TEST_CASE("remapc fit: numbers that no regression can use are wrong usage") {
+TEST_CASE("remapc fit: numbers that no regression can use are wrong usage", "[slow]") {
   const Session session;
   session.write("t.csv", made_table(8, 3));
   const auto fit = [&](const std::string& option, const std::string& value) {
@@ -191,7 +192,7 @@ TEST_CASE("remapc fit: numbers that no regression can use are wrong usage") {
   CHECK_FALSE(fs::exists(session.path("fits/mitsuba_ward_to_mitsuba_as.json")));
 }
 
-TEST_CASE("remapc fit: the same seed gives the same bytes for every kind and any number of jobs") {
+TEST_CASE("remapc fit: the same seed gives the same bytes for every kind and any number of jobs", "[slow]") {
   const Session session;
   session.write("t.csv", made_table(10, 4));
   for (const std::string model : {"parametric", "svr", "mlp", "auto"}) {
@@ -207,7 +208,8 @@ TEST_CASE("remapc fit: the same seed gives the same bytes for every kind and any
   }
 }
 
-TEST_CASE("remapc fit: one specular, one width and a constant target are fitted or refused with the reason") {
+TEST_CASE("remapc fit: one specular, one width and a constant target are fitted or refused with the reason",
+          "[slow]") {
   const Session session;
   session.write("specular.csv", made_table(20, 1));
   session.write("width.csv", made_table(1, 20));

@@ -19,7 +19,7 @@ std::vector<std::string> study(const Session& session, const std::string& name,
 
 }  // namespace
 
-TEST_CASE("remapc sweep: stages and diffuse give columns that check and fit accept") {
+TEST_CASE("remapc sweep: stages and diffuse give columns that check and fit accept", "[slow]") {
   const Session session;
   for (const std::string stages : {"1", "2", "3"}) {
     auto arguments = session.sweep("t" + stages + ".csv");
@@ -51,7 +51,7 @@ TEST_CASE("remapc sweep: models with an index are swept in F0") {
   CHECK(table.find("3 specular 0 to 0.36\n") != std::string::npos);
 }
 
-TEST_CASE("remapc sweep: invalid stages, diffuse and conductors give exit code 2") {
+TEST_CASE("remapc sweep: invalid stages, diffuse and conductors give exit code 2", "[slow]") {
   const Session session;
   auto arguments = session.sweep("t.csv");
   arguments.insert(arguments.end(), {"--stages", "4"});
@@ -96,7 +96,7 @@ TEST_CASE("remap-study dielectrics: compares one, two and three stages") {
     CHECK(fs::exists(session.path("dielectrics/" + file)));
 }
 
-TEST_CASE("remap-study: wrong usage gives exit code 2, help has an example") {
+TEST_CASE("remap-study: wrong usage gives exit code 2, help has an example", "[slow]") {
   const Session session;
   const auto fails = [&](const std::vector<std::string>& arguments, const std::string& message) {
     check_failure(session.study(arguments), 2, message, "remap-study");
@@ -112,7 +112,7 @@ TEST_CASE("remap-study: wrong usage gives exit code 2, help has an example") {
           std::string::npos);
 }
 
-TEST_CASE("remapc sample: a table of named columns that check reads and fit --swap inverts") {
+TEST_CASE("remapc sample: a table of named columns that check reads and fit --swap inverts", "[slow]") {
   const Session session;
   const std::vector<std::string> sample = {"sample",       "--source",    "mitsuba/ggx-metallic",
                                            "--target",     "mitsuba/ggx", "--vary",
@@ -134,7 +134,7 @@ TEST_CASE("remapc sample: a table of named columns that check reads and fit --sw
                 2, "(write NAME=MIN,MAX");
 }
 
-TEST_CASE("remapc sweep: roles and fixed values of parameters are given on the command line") {
+TEST_CASE("remapc sweep: roles and fixed values of parameters are given on the command line", "[slow]") {
   const Session session;
   const auto sweep = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments = {"sweep",
@@ -165,7 +165,7 @@ TEST_CASE("remapc sweep: roles and fixed values of parameters are given on the c
   check_failure(sweep({"--target-set", "diffuse"}), 2, "'=' missing (write NAME=VALUE or NAME=R,G,B)");
 }
 
-TEST_CASE("remapc preview: writes pictures and figures of a committed fit") {
+TEST_CASE("remapc preview: writes pictures and figures of a committed fit", "[slow]") {
   const Session session;
   const ProcessResult result =
       session.remapc({"preview", "mitsuba_ward_to_mitsuba_ggx", "--fits", REMAP_SOURCE_DIR "/fits", "--alpha",

@@ -52,7 +52,7 @@ void check_plot(const Session& session, const ProcessResult& result, const std::
 
 }  // namespace
 
-TEST_CASE("remap-study environments: writes tables and a summary") {
+TEST_CASE("remap-study environments: writes tables and a summary", "[needs][slow]") {
   const Session session;
   // Only the first pair has a fit.
   const std::string fit = "mitsuba_ward_to_mitsuba_as.json";
@@ -74,7 +74,7 @@ TEST_CASE("remap-study environments: writes tables and a summary") {
     CHECK(contrast(session.path("study/spheres_" + name + ".png")) > 0.5f);
 }
 
-TEST_CASE("remap-study environments: --json has the means of each method and pair") {
+TEST_CASE("remap-study environments: --json has the means of each method and pair", "[slow]") {
   const Session session;
   const ProcessResult result = session.study(small_study({"--json"}));
   REQUIRE(result.exit_code == 0);
@@ -84,7 +84,7 @@ TEST_CASE("remap-study environments: --json has the means of each method and pai
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("remap-study environments: wrong usage gives exit code 2, unreadable maps give 1") {
+TEST_CASE("remap-study environments: wrong usage gives exit code 2, unreadable maps give 1", "[slow]") {
   const Session session;
   const auto fails = [&](const std::vector<std::string>& arguments, int exit_code,
                          const std::string& message) {
@@ -105,7 +105,7 @@ TEST_CASE("remap-study environments: has help with an example") {
   CHECK(result.output.find("Example:\n  remap-study environments") != std::string::npos);
 }
 
-TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes") {
+TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes", "[needs][slow]") {
   const Session session;
   const std::vector<std::string> small = {
       "workflows",    "--count", "2",      "--alphas",           "0.2,0.5",        "--samples", "64",
@@ -134,7 +134,7 @@ TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes")
                 "remap-study");
 }
 
-TEST_CASE("remap-study warp: figures as JSON, tables, a plot and sheets") {
+TEST_CASE("remap-study warp: figures as JSON, tables, a plot and sheets", "[needs][slow]") {
   const Session session;
   const ProcessResult result = session.study({"warp", "--size", "32", "--stroke-sets", "1", "--material",
                                               "wood", "--json", "-o", session.path("study"), "--pictures"});
@@ -152,7 +152,7 @@ TEST_CASE("remap-study warp: figures as JSON, tables, a plot and sheets") {
   check_plot(session, result, "warp.svg");
 }
 
-TEST_CASE("remap-study warp: wrong usage gives exit code 2, folders without sets give 1") {
+TEST_CASE("remap-study warp: wrong usage gives exit code 2, folders without sets give 1", "[slow]") {
   const Session session;
   const auto fails = [&](std::vector<std::string> arguments, int exit_code, const std::string& message) {
     arguments.insert(arguments.begin(), "warp");

@@ -37,7 +37,7 @@ TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") 
   CHECK(result.output.find("mitsuba/as (alpha, f0)") != std::string::npos);
 }
 
-TEST_CASE("remapc: every command has help with an example") {
+TEST_CASE("remapc: every command has help with an example", "[slow]") {
   const Session session;
   for (const std::string command : {"render", "preview", "sweep", "sample", "check", "fit", "import", "emit",
                                     "export", "eval", "compare", "list", "show"}) {
@@ -48,7 +48,7 @@ TEST_CASE("remapc: every command has help with an example") {
   CHECK(session.remapc({"--version"}).output == "remapc " REMAPC_VERSION "\n");
 }
 
-TEST_CASE("remapc: wrong usage is exit code 2 and names the nearest") {
+TEST_CASE("remapc: wrong usage is exit code 2 and names the nearest", "[slow]") {
   const Session session;
   check_failure(session.remapc({}), 2, "no command given (try --help)");
   check_failure(session.remapc({"swep"}), 2, "did you mean sweep?");
@@ -120,7 +120,8 @@ TEST_CASE("remapc sweep: a full disk is an error, and nothing lies under the fin
   CHECK_FALSE(fs::exists(session.path("t.csv")));
 }
 
-TEST_CASE("remapc fit, emit and render: a full disk is an error, and nothing lies under the final name") {
+TEST_CASE("remapc fit, emit and render: a full disk is an error, and nothing lies under the final name",
+          "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
@@ -152,7 +153,7 @@ TEST_CASE("remapc sweep: killed or interrupted it leaves nothing under the final
   }
 }
 
-TEST_CASE("remapc emit: --check finds a changed, a missing and an orphaned header") {
+TEST_CASE("remapc emit: --check finds a changed, a missing and an orphaned header", "[slow]") {
   const Session session;
   REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
   REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
@@ -196,7 +197,7 @@ TEST_CASE("remapc render: writes an EXR that OpenImageIO's own tools read") {
   CHECK(info.output.find("remap:model: \"mitsuba/ggx\"") != std::string::npos);
 }
 
-TEST_CASE("remapc render: wrong parameters, files and folders are named") {
+TEST_CASE("remapc render: wrong parameters, files and folders are named", "[slow]") {
   const Session session;
   const auto render = [&](std::vector<std::string> more, const std::string& file) {
     std::vector<std::string> arguments = {"render", "--model", "mitsuba/ggx",     "--resolution",

@@ -83,7 +83,7 @@ TEST_CASE("remapc warp: strokes without information are refused") {
   check_refused(session, mask_words(session), "wood: contains no texel with finite values");
 }
 
-TEST_CASE("remapc warp: one or two strokes do not determine all directions, with a warning") {
+TEST_CASE("remapc warp: one or two strokes do not determine all directions, with a warning", "[slow]") {
   const Session session;
   write_materials(session);
   for (const std::size_t pairs : {std::size_t{1}, std::size_t{2}}) {
@@ -135,7 +135,7 @@ TEST_CASE("remapc warp: texels that are not finite are counted and do not affect
   CHECK(error_of(read_warp(session), source_texel) < 0.25);
 }
 
-TEST_CASE("remapc warp: a diffuse map alone is a source, distinguished by its color") {
+TEST_CASE("remapc warp: a diffuse map alone is a source, distinguished by its color", "[slow]") {
   const Session session;
   write_materials(session);
   write_set(session, "wood", 0.1, albedo_texel);

@@ -53,7 +53,8 @@ ProcessResult run_painted(const Session& session, const Paint& from, const Paint
 
 }  // namespace
 
-TEST_CASE("remapc warp: two paintings with a color for each region give the same result as eight masks") {
+TEST_CASE("remapc warp: two paintings with a color for each region give the same result as eight masks",
+          "[slow]") {
   const Session session;
   write_materials(session);
   const auto [background, smooth, extension] =
@@ -94,7 +95,8 @@ TEST_CASE("remapc warp: two paintings may have different backgrounds and slightl
   CHECK(error_of(read_warp(session), source_texel) < 0.25);
 }
 
-TEST_CASE("remapc warp: paintings that do not match are refused with the color, and no file is written") {
+TEST_CASE("remapc warp: paintings that do not match are refused with the color, and no file is written",
+          "[slow]") {
   const Session session;
   write_materials(session);
   const auto refused = [&](const Paint& from, const Paint& to, const std::string& message) {

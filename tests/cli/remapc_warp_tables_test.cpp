@@ -95,7 +95,7 @@ double place_error(const TestImage& places) {
 
 }  // namespace
 
-TEST_CASE("remapc warp: profiles of a list are replaced by those of another list") {
+TEST_CASE("remapc warp: profiles of a list are replaced by those of another list", "[slow]") {
   const Session session;
   write_list(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
@@ -118,7 +118,7 @@ TEST_CASE("remapc warp: profiles of a list are replaced by those of another list
   CHECK(warp(session, "copied", "blue", {"--copy", session.path("back")}).exit_code == 0);
 }
 
-TEST_CASE("remapc warp: a map of profiles is replaced by profiles of a list, and the reverse") {
+TEST_CASE("remapc warp: a map of profiles is replaced by profiles of a list, and the reverse", "[slow]") {
   const Session session;
   write_map(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
@@ -139,7 +139,7 @@ TEST_CASE("remapc warp: a map of profiles is replaced by profiles of a list, and
   CHECK(profiles.at(5, 7, first) == static_cast<float>(blue_wax(x, y, 0)));
 }
 
-TEST_CASE("remapc warp: invalid tables are refused with their name") {
+TEST_CASE("remapc warp: invalid tables are refused with their name", "[slow]") {
   const Session session;
   write_list(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);

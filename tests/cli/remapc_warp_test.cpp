@@ -28,7 +28,8 @@ TEST_CASE("remapc warp: strokes at the corners of a pattern give every texel its
 }
 
 TEST_CASE(
-    "remapc warp: a fit becomes a header, alone and with its folder; the data of converters has none of it") {
+    "remapc warp: a fit becomes a header, alone and with its folder; the data of converters has none of it",
+    "[slow]") {
   const Session session;
   write_materials(session);
   std::vector<std::string> words = mask_words(session);
@@ -75,7 +76,7 @@ TEST_CASE(
         std::string::npos);
 }
 
-TEST_CASE("remapc warp: invalid strokes are refused, and no file is written") {
+TEST_CASE("remapc warp: invalid strokes are refused, and no file is written", "[slow]") {
   const Session session;
   write_materials(session);
   const auto mask = [&](const char* name, int size, float value) {
@@ -115,7 +116,7 @@ TEST_CASE("remapc warp: strokes that share most of a region give a warning") {
   CHECK(result.errors.find("stroke 2 covers 75 % of stroke 1 in the source") != std::string::npos);
 }
 
-TEST_CASE("remapc warp: --report writes one HTML file with its pictures, or one PNG") {
+TEST_CASE("remapc warp: --report writes one HTML file with its pictures, or one PNG", "[slow]") {
   const Session session;
   write_materials(session);
   std::vector<std::string> words = mask_words(session);
@@ -141,7 +142,8 @@ TEST_CASE("remapc warp: --report writes one HTML file with its pictures, or one 
   CHECK(sheet.spec.nchannels == 3);
 }
 
-TEST_CASE("remapc warp: a report contains the warnings; other file names are refused before the work") {
+TEST_CASE("remapc warp: a report contains the warnings; other file names are refused before the work",
+          "[slow]") {
   const Session session;
   write_materials(session);
   const std::vector<std::string> few = {"--box", "0,0,20,20", "0,0,20,20", "--report"};

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/remapc_session.hpp"
-#include "worker/fake_session.hpp"
+#include "compiler/worker/fake_session.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -47,7 +47,7 @@ void wait_for_pictures(const remapc::FakeSession& fake, std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("remapc sweep: a worker is the source, and the second run is from the cache") {
+TEST_CASE("remapc sweep: a worker is the source, and the second run is from the cache", "[slow]") {
   const Session session;
   const remapc::FakeSession fake;
   const ProcessResult first = session.remapc(sweep(session, fake, "a.csv"));
@@ -66,7 +66,7 @@ TEST_CASE("remapc sweep: a worker is the source, and the second run is from the 
   CHECK(fake.nobody_is_left());
 }
 
-TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the same table") {
+TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the same table", "[slow]") {
   const Session session;
   const remapc::FakeSession fake;
   REQUIRE(session.remapc(sweep(session, fake, "whole.csv")).exit_code == 0);
@@ -95,7 +95,7 @@ TEST_CASE("remapc sweep: no worker stays behind when it is interrupted, or kille
   }
 }
 
-TEST_CASE("remapc renderers: what is there is listed, and why the rest is not") {
+TEST_CASE("remapc renderers: what is there is listed, and why the rest is not", "[slow]") {
   const Session session;
   const remapc::FakeSession fake;
   const ProcessResult result = session.remapc(
@@ -105,7 +105,7 @@ TEST_CASE("remapc renderers: what is there is listed, and why the rest is not") 
   CHECK_THAT(result.output, Contains("worker gone, request describe: ended with exit code 127"));
 }
 
-TEST_CASE("remapc worker-check: says in words what is wrong, and fails then") {
+TEST_CASE("remapc worker-check: says in words what is wrong, and fails then", "[slow]") {
   const Session session;
   const remapc::FakeSession fake;
   ProcessResult result = session.remapc({"worker-check", "--resolution", "32", fake.command()});

@@ -23,7 +23,7 @@ std::vector<std::string> build_of(const Session& session) {
 
 }  // namespace
 
-TEST_CASE("remapc with analytic fits: build, list, show and emit take them") {
+TEST_CASE("remapc with analytic fits: build, list, show and emit take them", "[slow]") {
   const Session session;
   session.write("fits/manifest.json", manifest());
   const ProcessResult built = session.remapc(build_of(session));
@@ -48,8 +48,8 @@ TEST_CASE("remapc with analytic fits: build, list, show and emit take them") {
         read_file(session.path("fits/painted_to_metal.json")));
 }
 
-TEST_CASE(
-    "remapc with analytic fits: what works on width and specular refuses them and says what takes them") {
+TEST_CASE("remapc with analytic fits: what works on width and specular refuses them and says what takes them",
+          "[slow]") {
   const Session session;
   session.write("fits/manifest.json", manifest());
   REQUIRE(session.remapc(build_of(session)).exit_code == 0);
@@ -74,7 +74,8 @@ TEST_CASE("remapc with analytic fits: a manifest whose conversion makes no sense
   check_failure(session.remapc(build_of(session)), 1, "expected \"specular\" on this side");
 }
 
-TEST_CASE("remapc fit of random metallic materials: a network of whole materials, and what it refuses") {
+TEST_CASE("remapc fit of random metallic materials: a network of whole materials, and what it refuses",
+          "[slow]") {
   const Session session;
   const std::string table = session.path("metallic.csv");
   REQUIRE(session
@@ -99,7 +100,7 @@ TEST_CASE("remapc fit of random metallic materials: a network of whole materials
   CHECK(read_file(session.path("generated/back.hpp")).find("material_network") != std::string::npos);
 }
 
-TEST_CASE("remapc build of a network: samples, fit and header, and nothing when it is run again") {
+TEST_CASE("remapc build of a network: samples, fit and header, and nothing when it is run again", "[slow]") {
   const Session session;
   const auto manifest = [](const std::string& f0) {
     return R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [], "chains": [],

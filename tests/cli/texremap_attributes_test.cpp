@@ -169,7 +169,7 @@ TEST_CASE("texremap attributes: JPEG, Targa, BMP and Radiance files keep all att
   check_images(small_format_images());
 }
 
-TEST_CASE("texremap attributes: a mip-mapped texture keeps the attributes of its levels") {
+TEST_CASE("texremap attributes: a mip-mapped texture keeps the attributes of its levels", "[slow]") {
   const TemporaryFolder folder;
   const fs::path plain = folder.path() / "plain.exr";
   write_image(plain, test_spec(40, 32, {"R", "G", "B"}, OIIO::TypeHalf), noise);
@@ -187,7 +187,8 @@ TEST_CASE("texremap attributes: a mip-mapped texture keeps the attributes of its
   check_used(all, {"tif", "tx"});
 }
 
-TEST_CASE("texremap attributes: files of other programs keep all attributes that can be written") {
+TEST_CASE("texremap attributes: files of other programs keep all attributes that can be written",
+          "[needs][slow]") {
   const fs::path folder = shared_data("textures");
   if (folder.empty()) return;
   Comparison all = comparison(kForeignExceptions);
@@ -205,7 +206,7 @@ TEST_CASE("texremap attributes: files of other programs keep all attributes that
   }
 }
 
-TEST_CASE("texremap attributes: a map without a date does not get the date of the run") {
+TEST_CASE("texremap attributes: a map without a date does not get the date of the run", "[slow]") {
   const Session session;
   session.write_pair("exr", 16);
   for (const char* name :

@@ -53,7 +53,7 @@ TEST_CASE("texremap copies: base color of any size is copied under its name") {
   CHECK(nlohmann::json::parse(result.output).at("copies").size() == 2);
 }
 
-TEST_CASE("texremap copies: layouts that name their files name the copies, too") {
+TEST_CASE("texremap copies: layouts that name their files name the copies, too", "[slow]") {
   const Session session;
   write_set(session, "in");
   const std::string layout = GENERATE("separate", "orm", "specgloss");
@@ -80,7 +80,8 @@ TEST_CASE("texremap copies: specgloss writes separate files for parameters witho
   CHECK(metallic.at(3, 5, 0) == as_stored(0.5f, OIIO::TypeUInt8));
 }
 
-TEST_CASE("texremap copies: a tree with all maps is copied, resumed, and never overwrites an input") {
+TEST_CASE("texremap copies: a tree with all maps is copied, resumed, and never overwrites an input",
+          "[slow]") {
   const Session session;
   write_set(session, "in/a");
   write_set(session, "in/b/c");
@@ -141,7 +142,7 @@ TEST_CASE("texremap copies: each tile copies the same tile of other maps") {
         read_image(session.path("ao.1002.png")).at(2, 3, 0));
 }
 
-TEST_CASE("texremap copies: invalid options are refused") {
+TEST_CASE("texremap copies: invalid options are refused", "[slow]") {
   const Session session;
   write_set(session, "in");
   const std::string roughness = session.path("in/wood_Roughness.png");

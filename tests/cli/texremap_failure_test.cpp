@@ -101,7 +101,7 @@ ProcessResult interrupted(const Session& session, int signal) {
 
 }  // namespace
 
-TEST_CASE("texremap: a file-size limit is a failure for every format and leaves nothing") {
+TEST_CASE("texremap: a file-size limit is a failure for every format and leaves nothing", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
   write_pair_of(session, extension, 256);
@@ -117,7 +117,7 @@ TEST_CASE("texremap: a file-size limit is a failure for every format and leaves 
   }
 }
 
-TEST_CASE("texremap: a missing last byte is noticed") {
+TEST_CASE("texremap: a missing last byte is noticed", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
   write_pair_of(session, extension, 64);
@@ -132,7 +132,7 @@ TEST_CASE("texremap: a missing last byte is noticed") {
   CHECK(session.convert(roughness, specular, {"--force"}, {size}).exit_code == 0);
 }
 
-TEST_CASE("texremap: a full disk is reported and keeps the old results") {
+TEST_CASE("texremap: a full disk is reported and keeps the old results", "[needs]") {
   const Session session;
   const SmallDisk disk(session.path("out"), "size=200k");
   if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
@@ -147,7 +147,7 @@ TEST_CASE("texremap: a full disk is reported and keeps the old results") {
   CHECK(read_file(session.path("out/r.exr")) == before);
 }
 
-TEST_CASE("texremap: a terminated run removes its files") {
+TEST_CASE("texremap: a terminated run removes its files", "[slow]") {
   const Session session;
   session.write_pair("exr", 1600);
   const std::string roughness = read_file(session.path("r.exr")), specular = read_file(session.path("s.exr"));
@@ -162,7 +162,7 @@ TEST_CASE("texremap: a terminated run removes its files") {
   CHECK(read_file(session.path("s.exr")) == specular);
 }
 
-TEST_CASE("texremap: a killed run leaves no file under its final name") {
+TEST_CASE("texremap: a killed run leaves no file under its final name", "[slow]") {
   const Session session;
   session.write_pair("exr", 1600);
   const std::string roughness = read_file(session.path("r.exr")), specular = read_file(session.path("s.exr"));
@@ -173,7 +173,8 @@ TEST_CASE("texremap: a killed run leaves no file under its final name") {
   CHECK(read_file(session.path("s.exr")) == specular);
 }
 
-TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and the others are complete") {
+TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and the others are complete",
+          "[slow]") {
   const Tree tree;
   const std::string extension = GENERATE("exr", "png", "tif", "tga", "jpg");
   write_sets(tree, extension, 256);
@@ -186,7 +187,8 @@ TEST_CASE("texremap tree: a file-size limit fails the sets that do not fit, and 
   }
 }
 
-TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the others are complete") {
+TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the others are complete",
+          "[needs]") {
   const Tree tree;
   const SmallDisk disk(tree.path("out"), "size=100k");
   if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
@@ -197,7 +199,7 @@ TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the ot
   CHECK_THAT(result.errors, Contains("No space left on device"));
 }
 
-TEST_CASE("texremap: a disk that is full from the start gets no file") {
+TEST_CASE("texremap: a disk that is full from the start gets no file", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga", "bmp", "hdr");
   const bool is_hdr = extension == "hdr";
@@ -216,7 +218,7 @@ TEST_CASE("texremap: a disk that is full from the start gets no file") {
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("texremap: an unwritable folder is named, and nothing is left in it") {
+TEST_CASE("texremap: an unwritable folder is named, and nothing is left in it", "[needs]") {
   const Tree tree;
   if (!permissions_hold(tree)) return;
   write_sets(tree, "png", kTreeMapSize);
@@ -234,7 +236,7 @@ TEST_CASE("texremap: an unwritable folder is named, and nothing is left in it") 
   fs::permissions(tree.path("out"), fs::perms::owner_all);
 }
 
-TEST_CASE("texremap: unreadable files and folders are named, and the others are converted") {
+TEST_CASE("texremap: unreadable files and folders are named, and the others are converted", "[needs]") {
   const Tree tree;
   if (!permissions_hold(tree)) return;
   write_sets(tree, "png", kTreeMapSize);

@@ -254,7 +254,7 @@ TEST_CASE("texremap: a JPEG stays one, with a warning") {
     CHECK(out.at(x, 3, 0) == Approx(converted_texel(in.at(x, 3, 0), {})[0]).margin(4.0 / 255.0));
 }
 
-TEST_CASE("texremap: a taken roughness map with a constant specular") {
+TEST_CASE("texremap: a taken roughness map with a constant specular", "[needs][slow]") {
   const fs::path brass = shared_data("textures/brass_roughness.jpg");
   if (brass.empty()) return;
   const Session session;
@@ -278,7 +278,7 @@ TEST_CASE("texremap: a taken roughness map with a constant specular") {
   }
 }
 
-TEST_CASE("texremap: idiff finds the passed-through alpha unchanged") {
+TEST_CASE("texremap: idiff finds the passed-through alpha unchanged", "[needs]") {
   const Session session;
   write_image(session.path("r.png"), test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeUInt16), noise);
   write_image(session.path("s.png"), test_spec(kWidth, kHeight, kWithAlpha, OIIO::TypeUInt16), noise);
@@ -293,7 +293,7 @@ TEST_CASE("texremap: idiff finds the passed-through alpha unchanged") {
   CHECK(diff("R").exit_code != 0);
 }
 
-TEST_CASE("texremap formats: a large Targa is held in memory, with a remark") {
+TEST_CASE("texremap formats: a large Targa is held in memory, with a remark", "[slow]") {
   const Session session;
   for (const int height : {16, 3000}) {
     const std::string name = "s" + std::to_string(height) + ".tga";

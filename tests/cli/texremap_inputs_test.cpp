@@ -64,7 +64,7 @@ TEST_CASE("texremap inputs: one channel of a packed map is converted, the others
           as_stored(converted_texel(in.at(x, 7, 1), {0.4f, 0.4f, 0.4f})[0], OIIO::TypeUInt8));
 }
 
-TEST_CASE("texremap inputs: the ORM map of BoomBox keeps occlusion and metallic") {
+TEST_CASE("texremap inputs: the ORM map of BoomBox keeps occlusion and metallic", "[needs][slow]") {
   const fs::path map = shared_data("textures/BoomBox_occlusionRoughnessMetallic.png");
   if (map.empty()) return;
   const Session session;
@@ -81,7 +81,7 @@ TEST_CASE("texremap inputs: the ORM map of BoomBox keeps occlusion and metallic"
   }
 }
 
-TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data throughout") {
+TEST_CASE("texremap inputs: a file of specular and glossiness in alpha is data throughout", "[slow]") {
   const Session session;
   const std::string name = "sg." + std::string(GENERATE("png", "tga", "tif", "exr"));
   // Alpha far below the colors, and 0, so that a multiplication or division by it would show.
@@ -120,7 +120,7 @@ TEST_CASE("texremap inputs: a constant roughness becomes a map of the size of th
   }
 }
 
-TEST_CASE("texremap inputs: numbers alone are converted and printed") {
+TEST_CASE("texremap inputs: numbers alone are converted and printed", "[slow]") {
   const Session session;
   const auto expected = converted_texel(0.3f, {0.04f, 0.5f, 0.2f});
   const ProcessResult text = convert(session, {"--roughness", "0.3", "--specular", "0.04,0.5,0.2"});
@@ -237,7 +237,7 @@ TEST_CASE("texremap inputs: the mask marks the texels that were counted") {
   CHECK(nlohmann::json::parse(result.output)["out_of_domain"] == marked);
 }
 
-TEST_CASE("texremap inputs: a converted map is not converted again") {
+TEST_CASE("texremap inputs: a converted map is not converted again", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("exr", "tif");
   session.write_pair(extension, kSize);
@@ -258,7 +258,7 @@ TEST_CASE("texremap inputs: a converted map is not converted again") {
   CHECK(convert(session, again).exit_code == 0);
 }
 
-TEST_CASE("texremap inputs: contradicting options are refused") {
+TEST_CASE("texremap inputs: contradicting options are refused", "[slow]") {
   const Session session;
   session.write_pair("exr", kSize);
   const auto refused = [&](std::vector<std::string> words, const std::string& message) {

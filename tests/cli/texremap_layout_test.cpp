@@ -33,7 +33,7 @@ std::vector<std::string> packed(const Session& session, const std::string& name)
 
 }  // namespace
 
-TEST_CASE("texremap layouts: a packed map taken apart and packed again") {
+TEST_CASE("texremap layouts: a packed map taken apart and packed again", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("png", "tif", "exr", "tga");
   const OIIO::TypeDesc type = extension == "exr" ? OIIO::TypeHalf : OIIO::TypeUInt8;
@@ -66,7 +66,7 @@ TEST_CASE("texremap layouts: a packed map taken apart and packed again") {
   CHECK(channel(session, named("packed/" + layout), 1) == channel(session, named("plain/roughness"), 0));
 }
 
-TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every color") {
+TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every color", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("png", "tif", "exr", "tga");
   const auto named = [&](const std::string& name) { return name + "." + extension; };

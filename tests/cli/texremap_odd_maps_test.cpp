@@ -38,7 +38,7 @@ OIIO::TypeDesc type_in(const std::string& extension) {
 
 }  // namespace
 
-TEST_CASE("texremap odd maps: an image without texels is refused") {
+TEST_CASE("texremap odd maps: an image without texels is refused", "[slow]") {
   const Session session;
   const std::string name = "s." + std::string(GENERATE("tga", "hdr"));
   for (const auto& [width, height] : {std::pair{0, 0}, {0, 5}, {5, 0}}) {
@@ -53,7 +53,7 @@ TEST_CASE("texremap odd maps: an image without texels is refused") {
   }
 }
 
-TEST_CASE("texremap odd maps: one texel, and strips, in every format") {
+TEST_CASE("texremap odd maps: one texel, and strips, in every format", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("exr", "tif", "png", "tga", "bmp", "jpg", "hdr");
   const int longest = extension == "exr" || extension == "tif" || extension == "png" ? 100000 : 32000;
@@ -79,7 +79,7 @@ TEST_CASE("texremap odd maps: one texel, and strips, in every format") {
   }
 }
 
-TEST_CASE("texremap odd maps: one to five channels where three are expected") {
+TEST_CASE("texremap odd maps: one to five channels where three are expected", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("exr", "tif", "png");
   const std::vector<std::string> names = {"R", "G", "B", "A", "mask"};

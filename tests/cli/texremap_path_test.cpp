@@ -117,7 +117,7 @@ TEST_CASE("texremap path: an unknown model is refused with the nearest name") {
                 "did you mean mitsuba/ward?");
 }
 
-TEST_CASE("texremap path: a missing link is named") {
+TEST_CASE("texremap path: a missing link is named", "[needs]") {
   const PathRequest missing = missing_pair();
   if (missing.source.empty()) return skip("separate-models", "a path joins all models that ship");
   const Session session;

@@ -67,7 +67,7 @@ std::size_t count_of(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king") {
+TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[needs][slow]") {
   const fs::path folder = shared_data("textures");
   if (folder.empty()) return;
   const Tree tree;
@@ -102,7 +102,8 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king") {
   }
 }
 
-TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps the precision that JPEG loses") {
+TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps the precision that JPEG loses",
+          "[needs][slow]") {
   const fs::path map = shared_data("textures/king_black_roughness.jpg");
   if (map.empty()) return;
   const Tree tree;
@@ -120,7 +121,7 @@ TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps the precision 
   CHECK(largest <= 0.51 / 65535.0);
 }
 
-TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile") {
+TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile", "[needs]") {
   const fs::path tiles = shared_data("textures/grid_udim");
   if (tiles.empty()) return;
   const Tree tree;
@@ -144,7 +145,7 @@ TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile") {
   }
 }
 
-TEST_CASE("texremap real sets: a tile that one map lacks is named, the others are converted") {
+TEST_CASE("texremap real sets: a tile that one map lacks is named, the others are converted", "[needs]") {
   const fs::path tiles = shared_data("textures/grid_udim");
   if (tiles.empty()) return;
   const Tree tree;

@@ -36,7 +36,7 @@ float largest_difference(const TestImage& a, const TestImage& b) {
 
 }  // namespace
 
-TEST_CASE("texremap --resample: the smaller map is interpolated as OpenImageIO does") {
+TEST_CASE("texremap --resample: the smaller map is interpolated as OpenImageIO does", "[slow]") {
   const Session session;
   const bool tiled = GENERATE(false, true);
   const auto [small, large] = GENERATE(std::pair{16, 64}, std::pair{40, 100}, std::pair{1, 70});
@@ -65,7 +65,7 @@ TEST_CASE("texremap --resample: the smaller map is interpolated as OpenImageIO d
                            read_image(session.path("expected/r.exr"))) < 2e-6f);
 }
 
-TEST_CASE("texremap --resample: bands of tall maps meet without a seam") {
+TEST_CASE("texremap --resample: bands of tall maps meet without a seam", "[slow]") {
   const Session session;
   write_image(session.path("r.png"), test_spec(64, 1500, {"Y"}, OIIO::TypeUInt16),
               [](int, int y, int) { return static_cast<float>(y) / 1500.0f; });

@@ -113,7 +113,7 @@ TEST_CASE("texremap tree: results inside the tree are neither read nor overwritt
   CHECK_THAT(again.last_error(), Contains("1 of 1 sets failed"));
 }
 
-TEST_CASE("texremap tree: --names adds file-name habits") {
+TEST_CASE("texremap tree: --names adds file-name habits", "[slow]") {
   const Tree tree;
   tree.map("in/a_zzz.png", kGrey);
   write_file(tree.path("names.json"),
@@ -125,7 +125,7 @@ TEST_CASE("texremap tree: --names adds file-name habits") {
   CHECK(tree.results() == Names{"a_specular.png", "a_zzz.png"});
 }
 
-TEST_CASE("texremap tree: the tiles of a set are one set") {
+TEST_CASE("texremap tree: the tiles of a set are one set", "[slow]") {
   const Tree tree;
   for (const char* tile : {"1001", "1002", "1011"}) {
     tree.map(std::string("in/hero_Roughness.") + tile + ".exr", kGrey, OIIO::TypeHalf);
@@ -161,7 +161,7 @@ TEST_CASE("texremap tree: the tiles of a set are one set") {
   CHECK(fs::exists(tree.path("missing/hero_Specular.1002.exr")));
 }
 
-TEST_CASE("texremap tree: six tiles of a real UDIM set") {
+TEST_CASE("texremap tree: six tiles of a real UDIM set", "[needs]") {
   const fs::path tiles = shared_data("textures/grid_udim");
   if (tiles.empty()) return;
   const Tree tree;
@@ -210,7 +210,7 @@ TEST_CASE("texremap tree: contradicting options are refused") {
   CHECK_THAT(result.last_error(), Contains("--recursive requires a folder of sets (give DIR)"));
 }
 
-TEST_CASE("texremap tree: --resume makes only missing and changed sets") {
+TEST_CASE("texremap tree: --resume makes only missing and changed sets", "[slow]") {
   const Tree tree;
   const std::string extension = GENERATE("exr", "png", "tif");
   const auto named = [&](const std::string& name) { return name + "." + extension; };
@@ -244,7 +244,8 @@ TEST_CASE("texremap tree: --resume makes only missing and changed sets") {
   CHECK(read_file(tree.path(named("out/d_spec"))) == "precious");
 }
 
-TEST_CASE("texremap tree: a killed run leaves complete files, and --resume ends like an unbroken run") {
+TEST_CASE("texremap tree: a killed run leaves complete files, and --resume ends like an unbroken run",
+          "[slow]") {
   const Tree tree;
   for (int i = 0; i < 12; ++i) {
     const std::string name = "in/" + std::to_string(i);

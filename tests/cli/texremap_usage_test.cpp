@@ -25,7 +25,7 @@ void check_failure(const ProcessResult& result, int exit_code, const std::string
 
 }  // namespace
 
-TEST_CASE("texremap: help, version and list answer on standard output") {
+TEST_CASE("texremap: help, version and list answer on standard output", "[slow]") {
   const Session session;
   CHECK(session.texremap({"--version"}).output.starts_with("texremap "));
   for (const std::string command : {"convert", "list"}) {
@@ -65,7 +65,7 @@ TEST_CASE("texremap: a conversion without models is refused") {
                 "--from is required (or --fit)");
 }
 
-TEST_CASE("texremap: unknown values of options are refused") {
+TEST_CASE("texremap: unknown values of options are refused", "[slow]") {
   const Session session;
   session.write_pair("exr");
   check_failure(session.convert("r.exr", "s.exr", {"--type", "hlaf"}), 2,
@@ -82,7 +82,7 @@ TEST_CASE("texremap: a missing input is named with the reason") {
   check_failure(session.convert("r.exr", "s.exr"), 1, "r.exr: cannot be read: No such file or directory");
 }
 
-TEST_CASE("texremap: an input that is not an image is refused") {
+TEST_CASE("texremap: an input that is not an image is refused", "[slow]") {
   const Session session;
   session.write_pair("exr");
   std::ofstream(session.path("r.exr")) << "not an image";
@@ -90,7 +90,7 @@ TEST_CASE("texremap: an input that is not an image is refused") {
   check_failure(session.convert(".", "s.exr"), 1, "is a folder, not an image file");
 }
 
-TEST_CASE("texremap: a truncated input is refused and leaves no result") {
+TEST_CASE("texremap: a truncated input is refused and leaves no result", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg");
   const bool whole_numbers = extension != "exr";
@@ -118,7 +118,7 @@ TEST_CASE("texremap: maps of different size are refused with both sizes") {
   check_failure(session.convert("r.exr", "s.exr"), 1, "s.exr: size 32x16 does not match ");
 }
 
-TEST_CASE("texremap: a roughness map that is not grey needs a channel") {
+TEST_CASE("texremap: a roughness map that is not grey needs a channel", "[slow]") {
   const Session session;
   session.write_pair("exr");
   const ProcessResult result = session.convert("s.exr", "s.exr");
@@ -136,7 +136,7 @@ TEST_CASE("texremap: a roughness map that is not grey needs a channel") {
                   OIIO::TypeHalf));
 }
 
-TEST_CASE("texremap: an impossible output folder is refused") {
+TEST_CASE("texremap: an impossible output folder is refused", "[slow]") {
   const Session session;
   session.write_pair("exr");
   std::vector<std::string> words = session.conversion("r.exr", "s.exr");
@@ -150,7 +150,7 @@ TEST_CASE("texremap: an impossible output folder is refused") {
   check_failure(session.texremap(words), 1, "cannot be written");
 }
 
-TEST_CASE("texremap: an input is never the output") {
+TEST_CASE("texremap: an input is never the output", "[slow]") {
   const Session session;
   session.write_pair("exr");
   const std::string before = read_file(session.path("r.exr"));
@@ -165,7 +165,7 @@ TEST_CASE("texremap: an input is never the output") {
   CHECK(read_file(session.path("r.exr")) == before);
 }
 
-TEST_CASE("texremap: a result that exists is kept without --force") {
+TEST_CASE("texremap: a result that exists is kept without --force", "[slow]") {
   const Session session;
   session.write_pair("exr");
   REQUIRE(session.convert("r.exr", "s.exr").exit_code == 0);
@@ -217,7 +217,7 @@ TEST_CASE("texremap: --quiet prints nothing") {
   CHECK(result.output.empty());
 }
 
-TEST_CASE("texremap: --fit evaluates that fit, and its models must agree") {
+TEST_CASE("texremap: --fit evaluates that fit, and its models must agree", "[slow]") {
   const Session session;
   session.write_pair("exr");
   const Fit fit = example_fit();
@@ -297,7 +297,7 @@ TEST_CASE("texremap: --fit that cannot be lowered is interpreted, with a warning
   CHECK(session.result_count() == 2);
 }
 
-TEST_CASE("texremap: every instruction set writes the same files") {
+TEST_CASE("texremap: every instruction set writes the same files", "[slow]") {
   const Session session;
   session.write_pair("exr");
   std::vector<std::string> written;

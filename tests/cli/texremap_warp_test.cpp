@@ -36,7 +36,7 @@ struct WarpSession : Session {
 
 }  // namespace
 
-TEST_CASE("texremap warps: every texel of a folder equals the warp") {
+TEST_CASE("texremap warps: every texel of a folder equals the warp", "[needs][slow]") {
   const WarpSession session;
   const std::string set = GENERATE("baseline", "avx2");
   if (set == "avx2" && !has_avx2()) return;
@@ -91,7 +91,7 @@ TEST_CASE("texremap warps: grey maps become colors under their names") {
   }
 }
 
-TEST_CASE("texremap warps: options without meaning are refused, and nothing is written") {
+TEST_CASE("texremap warps: options without meaning are refused, and nothing is written", "[slow]") {
   const WarpSession session;
   const auto refused = [&](const std::vector<std::string>& more, const std::string& message) {
     std::vector<std::string> words = {"convert", session.path("wood"), "--fit", session.path("stony.json"),
@@ -114,7 +114,7 @@ TEST_CASE("texremap warps: options without meaning are refused, and nothing is w
   CHECK_THAT(damaged.errors, Contains("stony.json"));
 }
 
-TEST_CASE("texremap warps: a set converted to the source of the warp needs no --force") {
+TEST_CASE("texremap warps: a set converted to the source of the warp needs no --force", "[slow]") {
   const WarpSession session("mitsuba/ggx");
   std::filesystem::create_directories(session.path("metal"));
   write_image(session.path("metal/oak_basecolor.exr"),
@@ -160,7 +160,7 @@ struct AlbedoSession : WarpSession {
 
 }  // namespace
 
-TEST_CASE("texremap warps: a diffuse map alone becomes a set of three maps") {
+TEST_CASE("texremap warps: a diffuse map alone becomes a set of three maps", "[slow]") {
   const AlbedoSession session;
   const bool by_folder = GENERATE(true, false);
   const std::string map = session.path("wood/oak_diffuse.exr");
@@ -190,7 +190,7 @@ TEST_CASE("texremap warps: a diffuse map alone becomes a set of three maps") {
     }
 }
 
-TEST_CASE("texremap warps: a warp of a diffuse map alone refuses other maps and converts tiles") {
+TEST_CASE("texremap warps: a warp of a diffuse map alone refuses other maps and converts tiles", "[slow]") {
   const AlbedoSession session;
   const auto run = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"convert", "--fit", session.path("stony.json"), "-o",

@@ -79,7 +79,7 @@ std::vector<std::string> with(std::vector<std::string> words, const std::vector<
 
 }  // namespace
 
-TEST_CASE("texremap workflows: metallic to specular is equation (2)") {
+TEST_CASE("texremap workflows: metallic to specular is equation (2)", "[slow]") {
   const Session session;
   write_metallic(session);
   const bool is_gltf = GENERATE(true, false);
@@ -104,7 +104,8 @@ TEST_CASE("texremap workflows: metallic to specular is equation (2)") {
     }
 }
 
-TEST_CASE("texremap workflows: specular to metallic has the bits of the library, on any number of threads") {
+TEST_CASE("texremap workflows: specular to metallic has the bits of the library, on any number of threads",
+          "[needs][slow]") {
   const Session session;
   write_specular(session);
   const std::string threads = GENERATE("1", "3");
@@ -233,7 +234,7 @@ TEST_CASE("texremap workflows: a metal mask chooses between ambiguous answers") 
   CHECK(metal.at(30, 3, 0) < 0.01f);
 }
 
-TEST_CASE("texremap workflows: undetermined metallic follows the reliable texels around it") {
+TEST_CASE("texremap workflows: undetermined metallic follows the reliable texels around it", "[slow]") {
   constexpr int kWide = 96, kDark = 32, kPlastic = 64;  // columns: metal, then dark texels, then plastic
   const Session session;
   const auto bytes = [&](const std::string& name, int metal, int dark, float spread, int plastic) {
@@ -284,7 +285,7 @@ TEST_CASE("texremap workflows: undetermined metallic follows the reliable texels
   CHECK(smooth_jumps < 0.5 * jumps);
 }
 
-TEST_CASE("texremap workflows: implausible maps give a warning with the reason") {
+TEST_CASE("texremap workflows: implausible maps give a warning with the reason", "[slow]") {
   const Session session;
   const auto warned = [&](const std::vector<std::string>& words, const std::string& message) {
     const ProcessResult result = convert(session, with(words, {"--force"}));
@@ -321,7 +322,7 @@ TEST_CASE("texremap workflows: the estimated F0 of the maps is used on request")
   CHECK(metal.at(5, 5, 0) < 0.01f);
 }
 
-TEST_CASE("texremap workflows: contradicting options are refused, and nothing is written") {
+TEST_CASE("texremap workflows: contradicting options are refused, and nothing is written", "[slow]") {
   const Session session;
   write_specular(session);
   write_metallic(session);
@@ -379,7 +380,7 @@ TEST_CASE("texremap workflows: a folder of sets goes from one workflow to anothe
   CHECK(std::filesystem::exists(session.path("out/wood_base_color.png")));
 }
 
-TEST_CASE("texremap workflows: two sets with one name are refused before anything is written") {
+TEST_CASE("texremap workflows: two sets with one name are refused before anything is written", "[slow]") {
   const Session session;
   std::filesystem::create_directories(session.path("in/wood"));
   for (const std::string set : {"", "wood_"}) {
@@ -419,7 +420,7 @@ TEST_CASE("texremap workflows: occlusion packed with metallic becomes a separate
   for (int x = 0; x < kSize; ++x) REQUIRE(occlusion.at(x, 5, 0) == static_cast<float>(x) / 255.0f);
 }
 
-TEST_CASE("texremap workflows: list and path show them") {
+TEST_CASE("texremap workflows: list and path show them", "[slow]") {
   const Session session;
   const ProcessResult list = session.texremap({"list", "--workflows", "--json"});
   require_success(list);

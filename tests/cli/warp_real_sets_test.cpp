@@ -62,7 +62,7 @@ void check_range(const std::string& path, int channels) {
 
 }  // namespace
 
-TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions") {
+TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[needs][slow]") {
   const fs::path textures = shared_data("textures");
   if (textures.empty()) return;
   const Session session;

@@ -322,15 +322,15 @@ TEST_CASE("generated header: every kind, form and convention agrees with the int
     if (build.flags == "-O0" || build.flags == "-O3 -march=x86-64-v3") headers.check(build);
 }
 
-// In other tests a header follows others, which may have included what it lacks.
+// In other tests a header follows others, which may have included what it lacks. By one compiler: both read
+// the same standard library.
 TEST_CASE("generated header: needs no other header before it", "[slow]") {
   const Headers headers(subjects());
   std::string files;
   for (const MadeModel& subject : subjects()) files += " " + headers.path(subject.fit.id + ".hpp");
-  for (const std::string& compiler : compilers()) {
-    INFO(compiler);
-    CHECK(succeeds(compiler + " -std=c++17 -fsyntax-only -x c++" + files));
-  }
+  const std::vector<std::string> found = compilers();
+  REQUIRE(!found.empty());
+  CHECK(succeeds(found[0] + " -std=c++17 -fsyntax-only -x c++" + files));
 }
 
 // A changed header has a namespace of its own, so that one program holds all of them.
@@ -392,15 +392,15 @@ TEST_CASE("generated header: compiles alone, twice, beside another and in two fi
   write_file(folder.path() / "two.cpp", includes +
                                             "bool test_one();\nint main() {\n  bool passed = test_one();\n" +
                                             tests + "  return passed ? 0 : 1;\n}\n");
+  const std::string one = (folder.path() / "one.cpp").string(), two = (folder.path() / "two.cpp").string(),
+                    program = (folder.path() / "both").string();
   for (const std::string& compiler : compilers()) {
-    for (const std::string standard : {"c++17", "c++20", "c++2b"}) {
-      const std::string program = (folder.path() / "both").string();
-      INFO(compiler << " " << standard);
-      REQUIRE(std::system((compiler + " -std=" + standard + kWarnings + "-O0 " +
-                           (folder.path() / "one.cpp").string() + " " + (folder.path() / "two.cpp").string() +
-                           " -o " + program)
-                              .c_str()) == 0);
-      CHECK(std::system(program.c_str()) == 0);
+    INFO(compiler);
+    REQUIRE(succeeds(compiler + " -std=c++17" + kWarnings + "-O0 " + one + " " + two + " -o " + program));
+    CHECK(succeeds(program));
+    for (const std::string standard : {"c++20", "c++2b"}) {
+      INFO(standard);
+      CHECK(succeeds(compiler + " -std=" + standard + kWarnings + "-fsyntax-only " + two));
     }
   }
 }

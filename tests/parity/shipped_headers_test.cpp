@@ -9,7 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "remap/shipped_converters.hpp"
-#include "runtime/texel_rows.hpp"
+#include "runtime/convert/texel_rows.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
 #include "system/parallel.hpp"

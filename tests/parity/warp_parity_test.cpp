@@ -168,8 +168,12 @@ void check_headers(const std::string& compiler, const std::string& flags, bool f
 
 }  // namespace
 
-TEST_CASE("warp headers: the bits of the library by gcc") { check_headers("g++", "-O2", false); }
-TEST_CASE("warp headers: the bits of the library by clang") { check_headers("clang++", "-O2", false); }
-TEST_CASE("warp headers: rows as single texels where products and sums are fused") {
+TEST_CASE("warp headers: the bits of the library by gcc", "[needs][slow]") {
+  check_headers("g++", "-O2", false);
+}
+TEST_CASE("warp headers: the bits of the library by clang", "[needs][slow]") {
+  check_headers("clang++", "-O2", false);
+}
+TEST_CASE("warp headers: rows as single texels where products and sums are fused", "[needs][slow]") {
   if (has_avx2()) check_headers("g++", "-O2 -march=x86-64-v3", true);
 }

@@ -12,6 +12,7 @@ namespace remap {
 // `name` in the folder of shared data: REMAP_SHARED_DATA, or ../shared/data beside the source tree. Where it
 // is missing: an empty path, and the test counts as skipped.
 inline std::filesystem::path shared_data(const std::string& name) {
+  may_skip();
   const char* given = std::getenv("REMAP_SHARED_DATA");
   const std::filesystem::path folder =
       given != nullptr ? std::filesystem::path(given)

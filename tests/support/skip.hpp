@@ -5,6 +5,10 @@
 
 namespace remap {
 
+// ctest runs the cases of a file as one test, and a case that may be skipped alone, so that it counts. A case
+// that calls any of these functions has the tag [needs], or it is [slow]; without, it fails.
+void may_skip();
+
 // Says that the running test lacks `what`, one word as in REMAP_REQUIRE: a program, a library's data, a
 // right. The caller returns, or goes on with the checks that need nothing more. A test that passes but for
 // this counts as skipped and prints `skipped: WHAT: REASON`; one that fails counts as failed. Where

@@ -11,8 +11,8 @@
 namespace remapc {
 
 // The defaults were chosen on the table that Sztrajman et al. (2019) published: two layers of 8 units are as
-// accurate as two layers of 16 and train in an eighth of the time. tests/compiler/mlp_test.cpp states the
-// errors.
+// accurate as two layers of 16 and train in an eighth of the time. tests/compiler/fit/network/mlp_test.cpp
+// states the errors.
 struct TrainingOptions {
   std::vector<std::size_t> hidden = {8, 8};  // units of each hidden layer; empty: a linear map
   remap::Activation activation = remap::Activation::kTanh;

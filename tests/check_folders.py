@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""check_folders.py BUILT_TESTS: checks that a quick test covers each folder of sources.
+
+BUILT_TESTS is the folder of the tests in the build tree, where discover_tests.cmake leaves the labels of tests. The folders are
+those of the list in HACKING.md that hold .cpp files. Exit code 1 and a line for each that lacks one.
+"""
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def listed_folders():
+    listed = re.search(r"<!-- folders -->\n```\n(.*?)```", (ROOT / "HACKING.md").read_text(), re.DOTALL)
+    return [line.split()[0].rstrip("/") for line in listed.group(1).splitlines() if line.strip()]
+
+
+def quick_folders(built_tests):
+    """The folders that are labels of a quick test."""
+    folders = set()
+    for script in Path(built_tests).rglob("*_tests.cmake"):
+        for labels in re.findall(r"LABELS \[==\[(.*?)\]==\]", script.read_text()):
+            if "quick" in labels.split(";"):
+                folders.update(labels.split(";"))
+    return folders
+
+
+def main(built_tests):
+    wanted = [f for f in listed_folders() if any((ROOT / f).glob("*.cpp"))]
+    covered = quick_folders(built_tests)
+    missing = [f for f in wanted if f not in covered]
+    for folder in missing:
+        print(f"{folder}: no quick test covers this folder (add one in tests/{folder}, or name the folder in FOLDERS of a program)")
+    print(f"{len(wanted) - len(missing)} of {len(wanted)} folders have quick tests")
+    sys.exit(1 if missing or not wanted else 0)
+
+
+main(sys.argv[1])

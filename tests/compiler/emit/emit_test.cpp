@@ -1,0 +1,118 @@
+// The emitter's parts: templates, layout and determinism.
+#include "emit/emit.hpp"
+
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "emit/header_data.hpp"
+#include "emit/text_template.hpp"
+#include "model/interpreter.hpp"
+#include "remap/error.hpp"
+#include "remap/fit_file.hpp"
+#include "support/random_warp.hpp"
+#include "system/files.hpp"
+
+using namespace remapc;
+
+TEST_CASE("template: holes are filled, lines of a value keep the indentation, empty lines are removed") {
+  CHECK(fill_template("a @x@ b\n", {{"x", "1"}}) == "a 1 b\n");
+  CHECK(fill_template("{\n  @x@\n}\n", {{"x", "one\ntwo\n"}}) == "{\n  one\n  two\n}\n");
+  CHECK(fill_template("{\n  @x@\n}\n", {{"x", ""}}) == "{\n}\n");
+  CHECK(fill_template("@x@@x@\n", {{"x", "@y@"}}) == "@y@@y@\n");
+}
+
+TEST_CASE("template: a hole without value and a value without hole are bugs") {
+  CHECK_THROWS_AS(fill_template("@x@\n", {}), std::logic_error);
+  CHECK_THROWS_AS(fill_template("x\n", {{"x", "1"}}), std::logic_error);
+  CHECK_THROWS_AS(fill_template("@x\n", {{"x", "1"}}), std::logic_error);
+}
+
+TEST_CASE("template: the mark of an independent loop becomes pragmas at its indentation") {
+  const std::string text = fill_template("{\n  REMAP_INDEPENDENT_LOOP\n  for (;;);\n}\n", {});
+  CHECK(text.starts_with("{\n  #if defined(__clang__)\n  #pragma clang loop vectorize(assume_safety)\n"));
+  CHECK(text.ends_with("\n  #endif\n  for (;;);\n}\n"));
+}
+
+TEST_CASE("template: a file of code that does not exist is a bug") {
+  CHECK(code_file("frame").find("#ifndef @guard@") != std::string::npos);
+  CHECK_THROWS_AS(code_file("frames"), std::logic_error);
+}
+
+TEST_CASE("emit: the description of a header has the values of the fit and no code") {
+  const remap::Fit fit =
+      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
+  const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
+  const HeaderData data = describe(fit, lowered);
+  CHECK(data.source.parameters[0].name == "exponent");
+  CHECK(data.target.parameters[1].name == fit.target.specular);
+  REQUIRE(data.golden.size() > 8);
+  for (const GoldenValues& texel : data.golden) {
+    const double in = static_cast<double>(texel.in[1]);
+    double out = 0.0;
+    const double width = remap::evaluate_texel(fit, static_cast<double>(texel.in[0]), {&in, 1}, {&out, 1});
+    CHECK(texel.out[0] == static_cast<float>(width));
+    CHECK(texel.out[1] == static_cast<float>(out));
+  }
+  const auto& header = std::get<ConverterHeader>(data.code);
+  CHECK(std::get<remap::Lowered>(header.mapping.code) == lowered);
+  CHECK(header.mapping.alpha_error == lowered.alpha.bound);
+  CHECK(header.alpha_rms_error >= fit.roughness_error.rms);
+}
+
+TEST_CASE("emit: the committed header is what its fit gives, read again or not") {
+  const std::string root = REMAP_SOURCE_DIR;
+  const remap::Fit fit = remap::load_fit(root + "/fits/mitsuba_ward_to_mitsuba_as.json");
+  const std::string committed = remap::read_file(root + "/generated/mitsuba_ward_to_mitsuba_as.hpp");
+  CHECK(emit_header(fit) == committed);
+  CHECK(emit_header(remap::fit_from_json(remap::fit_to_json(fit), "copy")) == committed);
+}
+
+TEST_CASE("emit: the header names models, table, errors and licence, and defines no macro but its guard") {
+  const remap::Fit fit =
+      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
+  const std::string header = emit_header(fit);
+  for (const std::string& part : {fit.source.model, fit.target.model, fit.table.sha256, std::string("MIT-0"),
+                                  std::string("remapc emit")})
+    CHECK(header.find(part) != std::string::npos);
+  std::size_t defines = 0;
+  for (std::size_t at = header.find("#define"); at != std::string::npos; at = header.find("#define", at + 1))
+    ++defines;
+  CHECK(defines == 1);
+}
+
+TEST_CASE("emit: a coefficient that is not a finite float is refused") {
+  remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
+  std::get<remap::Parametric>(fit.mapping).roughness[0][2] = 1e300;
+  CHECK_THROWS_WITH(emit_header(fit, {true, {}}), Catch::Contains("not finite"));
+  CHECK_THROWS_AS(emit_header(fit), remap::Error);
+}
+
+TEST_CASE("emit: a parameter with the name of a variable of the header is refused") {
+  remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
+  fit.target.specular = "count";
+  CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("parameter count has the name"));
+}
+
+TEST_CASE("emit: warps are headers of whole materials") {
+  remap::WarpMapFit fit;
+  fit.id = "leaf";
+  fit.source_model = "mitsuba/ggx";
+  fit.template_model = "cycles/ggx";
+  fit.warp = remap::random_warp(3, 4, 32);
+  fit.copy_rms_error = 0.0123;
+  fit.method = {{"source", "brown_leaf"}};
+  fit.tool_version = "0";
+  const std::string header = emit_header(fit);
+  CHECK(emit_header(fit) == header);
+  CHECK(header.size() < 1000000);  // 229 KB of codes as numbers
+  for (const std::string part :
+       {"kId = \"leaf\"", "kSourceModel = \"mitsuba/ggx\"", "kTargetModel = \"cycles/ggx\"",
+        "kTemplateModel = kTargetModel", "kCopyRmsError = 0.0123", "// source: brown_leaf", "MIT-0",
+        "std::array<float, 3> specular;", "SeparableView", "BlendedView"})
+    CHECK(header.find(part) != std::string::npos);
+  for (const std::string part : {"QuadraticView", "CopiedView", "Conventions"})
+    CHECK(header.find(part) == std::string::npos);
+  fit.warp.table.nodes = 31;
+  CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("leaf: another size of the table"));
+}

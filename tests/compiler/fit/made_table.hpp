@@ -1,0 +1,51 @@
+// Tables made from a known parametric form, and their fits.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/fit_table.hpp"
+#include "model/evaluate.hpp"
+#include "model/interpreter.hpp"
+#include "table/table.hpp"
+
+namespace made_table {
+
+using namespace remapc;
+using remap::Parametric;
+
+inline Table table_of(const Parametric& form, double low = 0.02, double high = 1.0, int widths = 25) {
+  Table table;
+  table.name = "made.csv";
+  table.source = {"mitsuba/ward", remap::RoughnessConvention::kAlpha, "specular"};
+  table.target = {"mitsuba/as", remap::RoughnessConvention::kAlpha, "f0"};
+  std::size_t line = 2;
+  for (int i = 0; i < widths; ++i) {
+    for (int j = 1; j <= 6; ++j) {
+      const double alpha = low + (high - low) * i / (widths - 1), specular = 0.15 * j;
+      const remap::MappedTexel texel = remap::evaluate_mapping(form, alpha, specular);
+      table.rows.push_back({alpha, specular, texel.alpha, texel.specular, 0.0, RowStatus::kOk, line++});
+    }
+  }
+  return table;
+}
+
+inline remap::Fit fit_of(const Table& table, std::uint64_t seed = 1, const std::string& form = "paper") {
+  FitOptions options;
+  options.regressor = Regressor::kParametric;
+  options.regression.seed = seed;
+  options.regression.form = form;
+  return fit_table(table, table_text(table), options).fit;
+}
+
+// The paper's form.
+inline Parametric paper_form(const std::vector<double>& quartic, const remap::AlphaCurve& slope) {
+  return {{quartic}, {{1, slope}}};
+}
+inline const Parametric kStraight = paper_form({1.0, 0.0, 0.0, 0.0}, {0.7, 0.0, 0.0, 0.0, 0.0, 0.0});
+
+inline double slope_at(const remap::Fit& fit, double alpha) {
+  return remap::curve_value(std::get<Parametric>(fit.mapping).specular[0].factor, alpha);
+}
+
+}  // namespace made_table

@@ -1,0 +1,277 @@
+// Support vector regression on the published table, on unusual tables, and against libsvm itself.
+#include "fit/svr/svr.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <memory>
+
+#include <catch2/catch.hpp>
+#include <libsvm/svm.h>
+
+#include "fit/rows/split.hpp"
+#include "fit/svr/svr_search.hpp"
+#include "model/evaluate.hpp"
+#include "model/interpreter.hpp"
+#include "remap/error.hpp"
+#include "support/campaign.hpp"
+#include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
+#include "system/files.hpp"
+#include "table/domain.hpp"
+#include "text/number_text.hpp"
+
+using namespace remapc;
+using remap::KernelExpansion;
+using remap::Svr;
+
+namespace {
+
+// A smooth conversion; `coupling` makes target alpha depend on specular.
+std::vector<TableRow> made_rows(int widths = 12, int speculars = 6, double coupling = 0.0) {
+  std::vector<TableRow> rows;
+  for (int i = 0; i < widths; ++i) {
+    for (int j = 0; j < speculars; ++j) {
+      const double a = 0.05 + 0.95 * i / std::max(1, widths - 1);
+      const double s = 0.05 + 0.45 * j / std::max(1, speculars - 1);
+      rows.push_back(
+          {a, s, a * (1.0 - 0.3 * a) + coupling * s * a, s * (1.1 - 0.4 * a * a), 0.0, RowStatus::kOk, 0});
+    }
+  }
+  return rows;
+}
+
+// Few enough for a search in half a second, and enough for every stage of it.
+std::vector<TableRow> few_rows() { return made_rows(8, 4); }
+
+// Hyper-parameters that fit made_rows() well, for tests of other things.
+SvrOptions given() {
+  SvrOptions options;
+  options.alpha = SvrHyperParameters{10.0, 3.2, 1e-3, 1.0};
+  options.specular = SvrHyperParameters{32.0, 1.0, 1e-3, 0.5};
+  return options;
+}
+
+struct Errors {
+  remap::ErrorFigures alpha, specular;
+};
+
+Errors errors_of(const remap::MappingKind& mapping, const std::vector<TableRow>& rows) {
+  std::vector<double> alpha, specular;
+  for (const TableRow& row : rows) {
+    const remap::MappedTexel texel = remap::evaluate_mapping(mapping, row.alpha1, row.specular1);
+    alpha.push_back(texel.alpha - row.alpha2);
+    specular.push_back(texel.specular - row.specular2);
+  }
+  return {error_figures(alpha), error_figures(specular)};
+}
+
+struct ModelDeleter {
+  void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
+};
+using Model = std::unique_ptr<svm_model, ModelDeleter>;
+
+// Converts an expansion to a libsvm model through its file format.
+Model model_of(const KernelExpansion& expansion) {
+  const remap::TemporaryFolder folder;
+  using remap::number_text;
+  std::string text = "svm_type epsilon_svr\nkernel_type rbf\ngamma " + number_text(expansion.gamma) +
+                     "\nnr_class 2\ntotal_sv " + std::to_string(expansion.count()) + "\nrho " +
+                     number_text(-expansion.bias) + "\nSV\n";
+  const std::size_t width = expansion.inputs.size();
+  for (std::size_t i = 0; i < expansion.count(); ++i) {
+    text += number_text(expansion.weights[i]);
+    for (std::size_t j = 0; j < width; ++j)
+      text += " " + std::to_string(j + 1) + ":" + number_text(expansion.vectors[i * width + j]);
+    text += " \n";
+  }
+  const std::string path = (folder.path() / "model").string();
+  remap::write_file(path, text);
+  return Model(svm_load_model(path.c_str()));
+}
+
+double predicted(const svm_model& model, const KernelExpansion& expansion, double alpha, double specular) {
+  std::vector<svm_node> nodes;
+  for (std::size_t j = 0; j < expansion.inputs.size(); ++j)
+    nodes.push_back(
+        {static_cast<int>(j) + 1, remap::normalised(expansion.inputs[j], j == 0 ? alpha : specular)});
+  nodes.push_back({-1, 0.0});
+  return svm_predict(&model, nodes.data()) / expansion.output.scale + expansion.output.offset;
+}
+
+}  // namespace
+
+TEST_CASE("svr: errors on unseen rows of the published table", "[slow][campaign][needs]") {
+  const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
+  if (path.empty()) return;
+  const Table table = read_table(path, column_map("sztrajman-2019"));
+  const int seeds = remap::is_full_campaign() && !remap::kSlowBuild ? 5 : 1;
+  double alpha = 0.0, specular = 0.0, largest = 0.0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const RowSplit split = split_rows(table, table_domain(table), static_cast<std::uint64_t>(seed), 0.2);
+    const auto start = std::chrono::steady_clock::now();
+    SvrOptions options;
+    options.seed = static_cast<std::uint64_t>(seed);
+    const Regression fit = fit_svr(split.training, options);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    const Errors errors = errors_of(fit.mapping, split.held_out);
+    const auto& svr = std::get<Svr>(fit.mapping);
+    CHECK(svr.alpha.inputs.size() == 1);
+    CHECK(svr.specular.inputs.size() == 2);
+    std::cout << "published table, seed " << seed << ": " << seconds.count() << " s; alpha rms "
+              << errors.alpha.rms << " max " << errors.alpha.max << ", " << svr.alpha.count()
+              << " vectors; specular rms " << errors.specular.rms << " max " << errors.specular.max << ", "
+              << svr.specular.count() << " vectors\n";
+    alpha += errors.alpha.rms / seeds;
+    specular += errors.specular.rms / seeds;
+    largest += errors.specular.max / seeds;
+    // The cross-validation error holds on unseen rows; folds differ by a factor of two.
+    CHECK(errors.specular.rms < 2.0 * *remap::parse_number(fit.method.at("specular.cross_validation_rms")));
+  }
+  std::cout << "published table, mean of " << seeds << " splits: alpha rms " << alpha << ", specular rms "
+            << specular << " max " << largest << "\n";
+  // scikit-learn's grid search on splits of its own: alpha 3.3e-4, specular 2.9e-4, max 8.5e-4. Measured here
+  // over five: 1.2e-4, 1.2e-4, 5.8e-4. The first seed alone has to keep the same bounds.
+  CHECK(alpha <= 1.6e-4);
+  CHECK(specular <= 1.6e-4);
+  CHECK(largest <= 8.5e-4);
+}
+
+TEST_CASE("svr: a fit equals libsvm's prediction with its vectors") {
+  // Sums of some dozens of Gaussians whose weights reach C: rounding differs in the order of operations only.
+  for (const double coupling : {0.0, 0.2}) {
+    const Regression fit = fit_svr(made_rows(12, 6, coupling), given());
+    const auto& svr = std::get<Svr>(fit.mapping);
+    CHECK(svr.alpha.inputs.size() == (coupling == 0.0 ? 1 : 2));
+    for (const KernelExpansion* expansion : {&svr.alpha, &svr.specular}) {
+      const Model model = model_of(*expansion);
+      REQUIRE(model != nullptr);
+      for (double a = 0.0; a <= 1.1; a += 0.1)
+        for (double s = 0.0; s <= 0.6; s += 0.1)
+          CHECK(std::fabs(remap::expansion_value(*expansion, a, s) - predicted(*model, *expansion, a, s)) <
+                1e-12);
+    }
+  }
+}
+
+TEST_CASE("svr: a smooth table is fitted to the width of the tube", "[slow]") {
+  SvrOptions options;
+  const Regression fit = fit_svr(made_rows(12, 6, 0.2), options);
+  const Errors errors = errors_of(fit.mapping, made_rows(23, 11, 0.2));
+  CHECK(errors.alpha.rms < 1e-3);
+  CHECK(errors.specular.rms < 1e-3);
+  CHECK(fit.method.at("alpha.inputs") == "alpha, specular");
+  for (const std::string output : {"alpha", "specular"})
+    for (const std::string key : {"C", "gamma", "epsilon", "specular_span", "vectors", "folds", "candidates",
+                                  "cross_validation_rms", "search_samples", "trained_samples"})
+      CHECK(fit.method.contains(output + "." + key));
+}
+
+TEST_CASE("svr: the result does not depend on the number of threads", "[slow]") {
+  const std::vector<TableRow> rows = few_rows();
+  SvrOptions options;
+  options.jobs = 1;
+  const Regression one = fit_svr(rows, options);
+  options.jobs = 3;
+  const Regression many = fit_svr(rows, options);
+  CHECK(many.mapping == one.mapping);
+  CHECK(many.method == one.method);
+}
+
+TEST_CASE("svr: hyper-parameters are read back from the record number for number") {
+  SvrOptions options = given();
+  options.alpha->cost = 31.622776601683793;
+  options.alpha->gamma = 1.0 / 3.0;
+  options.specular->epsilon = 1e-3 / 7.0;
+  options.specular->specular_span = 0.1 + 0.2;
+  const Regression fit = fit_svr(made_rows(), options);
+  const SvrOptions read = options_from_method(fit.method, {});
+  CHECK(read.alpha == options.alpha);
+  CHECK(read.specular == options.specular);
+  CHECK(fit_svr(made_rows(), read).mapping == fit.mapping);
+
+  CHECK(!options_from_method({{"forms", "quartic"}}, {}).alpha);
+  CHECK(options_from_method({}, options).alpha == options.alpha);
+  CHECK_THROWS_WITH(options_from_method({{"alpha.C", "1"}}, {}), Catch::Contains("must be given together"));
+  CHECK_THROWS_WITH(options_from_method({{"alpha.C", "much"}}, {}), Catch::Contains("'much'"));
+}
+
+TEST_CASE("svr: progress rises to 1, and what it throws ends the fit") {
+  std::atomic<double> last{0.0};
+  std::atomic<bool> fell{false};
+  const auto watch = [&](double share) {
+    if (share < last || share > 1.0) fell = true;
+    last = share;
+  };
+  fit_svr(few_rows(), {}, watch);
+  CHECK(!fell);
+  CHECK(last == 1.0);
+
+  const auto stop = [](double share) {
+    if (share > 0.1) throw remap::Error(remap::ErrorKind::kInterrupted, "stopped");
+  };
+  CHECK_THROWS_WITH(fit_svr(few_rows(), {}, stop), "stopped");
+}
+
+TEST_CASE("svr: tables that cannot be fitted are refused") {
+  std::vector<TableRow> few = made_rows(3, 3);
+  CHECK_THROWS_WITH(fit_svr(few, {}), Catch::Contains("too few rows (9, at least 10"));
+  CHECK_THROWS_WITH(fit_svr({}, {}), Catch::Contains("too few rows (0,"));
+  CHECK_THROWS_WITH(fit_svr(made_rows(1, 12), {}), Catch::Contains("alpha1 is 0.05 in every row"));
+  CHECK_THROWS_WITH(fit_svr(made_rows(12, 1), {}), Catch::Contains("specular1 is 0.05 in every row"));
+  for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
+    SvrOptions options = given();
+    options.specular->gamma = wrong;
+    CHECK_THROWS_WITH(fit_svr(made_rows(), options), Catch::Contains("svr specular:"));
+  }
+}
+
+TEST_CASE("svr: unusual tables give finite results", "[slow]") {
+  std::vector<TableRow> rows = few_rows();
+  SECTION("two alphas") { rows = made_rows(2, 6); }
+  SECTION("duplicates: the same fit as once") {  // bit for bit: the mean of two equal numbers is exact
+    std::vector<TableRow> twice = rows;
+    twice.insert(twice.end(), rows.begin(), rows.end());
+    const Regression two = fit_svr(twice, given()), one = fit_svr(rows, given());
+    CHECK(std::get<Svr>(two.mapping).specular == std::get<Svr>(one.mapping).specular);
+    rows = twice;
+  }
+  SECTION("an outlier of 1e6") { rows[17].specular2 = 1e6; }
+  SECTION("constant outputs") {
+    for (TableRow& row : rows) row.alpha2 = row.specular2 = 0.25;
+  }
+  SECTION("differences of the size of rounding") {
+    for (TableRow& row : rows) row.specular2 = 0.25 + 1e-16 * row.specular2;
+  }
+  const Regression fit = fit_svr(rows, {});
+  for (const TableRow& row : rows) {
+    const remap::MappedTexel texel = remap::evaluate_mapping(fit.mapping, row.alpha1, row.specular1);
+    CHECK(std::isfinite(texel.alpha));
+    CHECK(std::isfinite(texel.specular));
+  }
+}
+
+TEST_CASE("svr: 2000 of 100000 rows train, and the record says so") {
+  SvrOptions options = given();
+  const Regression fit = fit_svr(made_rows(400, 250), options);
+  CHECK(fit.method.at("alpha.trained_samples") == "400");
+  CHECK(fit.method.at("specular.trained_samples") == "2000");
+  CHECK(errors_of(fit.mapping, made_rows(37, 23)).specular.rms < 1e-3);
+}
+
+TEST_CASE("svr: one sample is drawn from each interval") {
+  SvrSamples samples{1, {}, {}};
+  for (int i = 0; i < 1000; ++i) {
+    samples.inputs.push_back(i);
+    samples.outputs.push_back(-i);
+  }
+  const SvrSamples drawn = draw_evenly(samples, 30, 7);
+  REQUIRE(drawn.count() == 30);
+  for (std::size_t k = 0; k < 30; ++k) {
+    CHECK(std::floor(drawn.inputs[k] * 30.0 / 1000.0) == Approx(static_cast<double>(k)).margin(1.0));
+    CHECK(drawn.outputs[k] == -drawn.inputs[k]);
+  }
+  CHECK(draw_evenly(samples, 1000, 7).inputs == samples.inputs);
+}

@@ -1,0 +1,185 @@
+// The converters that ship: the figures on their cards against their tables.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "fit/fit_table.hpp"
+#include "manifest/build.hpp"
+#include "manifest/fit_folder.hpp"
+#include "manifest/report.hpp"
+#include "manifest/trust.hpp"
+#include "model/chain.hpp"
+#include "model/interpreter.hpp"
+#include "system/files.hpp"
+#include "table/domain.hpp"
+
+using namespace remapc;
+
+namespace {
+
+const std::filesystem::path kFits = std::filesystem::path(REMAP_SOURCE_DIR) / "fits";
+
+const std::vector<remap::Fit>& shipped() {
+  static const std::vector<remap::Fit> fits = load_fits(kFits);
+  return fits;
+}
+
+bool of_hub(const remap::Fit& fit) {
+  return fit.source.model.starts_with("mitsuba/") && fit.target.model.starts_with("mitsuba/");
+}
+
+bool is_in(const std::vector<std::string>& models, const std::string& model) {
+  return std::find(models.begin(), models.end(), model) != models.end();
+}
+
+template <typename Visit>
+void over_domain(const remap::Fit& fit, const Visit& visit) {
+  for (int i = 0; i <= 60; ++i)
+    for (int j = 0; j <= 20; ++j) {
+      const remap::Range& alphas = fit.domain.alpha;
+      const double alpha = alphas.min + (alphas.max - alphas.min) * i / 60.0;
+      visit(alpha, fit.domain.specular.max * j / 20.0);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("shipped: every ordered pair of the hub, and the models that are reached through it") {
+  const std::vector<std::string> hub = {"mitsuba/ward",  "mitsuba/ward-duer", "mitsuba/ward-balanced",
+                                        "mitsuba/phong", "mitsuba/beckmann",  "mitsuba/ggx",
+                                        "mitsuba/as"};
+  std::set<std::pair<std::string, std::string>> measured, others;
+  for (const remap::Fit& fit : shipped())
+    (is_measured(fit) ? measured : others).insert({fit.source.model, fit.target.model});
+  for (const std::string& source : hub)
+    for (const std::string& target : hub)
+      if (source != target) CHECK(measured.count({source, target}) == 1);
+  // Every other model has converters to and from the hub.
+  std::set<std::string> real;
+  for (const auto& [source, target] : measured) {
+    if (!is_in(hub, source)) real.insert(source);
+    if (!is_in(hub, target)) real.insert(target);
+  }
+  for (const std::string& model : real) {
+    const auto joins = [&](const auto& pair) {
+      return (pair.first == model && is_in(hub, pair.second)) ||
+             (pair.second == model && is_in(hub, pair.first));
+    };
+    INFO(model);
+    CHECK(std::count_if(measured.begin(), measured.end(), joins) >= 2);
+  }
+  for (const auto& pair :
+       std::vector<std::pair<std::string, std::string>>{{"mitsuba/ward", "blender-internal-2.7/ward"},
+                                                        {"blender-internal-2.7/ward", "mitsuba/ward"},
+                                                        {"mitsuba/ggx", "cycles-2.7/ggx"},
+                                                        {"cycles-2.7/ggx", "mitsuba/ggx"},
+                                                        {"blender-internal-2.7/ward", "cycles-2.7/ggx"},
+                                                        {"cycles-2.7/ggx", "blender-internal-2.7/ward"}})
+    CHECK(others.count(pair) == 1);
+}
+
+// Tables of real renderers are less smooth: clamped widths, lookup tables in shaders, half floats.
+TEST_CASE(
+    "shipped: fits follow their tables to 1e-3 in alpha, 2e-3 for real renderers, and 1 % in specular") {
+  for (const remap::Fit& fit : shipped()) {
+    if (!is_measured(fit)) continue;
+    INFO(fit.id);
+    const double allowed = of_hub(fit) ? 1e-3 : 2e-3;
+    CHECK(fit.roughness_error.rms <= allowed);
+    CHECK(fit.split.held_out_rows >= (of_hub(fit) ? 20 : 15));
+    const std::string bytes = remap::read_file(kFits / "tables" / fit.table.name);
+    CHECK(sha256(bytes) == fit.table.sha256);
+    const Table table = parse_table(bytes, fit.table.name);
+    CHECK(table_domain(table) == fit.domain);
+    double largest = 0.0;
+    for (const TableRow& row : table.rows) {
+      if (!is_inside(row, fit.domain)) continue;
+      CHECK(row.status == RowStatus::kOk);
+      largest = std::max(largest, row.specular2);
+    }
+    CHECK(fit.specular_error.rms <= 0.01 * largest);
+    const RowErrors errors = row_errors(fit, rows_inside(usable_rows(table), fit.domain));
+    CHECK(errors.alpha.rms <= allowed);
+    CHECK(errors.specular.rms <= 0.01 * largest);
+  }
+}
+
+TEST_CASE("shipped: inside its domain a converter gives valid parameters of the target, and rises",
+          "[slow]") {
+  for (const remap::Fit& fit : shipped()) {
+    INFO(fit.id);
+    const double specular_slack = fit.has_errors() ? 2.0 * fit.specular_error.max + 1e-3 : 1e-3;
+    over_domain(fit, [&](double alpha, double specular) {
+      const remap::MappedTexel texel = evaluate_mapping(fit.mapping, alpha, specular);
+      CHECK(texel.alpha > 0.0);
+      // Beyond the last row, and below the first samples of dielectrics.
+      const bool faint = specular < 0.2 * fit.domain.specular.max;
+      CHECK(texel.alpha <= 1.0 + (of_hub(fit) ? 5e-3 : faint ? 0.04 : 0.02));
+      CHECK(texel.specular <= 1.0 + specular_slack);
+      const remap::MappedTexel wider = evaluate_mapping(fit.mapping, alpha * 1.01, specular);
+      CHECK(wider.alpha > texel.alpha);
+      const remap::MappedTexel brighter = evaluate_mapping(fit.mapping, alpha, specular + 0.01);
+      CHECK(brighter.specular > texel.specular);
+    });
+  }
+}
+
+TEST_CASE("shipped: chains agree with their steps", "[slow]") {
+  for (const remap::Fit& fit : shipped()) {
+    if (!std::holds_alternative<remap::Chain>(fit.mapping)) continue;
+    INFO(fit.id);
+    std::vector<remap::Fit> steps;
+    for (const remap::ChainStep& step : std::get<remap::Chain>(fit.mapping).steps)
+      steps.push_back(find_fit(step.id, kFits));
+    CHECK(composed_fit(steps, fit.id) == fit);
+    const remap::ChainDifference difference = difference_from_steps(fit, steps);
+    CHECK(difference.alpha < 2e-5);
+    CHECK(difference.grey_specular < 2e-5);
+    CHECK(difference.color_specular < 2e-3);
+  }
+}
+
+TEST_CASE("shipped: figure 18 there and back") {
+  const remap::Fit there = find_fit("blender_internal_2_7_ward_to_cycles_2_7_ggx", kFits),
+                   back = find_fit("cycles_2_7_ggx_to_blender_internal_2_7_ward", kFits);
+  // Ward and GGX differ in shape, so each direction has its own match and the round trip is not exact.
+  for (const double alpha : {0.1, 0.2, 0.3}) {
+    const remap::MappedTexel far = evaluate_mapping(there.mapping, alpha, 0.1);
+    const remap::MappedTexel home = evaluate_mapping(back.mapping, far.alpha, far.specular);
+    CHECK(home.alpha == Approx(alpha).epsilon(0.35));
+    CHECK(home.specular == Approx(0.1).epsilon(0.35));
+  }
+}
+
+TEST_CASE("shipped: the published formulas, as corrected") {
+  const remap::Fit as = find_fit("mitsuba_ward_to_mitsuba_as_sztrajman_2019", kFits);
+  CHECK(evaluate_mapping(as.mapping, 1.0, 1.0).alpha == Approx(1.04 - 0.388 - 0.332 + 0.25).epsilon(1e-12));
+  CHECK(evaluate_mapping(as.mapping, 0.5, 1.0).specular ==
+        Approx(-512.13 + 512.75 * std::exp(-0.00057 * 0.5) + 0.398 * std::exp(-3.12 * 0.25)).epsilon(1e-9));
+  const remap::Fit ggx = find_fit("mitsuba_ward_to_mitsuba_ggx_sztrajman_2019", kFits);
+  CHECK(evaluate_mapping(ggx.mapping, 1.0, 1.0).alpha == Approx(0.579).epsilon(1e-9));
+  const remap::Fit cycles = find_fit("cycles_2_7_ggx_to_mitsuba_as", kFits);
+  CHECK(evaluate_mapping(cycles.mapping, 0.02, 0.5).specular ==
+        Approx(0.5 *
+               (-0.067 + 1.43 * std::exp(-0.692 * 0.02) - 0.547 * std::exp(-6.4 * 0.0004) + 0.0002 / 0.02))
+            .epsilon(1e-9));
+  for (const remap::Fit& fit : {as, ggx, cycles}) {
+    REQUIRE(fit.remarks.size() >= 2);
+    CHECK(fit.remarks[0].find("Sztrajman et al. 2019") != std::string::npos);
+    CHECK(std::any_of(fit.remarks.begin(), fit.remarks.end(),
+                      [](const std::string& remark) { return remark.starts_with("Erratum: "); }));
+  }
+}
+
+TEST_CASE("shipped: the fits are those of the manifest, and the report is up to date") {
+  const BuildFolders folders{kFits, std::filesystem::path(REMAP_SOURCE_DIR) / "generated"};
+  CHECK(stale(load_manifest(kFits), folders).empty());
+  const std::vector<ReportFile> files = report(load_fit_folder(kFits), load_lock(kFits));
+  for (const ReportFile& file : files) {
+    INFO(file.name);
+    CHECK((remap::read_file(kFits / file.name) == file.text));
+  }
+}

@@ -1,0 +1,167 @@
+// The studies of measured materials: the list against the database, and properties of small studies.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "renderer/fresnel.hpp"
+#include "report/gnuplot.hpp"
+#include "study/conductors_study.hpp"
+#include "study/dielectrics_study.hpp"
+#include "study/materials.hpp"
+#include "support/shared_data.hpp"
+#include "support/skip.hpp"
+#include "support/temporary_folder.hpp"
+#include "system/files.hpp"
+
+using namespace remapc;
+
+namespace {
+
+// The record of a material in the database.
+nlohmann::json record(const nlohmann::json& database, const std::string& name) {
+  for (const nlohmann::json& item : database.at("data"))
+    if (item.at("name") == name) return item;
+  FAIL("the database has no " + name);
+  return {};
+}
+
+bool is_linear_srgb(const nlohmann::json& index) { return index.at("colorSpace") == "srgb-linear"; }
+
+StudyOptions small_study(std::vector<double> alphas) {
+  StudyOptions options;
+  options.resolution = 64;
+  options.alphas = std::move(alphas);
+  return options;
+}
+
+std::size_t line_count(const std::filesystem::path& path) {
+  const std::string text = remap::read_file(path);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+// The file is the table: tables are written so that doubles read back.
+void check_written(const std::filesystem::path& path, const Table& table) {
+  const Table written = read_table(path);
+  REQUIRE(written.rows.size() == table.rows.size());
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    CHECK(written.rows[i].alpha2 == table.rows[i].alpha2);
+    CHECK(written.rows[i].specular2 == table.rows[i].specular2);
+    CHECK(written.rows[i].status == table.rows[i].status);
+  }
+}
+
+// What gnuplot draws, where it is installed.
+void check_plot(const std::string& script) {
+  if (!remap::has_program("gnuplot")) return;
+  const remap::TemporaryFolder folder;
+  write_svg(folder.path() / "plot.svg", script);
+  CHECK_THAT(remap::read_file(folder.path() / "plot.svg"), Catch::Contains("</svg>"));
+}
+
+}  // namespace
+
+TEST_CASE("materials: at least thirty, named once, with a source, and physical") {
+  std::set<std::string> names;
+  for (const Conductor& metal : measured_conductors()) {
+    CHECK(names.insert(metal.name).second);
+    CHECK(std::string(metal.source).size() > 3);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double f0 = normal_reflectance({metal.eta[c], metal.k[c]});
+      CHECK(f0 > 0.1);
+      CHECK(f0 <= 1.0);
+    }
+  }
+  for (const Dielectric& material : measured_dielectrics()) {
+    CHECK(names.insert(material.name).second);
+    CHECK(std::string(material.source).size() > 3);
+    CHECK(material.ior > 1.0);
+    CHECK(material.ior < 2.5);
+  }
+  CHECK(names.size() >= 30);
+}
+
+TEST_CASE("materials: values equal those of the database", "[needs]") {
+  const auto path = remap::shared_data("materials/physicallybased.json");
+  if (path.empty()) return;
+  const nlohmann::json database = nlohmann::json::parse(remap::read_file(path));
+  for (const Conductor& metal : measured_conductors()) {
+    const nlohmann::json item = record(database, metal.name);
+    const auto& indices = item.at("complexIor");
+    CHECK(std::count_if(indices.begin(), indices.end(), is_linear_srgb) == 1);
+    for (const nlohmann::json& index : indices) {
+      if (!is_linear_srgb(index)) continue;
+      CHECK(index.at("n").get<std::array<double, 3>>() == metal.eta);
+      CHECK(index.at("k").get<std::array<double, 3>>() == metal.k);
+    }
+  }
+  for (const Dielectric& material : measured_dielectrics())
+    CHECK(record(database, material.name).at("ior").get<double>() == material.ior);
+}
+
+TEST_CASE("conductors: specular of Ward is smooth up to 1, flagged beyond, and comes back", "[needs]") {
+  const remap::TemporaryFolder folder;
+  const auto renderer = make_builtin_renderer();
+  const ConductorsStudy study = study_conductors(*renderer, small_study({0.1, 0.3}));
+  CHECK(study.rows.size() == measured_conductors().size() * 3 * 2);
+  for (const ConductorCurve& curve : study.curves) {
+    CHECK(curve.ok > 20);
+    CHECK(curve.clamped > 10);
+    CHECK(curve.other == 0);
+    CHECK(curve.line_deviation < 1e-6);  // both models are affine in specular: a line up to rounding
+  }
+  for (const TableRow& row : study.there.rows) {
+    const double limit = row.alpha1 == 0.1 ? study.curves[0].limit_f0 : study.curves[1].limit_f0;
+    CHECK(row.status == (row.specular1 < limit ? RowStatus::kOk : RowStatus::kClamped));
+  }
+  CHECK(study.plain_difference < 1e-9);
+  CHECK(study.round_trip.slope == Approx(1.0).epsilon(0.01));
+  CHECK(study.round_trip.f0_deviation < 0.02);
+  for (const FresnelDifference& item : study.fresnel) {
+    CHECK(item.error > 0.0);
+    CHECK(item.error < 0.1);  // Schlick 1994: a few per cent for metals
+  }
+  // Exact Fresnel of a metal is lower than Schlick's at oblique light, and equal along the normal.
+  for (const ConductorRow& row : study.rows) CHECK(row.by_index.specular1 == row.f0);
+  // The words have the figures, the files the rows.
+  std::string words;
+  for (const std::string& sentence : conductors_words(study)) words += sentence + "\n";
+  CHECK(words.find("nan") == std::string::npos);
+  for (const ConductorCurve& curve : study.curves)
+    for (const std::size_t figure : {curve.ok, curve.clamped})
+      CHECK_THAT(words, Catch::Contains(" " + std::to_string(figure) + " "));
+  CHECK_THAT(words, Catch::Contains(std::to_string(study.round_trip.rows)));
+  write_conductors(study, folder.path());
+  CHECK(line_count(folder.path() / "conductors.csv") == study.rows.size() + 1);
+  CHECK(line_count(folder.path() / "fresnel.csv") == study.fresnel.size() + 1);
+  check_written(folder.path() / "as_to_ward.csv", study.there);
+  check_written(folder.path() / "ward_to_as.csv", study.back);
+  check_plot(conductors_plot_script(study));
+}
+
+TEST_CASE("dielectrics: two stages are smooth and stable, three never worse", "[needs][slow]") {
+  const remap::TemporaryFolder folder;
+  const auto renderer = make_builtin_renderer();
+  StudyOptions options = small_study({0.3});
+  options.resolution = 32;
+  const DielectricsStudy study = study_dielectrics(*renderer, options, 0.3);
+  REQUIRE(study.curves.size() == 3);
+  const DielectricCurve& two = study.curves[1];
+  CHECK(two.stages == 2);
+  CHECK_FALSE(two.jumps());
+  CHECK(two.second_difference < 0.01);
+  CHECK(two.unstable == 0);
+  CHECK(study.curves[2].mean_error <= two.mean_error);
+  CHECK(study.error_gain >= 0.0);
+  CHECK_FALSE(study.trials.empty());
+  for (const auto& table : study.stages) CHECK(table.has_diffuse);
+  write_dielectrics(study, folder.path());
+  for (std::size_t i = 0; i < study.stages.size(); ++i)
+    check_written(folder.path() / ("stages" + std::to_string(i + 1) + ".csv"), study.stages[i]);
+  CHECK(line_count(folder.path() / "guesses.csv") == study.trials.size() + 1);
+  check_plot(dielectrics_plot_script(study));
+  for (const std::string& sentence : dielectrics_words(study))
+    CHECK(sentence.find("nan") == std::string::npos);
+}

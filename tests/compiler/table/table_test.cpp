@@ -1,0 +1,132 @@
+// Tables: reading, writing, column maps, and every error with its place.
+#include "table/table.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "remap/error.hpp"
+#include "support/shared_data.hpp"
+#include "system/files.hpp"
+
+using namespace remapc;
+
+namespace {
+
+const std::string kHeader = "alpha1,specular1,alpha2,specular2,error,status\n";
+
+Table parse(const std::string& text) { return parse_table(text, "t.csv"); }
+
+}  // namespace
+
+TEST_CASE("table: what is written is read back number for number") {
+  Table table;
+  table.name = "t.csv";
+  table.comments = {{"source", "mitsuba/ward"},
+                    {"target", "mitsuba/phong"},
+                    {"target_roughness", "exponent"},
+                    {"target_specular", "specular"},
+                    {"note", "a: b"}};
+  table.rows = {{0.1, 1.0 / 3.0, 1e-17, 123456.789, 0.0, RowStatus::kOk, 0},
+                {0.2, 0.5, 0.25, 0.125, 1e300, RowStatus::kClamped, 0},
+                {0.3, 0.0, 0.3, 0.0, 0.0, RowStatus::kFlat, 0},
+                {0.4, 0.5, 0.3, 0.1, 0.2, RowStatus::kUnstable, 0}};
+  const Table back = parse(table_text(table));
+  CHECK(table_text(back) == table_text(table));
+  REQUIRE(back.rows.size() == 4);
+  CHECK(back.rows[0].specular1 == 1.0 / 3.0);
+  CHECK(back.rows[1].status == RowStatus::kClamped);
+  CHECK(back.rows[3].line == 10);
+  CHECK(back.source.model == "mitsuba/ward");
+  CHECK(back.target.roughness == remap::RoughnessConvention::kExponent);
+}
+
+TEST_CASE("table: diffuse is written where rows have it, and read back") {
+  Table table;
+  table.has_diffuse = true;
+  table.rows = {{0.1, 0.2, 0.3, 0.4, 0.5, RowStatus::kOk, 0, 1.0 / 7.0, 0.25}};
+  const std::string text = table_text(table);
+  CHECK(text.starts_with("alpha1,specular1,alpha2,specular2,diffuse1,diffuse2,error,status\n"));
+  const Table back = parse(text);
+  CHECK(back.has_diffuse);
+  CHECK(back.rows[0].diffuse1 == 1.0 / 7.0);
+  CHECK(back.rows[0].diffuse2 == 0.25);
+  CHECK(table_text(back) == text);
+  table.has_diffuse = false;
+  CHECK(table_text(table) == kHeader + "0.1,0.2,0.3,0.4,0.5,ok\n");
+  CHECK_THROWS_WITH(
+      parse("alpha1,specular1,alpha2,specular2,diffuse2\n1,2,3,4,5\n"),
+      Catch::Contains("has a column diffuse2 but no column diffuse1 (both or neither are needed)"));
+}
+
+TEST_CASE("table: a side is named after the content of its column") {
+  const Table table = parse("# source: a/b\n# source_specular: ior\n# source_specular_column: f0\n" +
+                            kHeader + "0.1,0.2,0.3,0.4,0,ok\n");
+  CHECK(table.source.specular == "f0");
+}
+
+TEST_CASE("table: comma, tab or semicolon is detected; spaces, quotes, BOM and CRLF are accepted") {
+  for (const char delimiter : {',', '\t', ';'}) {
+    std::string text =
+        "\xEF\xBB\xBF# source: a/b\r\n\"alpha1\", specular1,alpha2,specular2,k2\r\n0.1, "
+        "0.2,0.3,+0.4,-100\r\n\r\n";
+    for (char& c : text) c = c == ',' ? delimiter : c;
+    const Table table = parse(text);
+    REQUIRE(table.rows.size() == 1);
+    CHECK(table.rows[0].specular1 == 0.2);
+    CHECK(table.rows[0].specular2 == 0.4);
+    CHECK(std::isnan(table.rows[0].error));
+    CHECK(table.source.model == "a/b");
+  }
+}
+
+TEST_CASE("table: the published table loads by its preset and by a column map", "[needs]") {
+  const auto path = remap::shared_data("tables/mitsuba-ward2mitsuba-as.csv");
+  if (path.empty()) return;
+  const Table preset = read_table(path, column_map("sztrajman-2019"));
+  REQUIRE(preset.rows.size() == 721);
+  CHECK(preset.rows[0].alpha1 == 0.4975);
+  CHECK(preset.rows[0].specular2 == 0.083393910193);
+  CHECK(preset.source.model == "mitsuba/ward");
+  CHECK(preset.target.specular == "f0");
+  const Table mapped = read_table(path, column_map("specular2=eta2,specular1=specular1"));
+  CHECK(table_text(mapped) == table_text([&] {
+          Table same = preset;
+          same.comments = mapped.comments;
+          return same;
+        }()));
+  CHECK_THROWS_WITH(read_table(path), Catch::Contains("has no column specular2 (did you mean specular1?)"));
+}
+
+TEST_CASE("table: a bad number is reported with line and column") {
+  CHECK_THROWS_WITH(parse("# c: d\n" + kHeader + "0.1,0.2,0.3,0.4,0,ok\n0.1,0.2,0.3x,0.4,0,ok\n"),
+                    "t.csv:4:9: alpha2 is \"0.3x\"; expected a number");
+  CHECK_THROWS_WITH(parse(kHeader + "0.1,,0.3,0.4,0,ok\n"), Catch::Contains("t.csv:2:5: specular1 is \"\""));
+  CHECK_THROWS_WITH(parse(kHeader + "0.1,0.2,0.3,0.4,0,fine\n"),
+                    Catch::Contains("t.csv:2:19: status is \"fine\""));
+}
+
+TEST_CASE("table: the error for a missing column names the nearest") {
+  CHECK_THROWS_WITH(parse("alpha1,specular1,width2,specular2\n1,2,3,4\n"),
+                    "t.csv:1:1: has no column alpha2 (did you mean alpha1?)");
+}
+
+TEST_CASE("table: a wrong delimiter is recognised") {
+  CHECK_THROWS_WITH(parse("alpha1|specular1|alpha2|specular2\n1|2|3|4\n"),
+                    Catch::Contains("comma, tab or semicolon"));
+}
+
+TEST_CASE("table: a row of another length is reported") {
+  CHECK_THROWS_WITH(parse(kHeader + "0.1,0.2,0.3\n"), "t.csv:2:1: the row has 3 columns, the header 6");
+}
+
+TEST_CASE("table: text without header or rows is refused") {
+  CHECK_THROWS_WITH(parse(""), Catch::Contains("no header row"));
+  CHECK_THROWS_WITH(parse("# a: b\n"), Catch::Contains("no header row"));
+  CHECK_THROWS_WITH(parse(kHeader), Catch::Contains("no rows"));
+}
+
+TEST_CASE("column map: the error for an unknown preset or column names the nearest") {
+  CHECK_THROWS_WITH(column_map("sztrajman-2018"), Catch::Contains("did you mean sztrajman-2019?"));
+  CHECK_THROWS_WITH(column_map("alpa1=x"), Catch::Contains("did you mean alpha1?"));
+}

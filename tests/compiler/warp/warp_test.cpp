@@ -1,0 +1,419 @@
+// Tests warps on materials with a known result, with a brute-force quadrature, and on cases with an exact
+// result.
+#include "warp/warp.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "remap/error.hpp"
+#include "remap/fit_file.hpp"
+#include "study/warp_sets.hpp"
+#include "support/random_warp.hpp"
+#include "warp/copy_error.hpp"
+#include "warp/paper_warp.hpp"
+#include "warp/simplex_search.hpp"
+#include "warp/space/quadrature.hpp"
+
+namespace {
+
+using namespace remapc;
+
+// The distance by direct quadrature of the BRDF at both alphas, which is independent of the tables.
+double brute_distance(const Eigen::VectorXd& weights, const remap::WarpTexel& a, const remap::WarpTexel& b) {
+  const auto directions = half_vector_quadrature();
+  const auto reflectance = [](const remap::WarpTexel& texel, std::size_t c, const LocalGeometry& geometry) {
+    const Lobe lobe = evaluate_lobe(Brdf::kGgx, Fresnel::kSchlick, static_cast<double>(texel[6]), geometry);
+    return static_cast<double>(texel[c]) / 3.14159265358979 + lobe.base +
+           static_cast<double>(texel[3 + c]) * lobe.slope;
+  };
+  double sum = 0.0;
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      sum += std::pow(weights[static_cast<Eigen::Index>(i)] * (reflectance(a, c, directions[i].geometry) -
+                                                               reflectance(b, c, directions[i].geometry)),
+                      2.0);
+  return std::sqrt(sum);
+}
+
+// Figures of a fit on a set, in % of the template's spread unless stated otherwise.
+struct Figures {
+  double error = 0.0;        // exact copy to the truth
+  double table_error = 0.0;  // compiled converter to the exact copy
+  double bins = 0.0;         // share of the template's occupied bins that the copy uses
+  double folds = 0.0;        // share of texels
+  std::vector<Eigen::VectorXd> result;
+};
+
+Figures measure(const WarpSet& set, const WarpFit& fit) {
+  const FeaturePair features = appearance_features(set.source, set.target);
+  const auto copy = copy_exactly(fit, set.source, set.target);
+  const Points positions = positions_of(fit.target_coordinates(), set.target.texels);
+  const BinGrid grid(positions, occupancy_of(positions, {}).spacing);
+  std::vector<int> count(grid.size(), 0), used(grid.size(), 0);
+  for (Eigen::Index i = 0; i < positions.rows(); ++i)
+    ++count[static_cast<std::size_t>(grid.bin_of(positions, i))];
+  for (const std::uint32_t texel : copy) used[static_cast<std::size_t>(grid.bin_of(positions, texel))] = 1;
+  double occupied = 0.0, reached = 0.0;
+  for (std::size_t bin = 0; bin < count.size(); ++bin)
+    if (count[bin] >= 4) {
+      occupied += 1.0;
+      reached += used[bin];
+    }
+  Figures figures;
+  figures.bins = reached / occupied;
+  std::vector<remap::WarpTexel> some;
+  for (std::size_t i = 0; i < copy.size(); i += 13) {
+    some.push_back(set.source.texels[i]);
+    const auto own = features_of(features.target, set.target.texels[copy[i]]);
+    const auto compiled =
+        features_of(features.target, remap::evaluate_warp(fit.compiled, set.source.texels[i]));
+    figures.error += (own - features_of(features.target, set.truth[i])).norm();
+    figures.table_error += (own - compiled).norm();
+    figures.result.push_back(own);
+  }
+  const double scale = 100.0 / fit.target_radius / static_cast<double>(some.size());
+  figures.error *= scale;
+  figures.table_error *= scale;
+  const Points points = positions_of(fit.compiled.coordinates, some);
+  figures.folds = fold_share(fit.warp, points, Eigen::VectorXd::Ones(points.rows()));
+  return figures;
+}
+
+// The share of texels for which the results of the texel and of its neighbor in the source's appearance space
+// are more than a quarter of the spread apart.
+double tears(const WarpSet& set, const WarpFit& fit) {
+  const FeaturePair features = appearance_features(set.source, set.target);
+  const auto copy = copy_exactly(fit, set.source, set.target);
+  const Points positions = positions_of(fit.compiled.coordinates, set.source.texels);
+  Points beside = positions;
+  beside.col(0).array() += 0.02;
+  const auto neighbours = NearestTexel(positions).find(beside);
+  double torn = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < copy.size(); i += 13, count += 1.0) {
+    const auto own = features_of(features.target, set.target.texels[copy[i]]);
+    const auto other = features_of(features.target, set.target.texels[copy[neighbours[i]]]);
+    torn += (own - other).norm() > 0.25 * fit.target_radius ? 1.0 : 0.0;
+  }
+  return torn / count;
+}
+
+double change(const Figures& a, const Figures& b, double radius) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.result.size(); ++i) sum += (a.result[i] - b.result[i]).norm();
+  return 100.0 * sum / radius / static_cast<double>(a.result.size());
+}
+
+WarpSet small_leaf() { return leaf_set(64); }
+
+}  // namespace
+
+TEST_CASE("features: distances equal those of the quadrature", "[warp]") {
+  const WarpSet set = rust_set(64);
+  const FeaturePair features = appearance_features(set.source, set.target);
+  const Eigen::VectorXd weights = direction_weights(set.source, set.target, AppearanceDistance::kRelative);
+  for (std::size_t i = 0; i < 40; ++i) {
+    const auto &a = set.source.texels[97 * i], &b = set.target.texels[53 * i + 7];
+    const double distance = (features_of(features.source, a) - features_of(features.target, b)).norm();
+    // Interpolation between the 64 nodes of alpha has an error of 1e-3 of a lobe; the basis of 14 has less.
+    CHECK(distance == Approx(brute_distance(weights, a, b)).epsilon(5e-3));
+  }
+}
+
+TEST_CASE("coordinates: closed form is the projection of features", "[warp]") {
+  const WarpSet set = rust_set(64);
+  const FeaturePair features = appearance_features(set.source, set.target);
+  const AppearanceSpace space = appearance_space(set.source, features.source);
+  const auto coordinates = closed_form(space, std::get<SeparableFeatures>(features.source), 3);
+  for (std::size_t i = 0; i < set.source.texels.size(); i += 101) {
+    const Eigen::VectorXd projected = space.axes.transpose() *
+                                      (features_of(features.source, set.source.texels[i]) - space.mean) /
+                                      space.radius;
+    const auto position = remap::coordinates_of(coordinates, set.source.texels[i]);
+    for (std::size_t k = 0; k < 3; ++k)  // float tables
+      CHECK(position[k] == Approx(projected[static_cast<Eigen::Index>(k)]).margin(1e-5));
+  }
+  CHECK(dimension_of(space) == 3);
+  CHECK(space.stress[2] < 0.01);
+  const WarpSet leaf = small_leaf();
+  const FeaturePair leaf_features = appearance_features(leaf.source, leaf.target);
+  const AppearanceSpace leaf_space = appearance_space(leaf.source, leaf_features.source);
+  CHECK(dimension_of(leaf_space) == 2);
+  CHECK(leaf_space.stress[1] < 0.03);
+}
+
+TEST_CASE("affine: strokes related by an affine map give that map", "[warp]") {
+  PointSets sets;
+  sets.common_axes = Eigen::MatrixXd::Identity(2, 2);
+  sets.source_centres = Points(4, 2);
+  sets.source_centres << -90, -80, 100, -70, -60, 110, 80, 90;  // large, so that the prior is negligible
+  Eigen::MatrixXd linear(2, 2);
+  linear << 0.5, 1.25, -2.0, 0.75;
+  const Eigen::RowVectorXd offset = Eigen::RowVector2d(3.0, -4.0);
+  sets.target_centres = (sets.source_centres * linear).rowwise() + offset;
+  const AffineMap found = affine_from_strokes(sets);
+  CHECK((found.linear - linear).norm() < 1e-4);
+  CHECK((found.offset - offset).norm() < 1e-2);
+}
+
+TEST_CASE("affine: with one stroke the map follows the common axes", "[warp]") {
+  PointSets sets;
+  sets.common_axes = Eigen::MatrixXd::Identity(2, 2);
+  sets.source_centres = Eigen::RowVector2d(0.5, 0.25);
+  sets.target_centres = Eigen::RowVector2d(-0.5, 0.75);
+  const AffineMap found = affine_from_strokes(sets);
+  CHECK((found.linear - sets.common_axes).norm() < 1e-12);
+  CHECK((found.offset - Eigen::RowVector2d(-1.0, 0.5)).norm() < 1e-12);
+}
+
+TEST_CASE("warp: near the truth, without tears and folds", "[warp][slow]") {
+  for (const WarpSet& set : {leaf_set(128), rust_set(128)}) {
+    CAPTURE(set.name);
+    std::vector<Figures> figures;
+    double error = 0.0, bins = 0.0, moved = 0.0, radius = 0.0;
+    for (std::uint32_t seed = 0; seed < 3; ++seed) {
+      const WarpFit fit = fit_warp(set.source, set.target, strokes_of(set, seed));
+      figures.push_back(measure(set, fit));
+      CHECK(figures.back().folds == 0.0);
+      CHECK(tears(set, fit) <= 0.01);
+      CHECK(figures.back().table_error <
+            3.0);  // few texels: neighbors are farther apart than in a map of 256^2
+      CHECK(remap::byte_count(fit.compiled) <= 250000);
+      error += figures.back().error / 3.0;
+      bins += figures.back().bins / 3.0;
+      radius = fit.target_radius;
+    }
+    for (std::size_t k = 0; k < 3; ++k) moved += change(figures[k], figures[(k + 1) % 3], radius) / 3.0;
+    CAPTURE(error, bins, moved);
+    CHECK(error < 24.0);  // unrelated texels: 141
+    CHECK(bins > 0.8);
+    CHECK(moved < 14.0);
+  }
+}
+
+TEST_CASE("warp: more accurate than histogram matching and affine on both sets", "[warp][slow]") {
+  const std::array sets = {leaf_set(128), rust_set(128)};
+  const auto error_by = [&](WarpMethod method) {
+    WarpOptions options;
+    options.method = method;
+    double sum = 0.0;
+    for (const WarpSet& set : sets)
+      sum += measure(set, fit_warp(set.source, set.target, strokes_of(set, 0), options)).error;
+    return sum / static_cast<double>(sets.size());
+  };
+  const double own = error_by(WarpMethod::kRegistration);
+  CHECK(own < 0.7 * error_by(WarpMethod::kAffine));
+  CHECK(own < 0.7 * error_by(WarpMethod::kHistogram));
+  CHECK(own < 1.1 * error_by(WarpMethod::kPaper));
+}
+
+TEST_CASE("simplex search: the valley of Rosenbrock and a paraboloid", "[warp]") {
+  const auto valley = [](const std::vector<double>& x) {
+    return 100.0 * std::pow(x[1] - x[0] * x[0], 2.0) + std::pow(1.0 - x[0], 2.0);
+  };
+  const auto lowest = simplex_search({-1.2, 1.0}, {0.1, 0.1}, 300, valley);
+  CHECK(lowest[0] == Approx(1.0).margin(1e-4));
+  CHECK(lowest[1] == Approx(1.0).margin(1e-4));
+  int calls = 0;
+  const auto counted = [&](const std::vector<double>& x) {
+    ++calls;
+    return x[0] * x[0] + 2.0 * x[1] * x[1] + 3.0 * x[2] * x[2];
+  };
+  const auto found = simplex_search({1.0, 2.0, 3.0}, {0.5, 0.5, 0.5}, 50, counted);
+  CHECK(calls == 50);
+  CHECK(counted(found) < 1.0);
+}
+
+TEST_CASE("paper: the simplex search lowers the published energy and changes the result little",
+          "[warp][slow]") {
+  const WarpSet set = leaf_set(128);
+  const auto strokes = strokes_of(set, 0);
+  WarpOptions options;
+  options.method = WarpMethod::kPaper;
+  WarpFit fit = fit_warp(set.source, set.target, strokes, options);
+  const double searched = measure(set, fit).error;
+  auto& warp = std::get<BinnedAffine>(fit.warp);
+  double moved = 0.0;
+  for (AffineMap& correction : warp.corrections) {
+    moved += correction.linear.norm() + correction.offset.norm();
+    correction.linear.setZero();
+    correction.offset.setZero();
+  }
+  CHECK(moved > 0.0);
+  const double initial = measure(set, fit).error;
+  CAPTURE(searched, initial);
+  CHECK(std::abs(searched - initial) < 0.5);
+}
+
+TEST_CASE("paper: with equal sets and equal strokes the search changes nothing", "[warp]") {
+  PointSets sets;
+  sets.source.points = Points(36, 2);
+  for (Eigen::Index i = 0; i < 36; ++i)
+    sets.source.points.row(i) << 0.1 * static_cast<double>(i % 6), 0.1 * static_cast<double>(i / 6);
+  sets.source.texel_count = Eigen::VectorXd::Ones(36);
+  sets.source.spacing = 0.1;
+  sets.source.strokes = {{0, 1, 6, 7}, {4, 5, 10, 11}, {24, 25, 30, 31}, {28, 29, 34, 35}};
+  sets.target = sets.source;
+  sets.common_axes = Eigen::MatrixXd::Identity(2, 2);
+  sets.source_centres = Points(4, 2);
+  sets.source_centres << 0.05, 0.05, 0.45, 0.05, 0.05, 0.45, 0.45, 0.45;
+  sets.target_centres = sets.source_centres;
+  const PaperWarp found = warp_of_paper(sets);
+  CHECK(found.energy_after <= found.energy_before);
+  const Points images = images_of(AppearanceWarp(initialisation_of_paper(sets)), sets.source.points);
+  CHECK((images - sets.source.points).cwiseAbs().maxCoeff() < 0.05);
+}
+
+TEST_CASE("warp: results are bit-identical in every run", "[warp]") {
+  const WarpSet set = small_leaf();
+  const auto strokes = strokes_of(set, 0);
+  CHECK(fit_warp(set.source, set.target, strokes).compiled ==
+        fit_warp(set.source, set.target, strokes).compiled);
+}
+
+TEST_CASE("warp: other BRDF models keep the appearance", "[warp]") {
+  WarpSet set = small_leaf();
+  set.source.model = {Brdf::kBeckmann, Fresnel::kSchlick};
+  const WarpFit fit = fit_warp(set.source, set.target, strokes_of(set, 0));
+  CHECK(measure(set, fit).folds == 0.0);
+}
+
+TEST_CASE("warp: an exact table gives only texels of the template, about as near to the copy as blends",
+          "[warp][slow]") {
+  const WarpSet set = leaf_set(128);
+  const auto strokes = strokes_of(set, 0);
+  WarpOptions options;
+  options.exact = true;
+  const WarpFit exact = fit_warp(set.source, set.target, strokes, options),
+                blended = fit_warp(set.source, set.target, strokes);
+  const auto& entries = std::get<remap::CopiedNodes>(exact.compiled.table.entries);
+  CHECK(exact.compiled.table.nodes == 256);
+  std::vector<remap::WarpTexel> texels = set.target.texels;
+  std::sort(texels.begin(), texels.end());
+  for (const remap::WarpTexel& texel : entries.palette)
+    REQUIRE(std::binary_search(texels.begin(), texels.end(), texel));
+  for (std::size_t i = 0; i < set.source.texels.size(); i += 7)
+    REQUIRE(std::binary_search(texels.begin(), texels.end(),
+                               remap::evaluate_warp(exact.compiled, set.source.texels[i])));
+  const double of_blends = copy_rms_error(blended, set.source, set.target),
+               of_copies = copy_rms_error(exact, set.source, set.target);
+  CAPTURE(of_blends, of_copies);
+  CHECK(of_blends < 0.02);
+  CHECK(of_copies < 2.0 * of_blends);
+}
+
+TEST_CASE("warp: the error of the table equals that of individually measured positions", "[warp]") {
+  const WarpSet set = small_leaf();
+  const WarpFit fit = fit_warp(set.source, set.target, strokes_of(set, 0));
+  const auto copy = copy_exactly(fit, set.source, set.target);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < copy.size(); ++i) {
+    const auto own = remap::coordinates_of(fit.target_coordinates(),
+                                           remap::evaluate_warp(fit.compiled, set.source.texels[i]));
+    const auto copied = remap::coordinates_of(fit.target_coordinates(), set.target.texels[copy[i]]);
+    for (std::size_t k = 0; k < 3; ++k) squares += std::pow(own[k] - copied[k], 2);
+  }
+  CHECK(copy_rms_error(fit, set.source, set.target) ==
+        Approx(std::sqrt(squares / static_cast<double>(copy.size()))));
+}
+
+TEST_CASE("warp: texels that are not finite are skipped", "[warp]") {
+  WarpSet set = small_leaf();
+  const auto strokes = strokes_of(set, 0);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  set.source.texels[5][2] = nan;
+  set.target.texels[9][6] = std::numeric_limits<float>::infinity();
+  const WarpFit fit = fit_warp(set.source, set.target, strokes);
+  CHECK(fit.diagnostics.source_left_out == 1);
+  CHECK(fit.diagnostics.target_left_out == 1);
+  CHECK_FALSE(warnings_of(fit.diagnostics).empty());
+  CHECK(std::isnan(remap::evaluate_warp(fit.compiled, set.source.texels[5])[0]));
+}
+
+TEST_CASE("warp: one stroke does not determine all directions, with a warning", "[warp]") {
+  const WarpSet set = small_leaf();
+  const WarpFit fit = fit_warp(set.source, set.target, {strokes_of(set, 0)[0]});
+  CHECK(fit.diagnostics.fixed_directions == 0);
+  const auto warnings = warnings_of(fit.diagnostics);
+  CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("strokes do not determine direction 1 of 2") != std::string::npos;
+  }));
+}
+
+TEST_CASE("warp: invalid input is refused", "[warp]") {
+  const WarpSet set = small_leaf();
+  const auto strokes = strokes_of(set, 0);
+  const auto message = [](const auto& call) {
+    try {
+      call();
+    } catch (const remap::Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  using Catch::Contains;
+  CHECK_THAT(message([&] { fit_warp(set.source, set.target, {}); }),
+             Contains("at least one pair of strokes"));
+  CHECK_THAT(message([&] {
+               fit_warp(set.source, set.target, {{{}, {1}}});
+             }),
+             Contains("stroke 1: the stroke marks no texel"));
+  CHECK_THAT(message([&] { fit_warp(set.source, set.target, {{{1}, {99999}}}); }), Contains("texel 99999"));
+  CHECK_THAT(message([&] {
+               fit_warp(set.source, set.target, {{{1, 2}, {1}}, {{2}, {7}}});
+             }),
+             Contains("stroke 2: lies within stroke 1"));
+  WarpMaterial black = set.source, plain = set.target;
+  for (auto& texel : black.texels) texel = {0, 0, 0, 0, 0, 0, 0.3f};
+  for (auto& texel : plain.texels) texel = plain.texels[0];
+  CHECK_THAT(message([&] { fit_warp(black, set.target, strokes); }),
+             Contains("leaf source: all texels look the same"));
+  CHECK_THAT(message([&] { fit_warp(set.source, plain, strokes); }),
+             Contains("leaf template: all texels look the same"));
+  WarpOptions options;
+  options.dimensions = 4;
+  CHECK_THAT(message([&] { fit_warp(set.source, set.target, strokes, options); }),
+             Contains("is out of range (1 to 3"));
+}
+
+TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", "[warp]") {
+  const WarpSet set = small_leaf();
+  remap::WarpMapFit fit;
+  fit.id = "leaf";
+  fit.source_model = fit.template_model = "mitsuba/ggx";
+  fit.warp = fit_warp(set.source, set.target, strokes_of(set, 0)).compiled;
+  fit.copy_rms_error = 0.0123;
+  fit.method = {{"method", "registration"}};
+  fit.remarks = {"A remark."};
+  fit.tool_version = "0";
+  for (const bool quadratic : {false, true})
+    for (const bool copied : {false, true}) {
+      fit.warp = remap::random_warp({2, quadratic, copied}, 7, 128);
+      const std::string text = fit_to_json(fit);
+      const remap::AnyFit read = remap::any_fit_from_json(text, "x");
+      REQUIRE(std::holds_alternative<remap::WarpMapFit>(read));
+      CHECK(std::get<remap::WarpMapFit>(read) == fit);
+      CHECK_THROWS_AS(remap::fit_from_json(text, "x"), remap::Error);
+      const auto refused = [&](const std::string& found, const std::string& other,
+                               const std::string& message) {
+        std::string copy = text;
+        copy.replace(copy.find(found), found.size(), other);
+        CHECK_THROWS_WITH(remap::any_fit_from_json(copy, "x"), Catch::Contains(message));
+      };
+      refused("\"nodes\": 128", "\"nodes\": 127", "another size of the table");
+      refused("\"nodes\": 128", "\"nodes\": 1", "another number of nodes; expected 2 to 4096");
+      refused("\"dimension\": 2", "\"dimension\": 3", "other weights of");
+      refused("\"copy_rms_error\": 0.0123", "\"copy_rms_error\": -2", "-1 where it is not known");
+      if (copied) {
+        refused("\"indices\": \"", "\"indices\": \"//8", "base64 in whole groups");
+        refused("\"indices\": \"", "\"indices\": \"////", "whole numbers of 2 bytes");
+        refused("\"palette\": \"", "\"palette\": \"AAAA", "whole numbers of 4 bytes");
+        refused("\"kind\": \"copied\"", "\"kind\": \"other\"", "blended or copied");
+      } else {
+        refused("\"codes\": \"", "\"codes\": \"A", "base64 in whole groups");
+      }
+    }
+}

@@ -1,0 +1,116 @@
+// The picture cache: versions, requests, damaged files and threads.
+#include <catch2/catch.hpp>
+
+#include "compiler/worker/fake_session.hpp"
+#include "system/parallel.hpp"
+#include "worker/renderer_set.hpp"
+#include "worker/worker_list.hpp"
+
+using namespace remapc;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> pictures_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".picture") files.push_back(entry.path());
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("picture cache: a picture is rendered once over several runs") {
+  const FakeSession session;
+  std::vector<float> first;
+  for (int run = 0; run < 2; ++run) {
+    const WorkerRenderer renderer(session.entry(), session.settings(true));
+    const Image image = renderer.render(fake_material(), kSmallScene);
+    if (run == 0) first = image.values;
+    CHECK(image.values == first);
+    renderer.render(fake_material(), kSmallScene);
+    CHECK(renderer.pictures().rendered == (run == 0 ? 1u : 0u));
+    CHECK(renderer.pictures().cached == (run == 0 ? 1u : 2u));
+    CHECK(renderer.remarks().empty());
+  }
+  CHECK(session.pictures() == 1);
+}
+
+TEST_CASE("picture cache: every part of a request counts") {
+  const FakeSession session;
+  const WorkerRenderer renderer(session.entry(), session.settings(true));
+  renderer.render(fake_material(), kSmallScene);
+  for (const Scene& scene : {Scene{33, 1, {}}, Scene{32, 2, {}}, Scene{32, 1, {60.0, 3.0}},
+                             Scene{32, 1, {0.0, 4.0}}, Scene{32, 1, {}, 1}})
+    renderer.render(fake_material(), scene);
+  renderer.render(fake_material(0.2000000001), kSmallScene);
+  CHECK(session.pictures() == 7);
+  CHECK(renderer.pictures().cached == 0);
+}
+
+TEST_CASE("picture cache: another version of the renderer renders again, and reports it") {
+  const FakeSession session;
+  { WorkerRenderer(session.entry(), session.settings(true)).render(fake_material(), kSmallScene); }
+  const WorkerRenderer renderer(session.entry("", "--version 2"), session.settings(true));
+  renderer.render(fake_material(), kSmallScene);
+  CHECK(session.pictures() == 2);
+  REQUIRE(renderer.remarks().size() == 1);
+  CHECK_THAT(renderer.remarks()[0], Contains("pictures of Fake-1-") && Contains("this is Fake 2"));
+}
+
+TEST_CASE("picture cache: a truncated or changed file is rendered again") {
+  const FakeSession session;
+  { WorkerRenderer(session.entry(), session.settings(true)).render(fake_material(), kSmallScene); }
+  const auto files = pictures_below(session.path("cache"));
+  REQUIRE(files.size() == 1);
+  fs::resize_file(files[0], fs::file_size(files[0]) - 1);
+  { WorkerRenderer(session.entry(), session.settings(true)).render(fake_material(), kSmallScene); }
+  CHECK(session.pictures() == 2);
+  std::string content = remap::read_file(files[0]);
+  content[content.find("0.2")] = '1';  // the key of another request
+  remap::write_file(files[0], content);
+  { WorkerRenderer(session.entry(), session.settings(true)).render(fake_material(), kSmallScene); }
+  CHECK(session.pictures() == 3);
+}
+
+TEST_CASE("picture cache: threads that need the same picture render it once") {
+  const FakeSession session;
+  const WorkerRenderer renderer(session.entry(), session.settings(true));
+  remap::run_parallel(8, 8, [&](std::size_t) { renderer.render(fake_material(), kSmallScene); });
+  CHECK(session.pictures() == 1);
+  CHECK(renderer.pictures().cached == 7);
+}
+
+TEST_CASE("renderer set: a worker is started when one of its models is requested") {
+  const FakeSession session;
+  const RendererSet renderers({session.entry()}, session.settings());
+  CHECK(find_model(renderers, "mitsuba/ggx").name == "mitsuba/ggx");
+  CHECK(session.log_lines("process").empty());
+  CHECK_THROWS_WITH(find_model(renderers, "fakee/ggx"), Contains("and of the workers"));
+  CHECK(find_model(renderers, "fake/ggx").name == "fake/ggx");
+  CHECK(session.log_lines("process").size() == 1);
+  CHECK(renderers.version_of("fake/ggx") == "Fake 1");
+  CHECK_THAT(renderers.version_of("mitsuba/ggx"), Contains("remapc"));
+  CHECK(renderers.render(fake_material(), kSmallScene).width == 32);
+  CHECK(renderers.pictures().rendered == 1);
+}
+
+TEST_CASE("worker list: the user's entries precede shipped ones, and errors name the place") {
+  const FakeSession session;
+  const fs::path list = session.path("workers.json");
+  remap::write_file(list, R"({"workers": [{"name": "ours", "command": "run", "install": "ask"}]})");
+  const auto entries = read_worker_list(list);
+  REQUIRE(entries.size() == 1);
+  CHECK(entries[0].install == "ask");
+  CHECK(entries[0].folder == list.parent_path().string());
+  remap::write_file(list, R"({"workers": [{"name": "a/b", "command": "run"}]})");
+  CHECK_THROWS_WITH(read_worker_list(list), Contains("workers[0].name: expected a name without /"));
+  CHECK_THROWS_WITH(parse_worker("ours"), Contains("cannot be read as NAME=COMMAND"));
+  CHECK_THROWS_WITH(known_workers({"a=b", "a=c"}), Contains("a was given twice"));
+  const auto known = known_workers({"mitsuba3=mine --fast"});
+  const auto mine =
+      std::find_if(known.begin(), known.end(), [](const auto& entry) { return entry.name == "mitsuba3"; });
+  REQUIRE(mine != known.end());
+  CHECK(mine->command == "mine --fast");
+}

@@ -1,0 +1,178 @@
+// Failing workers: their error messages, and that no process or file remains.
+#include <catch2/catch.hpp>
+
+#include "compiler/worker/fake_session.hpp"
+#include "system/parallel.hpp"
+
+using namespace remapc;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string render_error(const FakeSession& session, const std::string& fault, double seconds = 60.0) {
+  WorkerSettings settings = session.settings();
+  settings.limits.seconds = seconds;
+  return input_error([&] {
+    const WorkerRenderer renderer(session.entry(fault), settings);
+    renderer.render(fake_material(), kSmallScene);
+  });
+}
+
+const std::string kPlace =
+    "worker fake, request fake/ggx alpha 0.2, diffuse 0, specular 0.5, tint 0.5, headlight, 32 x 32: ";
+
+}  // namespace
+
+TEST_CASE("worker: a picture equals the renderer's, in one channel and in three") {
+  const FakeSession session;
+  const WorkerRenderer renderer(session.entry(), session.settings());
+  CHECK(renderer.version() == "Fake 1");
+  Material material = fake_material();
+  const Scene scene{32, 2, {60.0, 3.0}};
+  const auto expected = make_builtin_renderer()->render(
+      {"mitsuba/ggx-plain", {{"alpha", {0.2}}, {"specular", {0.5}}, {"diffuse", {0.0}}}}, scene);
+  CHECK(renderer.render(material, scene).values == expected.values);
+  material.parameters["specular"] = {0.5, 0.25, 0.125};
+  const Image colored = renderer.render(material, scene);
+  REQUIRE(colored.channels == 3);
+  CHECK(colored.values[3 * (32 * 16 + 20)] == expected.values[32 * 16 + 20]);
+}
+
+TEST_CASE("worker: the error for one that dies has its request and the end of its log") {
+  const FakeSession session;
+  const std::string message = render_error(session, "die");
+  CHECK_THAT(message, Contains(kPlace + "died with signal 9; last lines of its log: rendering number 0"));
+  CHECK_THAT(render_error(session, "exit"), Contains("ended with exit code 3"));
+  CHECK(session.nobody_is_left());
+}
+
+TEST_CASE("worker: one that hangs is killed after the timeout, with its children") {
+  const FakeSession session;
+  CHECK_THAT(render_error(session, "hang", 2.0), Contains(kPlace + "no answer within 2 s"));
+  CHECK(session.nobody_is_left());
+}
+
+TEST_CASE("worker: one that does not answer describe is killed") {
+  const FakeSession session;
+  CHECK_THAT(render_error(session, "mute", 0.5), Contains("request describe: no answer within 0.5 s"));
+  CHECK(session.nobody_is_left());
+}
+
+TEST_CASE("worker: answers that violate the protocol are reported") {
+  const FakeSession session;
+  CHECK_THAT(render_error(session, "garbage"),
+             Contains(kPlace + "answered \"Saved: picture.exr\", which is not a line of JSON"));
+  CHECK_THAT(render_error(session, "wrong-id"), Contains("without the id 2 of the request"));
+  CHECK_THAT(render_error(session, "flood"), Contains("wrote a line of more than 16 MB"));
+  CHECK_THAT(render_error(session, "no-file"), Contains("the picture was not written"));
+  CHECK_THAT(render_error(session, "short"),
+             Contains("the picture has 4092 bytes; expected 4096 (32 x 32 pixels of 1 floats)"));
+  CHECK_THAT(render_error(session, "nan"), Contains("the picture is nan in row 16, column 16"));
+  CHECK_THAT(render_error(session, "protocol"), Contains("protocol: is version 2; expected 1"));
+  CHECK_THAT(render_error(session, "prefix"), Contains("is \"other/ggx\"; expected fake/MODEL"));
+  CHECK_THAT(render_error(session, "convention"), Contains("expected alpha, roughness, exponent"));
+  CHECK(session.nobody_is_left());
+}
+
+TEST_CASE("worker: a reported error is passed on, and the worker stays in use") {
+  const FakeSession session;
+  const WorkerRenderer renderer(session.entry("refuse", "--after 0"), session.settings());
+  for (int i = 0; i < 2; ++i)
+    CHECK(input_error([&] { renderer.render(fake_material(), kSmallScene); }) == kPlace + "no licence left");
+  CHECK(session.log_lines("process").size() == 1);
+}
+
+TEST_CASE("worker: after one died, another is started") {
+  const FakeSession session;
+  const WorkerRenderer renderer(session.entry("die", "--after 1"), session.settings());
+  renderer.render(fake_material(0.1), kSmallScene);
+  CHECK_THAT(input_error([&] { renderer.render(fake_material(0.2), kSmallScene); }),
+             Contains("died with signal 9"));
+  CHECK(renderer.render(fake_material(0.2), kSmallScene).width == 32);
+  CHECK(session.log_lines("process").size() == 2);
+}
+
+TEST_CASE("worker: the error for a missing command has the shell's message and how to install it") {
+  const FakeSession session;
+  const std::string message = input_error([&] {
+    WorkerRenderer({"fake", "/no/such/program", "", "scripts/renderers fake"}, session.settings());
+  });
+  CHECK_THAT(message, Contains("request describe: ended with exit code 127; last lines of its log: "));
+  CHECK_THAT(message, Contains("/no/such/program") && Contains("; to install it: scripts/renderers fake"));
+}
+
+TEST_CASE("worker: banners before the first answer are skipped") {
+  const FakeSession session;
+  const WorkerRenderer renderer(session.entry("banner"), session.settings());
+  CHECK(renderer.render(fake_material(), kSmallScene).width == 32);
+}
+
+TEST_CASE("worker: children of a worker are killed with it, and so is one that does not end") {
+  const FakeSession session;
+  {
+    const WorkerRenderer renderer(session.entry("child"), session.settings());
+    renderer.render(fake_material(), kSmallScene);
+    REQUIRE(session.log_lines("process").size() == 2);
+    for (const std::string& id : session.log_lines("process")) CHECK_FALSE(is_gone(std::stoi(id)));
+  }
+  { const WorkerRenderer renderer(session.entry("stays"), session.settings()); }
+  CHECK(session.nobody_is_left());
+}
+
+TEST_CASE("worker: the end of a thread does not end a worker") {
+  const FakeSession session;
+  const WorkerRenderer renderer(session.entry(), session.settings());
+  const auto render_some = [&](double offset) {
+    remap::run_parallel(4, 4, [&](std::size_t i) {
+      renderer.render(fake_material(offset + 0.1 * static_cast<double>(i)), kSmallScene);
+    });
+  };
+  render_some(0.1);
+  render_some(0.55);
+  CHECK(session.pictures() == 8);
+  CHECK(session.log_lines("process").size() <= 2);
+}
+
+TEST_CASE("worker: another shape is sent as a mesh to a worker that accepts meshes") {
+  const FakeSession session;
+  const Scene scene{32, 1, {45.0, 3.0}, 0, Shape::kTorus};
+  const WorkerRenderer renderer(session.entry("meshes"), session.settings());
+  const Image found = renderer.render(fake_material(), scene);
+  const Image expected = make_builtin_renderer()->render(
+      {"mitsuba/ggx-plain", {{"alpha", {0.2}}, {"specular", {0.5}}, {"diffuse", {0.0}}}}, scene);
+  CHECK(found.values == expected.values);
+  CHECK(session.log_lines("mesh") == std::vector<std::string>{"torus complete exact"});
+
+  const WorkerRenderer sphere_only(session.entry(), session.settings());
+  CHECK_THROWS_WITH(sphere_only.render(fake_material(), scene),
+                    "worker fake: renders spheres only, not a torus");
+}
+
+TEST_CASE("worker: materials are checked before a request") {
+  const FakeSession session;
+  const WorkerRenderer renderer(session.entry(), session.settings());
+  Material material = fake_material(2.0);
+  CHECK_THROWS_WITH(renderer.render(material, kSmallScene),
+                    "fake/ggx: alpha = 2 is out of range (1e-04 to 1)");
+  material = fake_material();
+  material.parameters["speculer"] = {1.0};
+  CHECK_THROWS_WITH(renderer.render(material, kSmallScene), Contains("did you mean specular?"));
+  CHECK_THROWS_WITH(find_model(renderer, "fake/gxx"), Contains("did you mean fake/ggx?"));
+  CHECK(grey_material(find_model(renderer, "fake/ggx"), 0.2, 0.5, 0.0).parameters.at("tint")[0] == 0.5);
+  CHECK(session.pictures() == 0);
+}
+
+TEST_CASE("worker: a wait ends when the program is asked to stop") {
+  const FakeSession session;
+  std::atomic<bool> cancelled{false};
+  WorkerSettings settings = session.settings();
+  settings.limits.cancelled = &cancelled;
+  const WorkerRenderer renderer(session.entry("hang"), settings);
+  cancelled = true;
+  try {
+    renderer.render(fake_material(), kSmallScene);
+    FAIL("expected an interruption");
+  } catch (const remap::Error& error) {
+    CHECK(error.kind() == remap::ErrorKind::kInterrupted);
+  }
+}

@@ -1,0 +1,122 @@
+// Fits that were not compiled: their polynomials against the interpreter, on every instruction set.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "convert/data_converter.hpp"
+#include "lower/lower.hpp"
+#include "model/interpreter.hpp"
+#include "remap/error.hpp"
+#include "runtime/convert/texel_rows.hpp"
+#include "support/example_fit.hpp"
+
+using namespace remap;
+
+namespace {
+
+// Alpha and specular both of alpha and specular; `gamma` decides how many pieces it takes.
+Svr curved(double gamma) {
+  const KernelExpansion alpha{{{0.0, 1.0, 0.0}, {0.0, 2.0, 0.0}}, {0.0, 1.0, 0.0},  gamma, 0.4,
+                              {0.1, 0.2, 0.6, 0.9, 0.9, 0.1},     {-0.2, 0.1, 0.15}};
+  const KernelExpansion specular{{{0.0, 1.0, 0.0}, {0.0, 2.0, 0.0}}, {0.0, 2.0, 0.0}, gamma, 0.3,
+                                 {0.3, 0.1, 0.5, 0.8, 1.0, 0.6},     {0.3, -0.2, 0.1}};
+  return {alpha, specular};
+}
+
+struct LoweredFit {
+  Fit fit;
+  Lowered lowered;
+};
+
+// Every convention on either side, one piece and many.
+const std::vector<LoweredFit>& fits() {
+  static const std::vector<LoweredFit> all = [] {
+    std::vector<LoweredFit> made;
+    for (const std::string& name : convention_names()) {
+      Fit fit = example_fit();
+      fit.source.roughness = convention_from_name(name).value();
+      made.push_back({fit, lower(fit.mapping, fit.domain)});
+      fit.target.roughness = fit.source.roughness;
+      fit.mapping = curved(name == "alpha" ? 9.0 : 1.0);
+      made.push_back({fit, lower(fit.mapping, fit.domain)});
+    }
+    return made;
+  }();
+  return all;
+}
+
+// Four units in the last place, twice: of the parameters as floats, and of the scale of a texel.
+constexpr double kRounding = 1e-6;
+
+void check_texel(const Fit& fit, const Lowered& lowered, const TexelRows& in, const TexelRows& out,
+                 std::size_t i) {
+  std::array<double, 3> specular{}, expected{};
+  double largest = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    specular[c] = static_cast<double>(in.specular[c][i]);
+    if (std::isfinite(specular[c])) largest = std::max(largest, specular[c]);
+  }
+  const double width = evaluate_texel(fit, static_cast<double>(in.roughness[i]), specular, expected);
+  INFO("roughness " << in.roughness[i] << ", specular " << specular[0] << " " << specular[1] << " "
+                    << specular[2]);
+  CHECK(std::isnan(out.roughness[i]) == std::isnan(width));
+  if (!std::isnan(width)) {
+    const double alpha = to_alpha(fit.target.roughness, static_cast<double>(out.roughness[i]));
+    CHECK(std::fabs(alpha - to_alpha(fit.target.roughness, width)) <= lowered.alpha.bound + kRounding);
+  }
+  const double scale = std::max(1.0, largest / specular_range(fit).max);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double mapped = static_cast<double>(out.specular[c][i]);
+    if (std::isfinite(expected[c]))
+      CHECK(std::fabs(mapped - expected[c]) <=
+            scale * (lowered.specular.bound + kRounding) + kRounding * std::fabs(expected[c]));
+    else
+      CHECK((mapped == expected[c] || (std::isnan(mapped) && std::isnan(expected[c]))));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("lowered converter: stays within its proven bound of the interpreter, whatever the convention") {
+  for (const auto& [fit, lowered] : fits()) {
+    INFO(kind_name(fit.mapping) << " of " << convention_name(fit.source.roughness));
+    const auto converter = make_lowered_converter(fit, lowered, best_instruction_set());
+    TexelRows in = odd_and_random_texels(converter->info(), 2000);
+    // Beyond 1e30 a channel is left as it is, by converters in floats alone.
+    for (auto& row : in.specular)
+      for (float& value : row)
+        if (value > 1e30f && std::isfinite(value)) value = 1e3f;
+    const Converted out = converted(*converter, in, 0, in.roughness.size(), 3, false);
+    for (std::size_t i = 0; i < in.roughness.size(); ++i) check_texel(fit, lowered, in, out.rows, i);
+    const Converted expected =
+        converted(*make_interpreted_converter(fit), in, 0, in.roughness.size(), 3, false);
+    CHECK(out.out_of_domain == expected.out_of_domain);
+    CHECK(converter->self_test());
+  }
+}
+
+TEST_CASE("lowered converter: every instruction set computes the same bits") {
+  for (const auto& [fit, lowered] : fits()) {
+    INFO(kind_name(fit.mapping) << " of " << convention_name(fit.source.roughness));
+    const auto baseline = make_lowered_converter(fit, lowered, InstructionSet::kBaseline);
+    const TexelRows texels = odd_and_random_texels(baseline->info(), 1000);
+    for (const InstructionSet set : instruction_sets()) {
+      INFO(instruction_set_name(set));
+      const auto converter = make_lowered_converter(fit, lowered, set);
+      CHECK(converter->info().instructions == set);
+      CHECK(same_bits(*converter, *baseline, texels));
+    }
+  }
+}
+
+TEST_CASE("lowered converter: a mapping that no few polynomials can follow is refused", "[slow]") {
+  Fit fit = example_fit();
+  fit.mapping = curved(60.0);
+  try {
+    make_lowered_converter(fit);
+    FAIL("no exception");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::kNumeric);
+    CHECK_THAT(error.what(), Catch::Matchers::Contains("cannot be had within"));
+  }
+}

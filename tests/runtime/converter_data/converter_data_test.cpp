@@ -1,0 +1,39 @@
+// The data of lowered fits that texremap reads, as the emitter writes it.
+#include "converter_data/converter_data.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "emit/emit.hpp"
+#include "remap/error.hpp"
+#include "remap/fit_file.hpp"
+
+using namespace remapc;
+
+TEST_CASE("converter data: reads back exactly, in the order of their ids") {
+  const remap::Fit fit =
+      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
+  const remap::ConverterData data = remap::converter_data(fit, remap::lower(fit.mapping, fit.domain));
+  remap::ConverterData other = data;
+  other.id = "a_to_b";
+  other.image_rms_error = std::nullopt;
+  const std::string text = emit_converter_list({data, other});
+  CHECK(text == emit_converter_list({other, data}));
+  CHECK(remap::converters_from_json(text, "list") == std::vector<remap::ConverterData>{other, data});
+}
+
+TEST_CASE("converter data: a damaged file is refused with the place") {
+  const remap::Fit fit =
+      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
+  const std::string text =
+      emit_converter_list({remap::converter_data(fit, remap::lower(fit.mapping, fit.domain))});
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& place) {
+    std::string damaged = text;
+    REQUIRE(damaged.find(from) != std::string::npos);
+    damaged.replace(damaged.find(from), from.size(), to);
+    CHECK_THROWS_WITH(remap::converters_from_json(damaged, "list"), Catch::StartsWith("list" + place));
+  };
+  refused("\"version\": 1", "\"version\": 2", ".version");
+  refused("\"cell_count\":32", "\"cell_count\":31", ".converters[0].alpha.coefficients");
+  refused("\"cell_count\":32", "\"cell_count\":0", ".converters[0].alpha.cell_count");
+  refused("\"roughness\":\"exponent\"", "\"roughness\":\"width\"", ".converters[0].source.roughness");
+}

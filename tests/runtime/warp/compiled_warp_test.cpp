@@ -1,0 +1,32 @@
+// Checks of compiled warps.
+#include "remap/compiled_warp.hpp"
+
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "remap/error.hpp"
+#include "support/random_warp.hpp"
+
+TEST_CASE("compiled warp: invalid tables are refused") {
+  const auto refused = [](const remap::CompiledWarp& warp, const std::string& message) {
+    CHECK_THROWS_WITH(remap::require_valid(warp, "leaf"), Catch::Contains("leaf: " + message));
+  };
+  remap::CompiledWarp warp = remap::random_warp({2, true, true}, 3);
+  auto& entries = std::get<remap::CopiedNodes>(warp.table.entries);
+  entries.indices[5] = static_cast<std::uint16_t>(entries.palette.size());
+  refused(warp, "an index beyond the palette");
+  entries.indices[5] = 0;
+  entries.palette[1][3] = std::numeric_limits<float>::quiet_NaN();
+  refused(warp, "another value in the palette");
+  entries.palette[1][3] = -0.5f;
+  refused(warp, "another value in the palette");
+  entries.palette.clear();
+  refused(warp, "another size of the palette; expected 1 to 65536 texels");
+  warp = remap::random_warp({3, true, false}, 3);
+  std::get<remap::QuadraticTerms>(warp.coordinates.terms).weights.pop_back();
+  refused(warp, "other weights of quadratic terms; expected 36");
+  warp = remap::random_warp({3, false, false}, 3);
+  warp.table.nodes = 300;
+  refused(warp, "another number of nodes; expected 2 to 4096 a dimension and at most 2^24");
+}
