@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "text/named_values.hpp"
+
 namespace remap {
 
 enum class RoughnessConvention {
@@ -24,8 +26,18 @@ double from_alpha(RoughnessConvention convention, double alpha);
 
 // `alpha`, `roughness`, `exponent`, `glossiness`, `squared`: the word in fits and tables, and the name of the
 // parameter in generated headers.
-std::string_view convention_name(RoughnessConvention convention);
-std::optional<RoughnessConvention> convention_from_name(std::string_view name);
-std::vector<std::string> convention_names();
+inline constexpr NamedValues<RoughnessConvention, 5> kConventions = {
+    {{RoughnessConvention::kAlpha, "alpha"},
+     {RoughnessConvention::kRoughness, "roughness"},
+     {RoughnessConvention::kExponent, "exponent"},
+     {RoughnessConvention::kGlossiness, "glossiness"},
+     {RoughnessConvention::kSquared, "squared"}}};
+inline std::string_view convention_name(RoughnessConvention convention) {
+  return name_of(kConventions, convention);
+}
+inline std::optional<RoughnessConvention> convention_from_name(std::string_view name) {
+  return value_named(kConventions, name);
+}
+inline std::vector<std::string> convention_names() { return names_of(kConventions); }
 
 }  // namespace remap

@@ -2,13 +2,8 @@
 
 #include <algorithm>
 
-#include "text/named_values.hpp"
-
 namespace remap {
 namespace {
-
-constexpr NamedValues<Activation, 3> kActivations = {
-    {{Activation::kRelu, "relu"}, {Activation::kTanh, "tanh"}, {Activation::kSilu, "silu"}}};
 
 std::size_t count_of(const Network& network) {
   std::size_t count = 2 * (network.inputs.size() + network.outputs.size());
@@ -81,14 +76,6 @@ struct NumberCount {
 };
 
 }  // namespace
-
-std::string_view activation_name(Activation activation) { return name_of(kActivations, activation); }
-
-std::optional<Activation> activation_from_name(std::string_view name) {
-  return value_named(kActivations, name);
-}
-
-std::vector<std::string> activation_names() { return names_of(kActivations); }
 
 MappingKind widened(const RegressedKind& mapping) {
   return std::visit([](const auto& kind) { return MappingKind(kind); }, mapping);

@@ -13,6 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include "text/named_values.hpp"
+
 namespace remap {
 
 // A curve over alpha (Sztrajman et al. 2019, section 7):
@@ -80,9 +82,13 @@ struct Svr {
 };
 
 enum class Activation { kRelu, kTanh, kSilu };
-std::string_view activation_name(Activation activation);
-std::optional<Activation> activation_from_name(std::string_view name);
-std::vector<std::string> activation_names();
+inline constexpr NamedValues<Activation, 3> kActivations = {
+    {{Activation::kRelu, "relu"}, {Activation::kTanh, "tanh"}, {Activation::kSilu, "silu"}}};
+inline std::string_view activation_name(Activation activation) { return name_of(kActivations, activation); }
+inline std::optional<Activation> activation_from_name(std::string_view name) {
+  return value_named(kActivations, name);
+}
+inline std::vector<std::string> activation_names() { return names_of(kActivations); }
 
 // One layer: outputs = weights inputs + biases.
 struct Layer {

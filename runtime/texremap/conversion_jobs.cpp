@@ -5,7 +5,6 @@
 #include <set>
 
 #include "discovery/discovery.hpp"
-#include "discovery/shown_path.hpp"
 #include "remap/error.hpp"
 #include "texremap/conversion_request.hpp"
 
@@ -102,7 +101,7 @@ class TreeJobs {
                    ConversionJob& job);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
   void copy_others(const FoundSet& set, int tile, ConversionJob& job) const;
-  std::vector<PlannedOutput> outputs(const FoundSet& set) const;
+  std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
   void require_no_collisions() const;
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
 
@@ -236,8 +235,9 @@ void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) co
     }
 }
 
-// The files that the conversion of a set writes, each with one of its source maps. Tiles count as one file.
-std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set) const {
+// The files that the conversion of a set writes, relative to the output folder, each with one of its source
+// maps. Tiles count as one file.
+std::map<fs::path, fs::path> TreeJobs::outputs(const FoundSet& set) const {
   const FoundMap& first = set.width ? map_of(set, *set.width) : set.maps.front();
   const ResultNames names = {set.name + "_", tiles_of(set).front() == 0 ? "" : ".<UDIM>"};
   const std::string extension =
@@ -253,23 +253,24 @@ std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set) const {
     }
     sources.emplace(path, source);
   }
-  if (choice_.mask) sources.emplace(set.folder / set_file_name(*choice_.mask, names), first.path);
-  for (const MeasureMap& map : choice_.measures)
+  for (const DiagnosisMap& map : choice_.diagnoses)
     sources.emplace(set.folder / set_file_name(map.name, names), first.path);
-  std::vector<PlannedOutput> planned;
-  for (const auto& [path, source] : sources) planned.push_back({path, source});
-  return planned;
+  return sources;
 }
 
+// Names are compared byte by byte after `.` and `..` are resolved in the text; links and case-insensitive
+// file systems are not considered.
 void TreeJobs::require_no_collisions() const {
-  const std::vector<OutputCollision> collisions =
-      output_collisions(converted_, [&](const FoundSet& set) { return outputs(set); });
-  if (collisions.empty()) return;
-  const OutputCollision& first = collisions.front();
-  throw Error(ErrorKind::kUsage, shown(fs::path(options_.output) / first.path) +
-                                     ": would be written twice, from " + shown(root_ / first.first_source) +
-                                     " and from " + shown(root_ / first.second_source) +
-                                     " (rename one of the sets)");
+  std::map<fs::path, fs::path> all;
+  for (const FoundSet& set : converted_)
+    for (const auto& [path, source] : outputs(set)) {
+      const auto [first, is_new] = all.try_emplace(path.lexically_normal(), source);
+      if (!is_new)
+        throw Error(ErrorKind::kUsage, shown(fs::path(options_.output) / first->first) +
+                                           ": would be written twice, from " + shown(root_ / first->second) +
+                                           " and from " + shown(root_ / source) +
+                                           " (rename one of the sets)");
+    }
 }
 
 // A file name with a placeholder for the tile.

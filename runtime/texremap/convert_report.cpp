@@ -26,8 +26,7 @@ std::string conventions_text(const WorkflowEnd& end) {
 std::string material_text(const ChosenConverter& chosen) {
   const WorkflowChoice& workflow = chosen.workflow;
   const auto end_text = [](const WorkflowEnd& end) {
-    return model_of(end) + " (" + std::string(workflow_kind_name(kind_of(end))) + ": " +
-           conventions_text(end) + ")";
+    return model_of(end) + " (" + std::string(kind_name(end)) + ": " + conventions_text(end) + ")";
   };
   std::string text = end_text(*workflow.source) + " to " + end_text(*workflow.target);
   if (workflow.is_to_metallic()) text += " by " + std::string(formula_name(workflow.formula));
@@ -90,7 +89,7 @@ Json values_json(const ParameterStatistics& statistics) {
 
 Json end_json(const WorkflowEnd& end) {
   Json json = {{"model", model_of(end)},
-               {"workflow", workflow_kind_name(kind_of(end))},
+               {"workflow", kind_name(end)},
                {"diffuse", diffuse_convention_name(diffuse_of(end))}};
   if (const auto* metallic = std::get_if<MetallicWorkflow>(&end))
     json["dielectric_f0"] = metallic->dielectric_f0;
@@ -180,7 +179,7 @@ Json job_json(const ChosenConverter& chosen, const JobReport& report) {
     if (parameter != Parameter::kDoubts) json[plain_name(parameter)] = file_json(report, parameter);
   json["mask"] = mask_json(report);
   json["copies"] = paths_json(report.copies);
-  json["specular_color_space"] = transfer_name(report.specular_transfer);
+  json["specular_color_space"] = name_of(kTransfers, report.specular_transfer);
   json.update(counts_json(counts));
   for (const Parameter parameter : chosen.material->sources())
     if (std::find(named.begin(), named.end(), parameter) == named.end()) named.push_back(parameter);

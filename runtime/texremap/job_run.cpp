@@ -123,12 +123,12 @@ bool all_done(const TargetPlan& plan, const std::string& hash, bool force) {
 }
 
 JobReport::Result result_of(const PlannedMap& planned) {
-  using Content = TargetChannel::Content;
   JobReport::Result result{planned.path, {}, false};
-  for (const PlannedPart& part : planned.parts)
+  for (const TargetPart& part : planned.parts)
     for (const TargetChannel& channel : part.channels) {
-      if (channel.content == Content::kParameter) result.parameters.push_back(channel.parameter);
-      result.mask |= channel.content == Content::kMask;
+      if (const auto* converted = std::get_if<ConvertedChannel>(&channel))
+        result.parameters.push_back(converted->parameter);
+      result.mask |= std::holds_alternative<MaskChannel>(channel);
     }
   return result;
 }

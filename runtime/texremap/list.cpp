@@ -95,7 +95,7 @@ void list_models(const ListOptions& options) {
 
 Json workflow_json(const WorkflowModel& model) {
   Json json = {{"model", model_of(model.end)},
-               {"workflow", workflow_kind_name(kind_of(model.end))},
+               {"workflow", kind_name(model.end)},
                {"diffuse", diffuse_convention_name(diffuse_of(model.end))},
                {"dielectric_f0", Json()},
                {"width", convention_name(width_of(model.end))},

@@ -92,8 +92,8 @@ void print_json(const std::vector<ConverterPath>& paths, const ConverterInfo& wh
 }
 
 std::string end_text(const WorkflowEnd& end, const std::string& brdf) {
-  return model_of(end) + ": " + std::string(workflow_kind_name(kind_of(end))) + " over " + brdf +
-         ", diffuse " + std::string(diffuse_convention_name(diffuse_of(end)));
+  return model_of(end) + ": " + std::string(kind_name(end)) + " over " + brdf + ", diffuse " +
+         std::string(diffuse_convention_name(diffuse_of(end)));
 }
 
 // The stages of a material conversion, with the models at both ends.

@@ -49,7 +49,7 @@ bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format, s
 constexpr int kMostParts = 4096;
 
 std::optional<PixelType> pixel_type(OIIO::TypeDesc type) {
-  return type.is_array() ? std::nullopt : pixel_type_from_name(type.c_str());
+  return type.is_array() ? std::nullopt : value_named(kPixelTypes, type.c_str());
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ void look_at_color_space(const MaterialSample& sample, const TextureSet& set,
   const double share = is_srgb ? share_within(values, 0.0018f, 0.0045f) : share_within(values, 0.185f, 0.26f);
   if (share < kMuch) return;
   const std::string place = set.maps[specular->channels.front().map].path().string();
-  messages.push_back(place + ": specular, read as " + std::string(transfer_name(specular->transfer)) +
+  messages.push_back(place + ": specular, read as " + std::string(name_of(kTransfers, specular->transfer)) +
                      ", is " + (is_srgb ? "0.002 to 0.0045" : "0.19 to 0.26") + " in " + percent(share) +
                      " of the texels, like F0 0.04 stored " + (is_srgb ? "linear" : "in sRGB") +
                      " (use --color-space specular=" + (is_srgb ? "linear" : "srgb") + " in that case)");

@@ -1,13 +1,10 @@
 // Decodes the numbers of a map for a converter: the transfer curve of a color, the encoding of a roughness.
 #pragma once
 
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "model/convention.hpp"
+#include "text/named_values.hpp"
 
 namespace remap {
 
@@ -16,11 +13,8 @@ enum class Transfer {
   kLinear,
   kSrgb,  // IEC 61966-2-1, odd below 0 and extended by the same formula above 1
 };
-
-// `linear`, `srgb`.
-std::string_view transfer_name(Transfer transfer);
-std::optional<Transfer> transfer_from_name(std::string_view name);
-std::vector<std::string> transfer_names();
+inline constexpr NamedValues<Transfer, 2> kTransfers = {
+    {{Transfer::kLinear, "linear"}, {Transfer::kSrgb, "srgb"}}};
 
 // Converts stored values to linear ones and back, in place. NaN stays NaN.
 void to_linear(Transfer transfer, std::span<float> values) noexcept;

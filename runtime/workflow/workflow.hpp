@@ -3,7 +3,6 @@
 // 2019, section 8). Both are layers over the same BRDF.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -11,6 +10,7 @@
 
 #include "model/convention.hpp"
 #include "model/mapping.hpp"
+#include "text/named_values.hpp"
 
 namespace remap {
 
@@ -19,9 +19,11 @@ enum class DiffuseConvention {
   kPlain,   // reflectance of the diffuse lobe
   kScaled,  // of the light that the specular lobe leaves: the lobe has it times 1 - max(specular) (glTF 2.0)
 };
-std::string_view diffuse_convention_name(DiffuseConvention convention);
-std::optional<DiffuseConvention> diffuse_convention_from_name(std::string_view name);
-std::vector<std::string> diffuse_convention_names();
+inline constexpr NamedValues<DiffuseConvention, 2> kDiffuseConventions = {
+    {{DiffuseConvention::kPlain, "plain"}, {DiffuseConvention::kScaled, "scaled"}}};
+inline std::string_view diffuse_convention_name(DiffuseConvention convention) {
+  return name_of(kDiffuseConventions, convention);
+}
 
 // F0 of a dielectric in common use: glTF, Unreal, Disney; and the paper's.
 inline constexpr double kCommonDielectricF0 = 0.04;
@@ -70,12 +72,12 @@ enum class MetallicMean {
   kPlain,
   kAlbedo,  // weighted by albedo
 };
+inline constexpr NamedValues<MetallicMean, 2> kMetallicMeans = {
+    {{MetallicMean::kPlain, "plain"}, {MetallicMean::kAlbedo, "albedo"}}};
 struct Equation3 {
   MetallicMean mean = MetallicMean::kAlbedo;
   bool operator==(const Equation3&) const = default;
 };
-std::string_view metallic_mean_name(MetallicMean mean);
-std::optional<MetallicMean> metallic_mean_from_name(std::string_view name);
 
 // The solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017), for diffuse that is scaled.
 struct KhronosSolver {

@@ -1,7 +1,6 @@
 // The workflows that people name, with what each takes its parameters for, and the BRDF that it stands on.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -11,10 +10,8 @@
 namespace remap {
 
 enum class WorkflowKind { kSpecular, kMetallic };
-// `specular`, `metallic`.
-std::string_view workflow_kind_name(WorkflowKind kind);
-std::optional<WorkflowKind> workflow_kind_from_name(std::string_view name);
-std::vector<std::string> workflow_kind_names();
+inline constexpr NamedValues<WorkflowKind, 2> kWorkflowKinds = {
+    {{WorkflowKind::kSpecular, "specular"}, {WorkflowKind::kMetallic, "metallic"}}};
 
 // One side of a conversion of whole materials.
 using WorkflowEnd = std::variant<SpecularWorkflow, MetallicWorkflow>;
@@ -29,6 +26,9 @@ inline RoughnessConvention width_of(const WorkflowEnd& end) noexcept {
 }
 inline DiffuseConvention diffuse_of(const WorkflowEnd& end) noexcept {
   return std::visit([](const auto& workflow) { return workflow.diffuse; }, end);
+}
+inline std::string_view kind_name(const WorkflowEnd& end) noexcept {
+  return name_of(kWorkflowKinds, kind_of(end));
 }
 
 // A workflow under the name that it goes by.
