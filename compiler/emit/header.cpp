@@ -264,7 +264,7 @@ std::string provenance(const Fit& fit, const MappingCode& code) {
   if (fit.has_errors()) {
     text += std::string("// Error ") +
             (fit.split.held_out_rows != 0 ? "on the rows held out: " : "of its steps together: ") +
-            error_text("alpha", fit.roughness_error) + ";\n";
+            error_text("alpha", fit.alpha_error) + ";\n";
     text += "// " + error_text(fit.target.specular, fit.specular_error) + ".\n";
   } else {
     text += "// Its error is not known.\n";
@@ -328,7 +328,7 @@ std::string header_text(const Fit& fit, const MappingCode& code) {
                                  {"in_specular_meaning", specular_meaning(fit.source.specular)},
                                  {"out_roughness_meaning", roughness_meaning(fit.target.roughness)},
                                  {"out_specular_meaning", specular_meaning(fit.target.specular)},
-                                 {"alpha_rms", rms_literal(fit, fit.roughness_error.rms)},
+                                 {"alpha_rms", rms_literal(fit, fit.alpha_error.rms)},
                                  {"specular_rms", rms_literal(fit, fit.specular_error.rms)},
                                  {"image_rms", literal(image_rms_error(fit))},
                                  {"roughness_min", literal(own.min)},

@@ -88,12 +88,12 @@ std::string curve_code(const AlphaCurve& curve, const std::string& name, double 
 // Target alpha: rows of a polynomial in alpha, one a power of specular.
 std::string alpha_statements(const Parametric& form) {
   std::string text;
-  for (std::size_t j = 0; j < form.roughness.size(); ++j) {
-    std::vector<double> row = form.roughness[j];
+  for (std::size_t j = 0; j < form.alpha.size(); ++j) {
+    std::vector<double> row = form.alpha[j];
     row.insert(row.begin(), 0.0);
     text += horner(row, "r" + std::to_string(j), "alpha");
   }
-  const std::size_t last = form.roughness.size() - 1;
+  const std::size_t last = form.alpha.size() - 1;
   text += "float sum = r" + std::to_string(last) + ";\n";
   for (std::size_t j = last; j-- > 0;) text += "sum = sum * specular + r" + std::to_string(j) + ";\n";
   return text;
@@ -182,10 +182,10 @@ constexpr double kUnit = 6e-8;  // above the unit roundoff of a float
 // What float arithmetic leaves of Horner's rule (Higham 2002, section 5.1), literals rounded too.
 double alpha_error(const Parametric& form, const remap::Domain& domain) {
   double error = 0.0;
-  for (std::size_t j = 0; j < form.roughness.size(); ++j)
-    for (std::size_t i = 0; i < form.roughness[j].size(); ++i) {
+  for (std::size_t j = 0; j < form.alpha.size(); ++j)
+    for (std::size_t i = 0; i < form.alpha[j].size(); ++i) {
       const auto alpha_power = static_cast<double>(i + 1), specular_power = static_cast<double>(j);
-      error += kUnit * (2.0 * alpha_power + 2.0 * specular_power + 4.0) * std::fabs(form.roughness[j][i]) *
+      error += kUnit * (2.0 * alpha_power + 2.0 * specular_power + 4.0) * std::fabs(form.alpha[j][i]) *
                std::pow(domain.alpha.max, alpha_power) * std::pow(domain.specular.max, specular_power);
     }
   return error;
@@ -212,7 +212,7 @@ double specular_error(const Parametric& form, const remap::Domain& domain) {
 
 MappingCode exact_code(const Parametric& form, const remap::Domain& domain) {
   MappingCode code;
-  const bool alone = form.roughness.size() == 1;
+  const bool alone = form.alpha.size() == 1;
   code.form = remap::is_proportional(form) && alone ? CodeForm::kProportional : CodeForm::kTerms;
   code.description = "As fitted: polynomials and exponentials, by an exponential of its own (2e-7).";
   const std::string curves = curves_code(form, domain.alpha.max);

@@ -61,7 +61,7 @@ ConverterInfo converter_info(const Fit& fit, InstructionSet instructions) {
           fit.target,
           decimal(own_roughness_range(fit)),
           decimal(specular_range(fit)),
-          known(fit.roughness_error.rms),
+          known(fit.alpha_error.rms),
           known(fit.specular_error.rms),
           image_error,
           instructions,

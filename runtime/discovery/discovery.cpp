@@ -82,8 +82,7 @@ std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std:
 
 void judge(FoundSet& set) {
   set.width = single_use(set, tells_width, "roughness");
-  set.specular = single_use(
-      set, [](Role role) { return role == Role::kSpecular; }, "specular");
+  set.specular = single_use(set, is<Role::kSpecular>, "specular");
   if (set.state == SetState::kFaulty || set.width) return;
   set.state = SetState::kSkipped;
   set.remarks.push_back(place_of(set) + ": no roughness or glossiness map found");

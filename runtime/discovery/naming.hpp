@@ -98,6 +98,10 @@ inline constexpr NamedValues<Role, 19> kRoles = {{{Role::kRoughness, "roughness"
 inline std::string_view role_name(Role role) { return name_of(kRoles, role); }
 // Whether the role determines the roughness. A set has one such map.
 bool tells_width(Role role);
+template <Role kRole>
+bool is(Role role) {
+  return role == kRole;
+}
 
 // The channels of a file that hold a role.
 enum class Channels { kWhole, kRed, kGreen, kBlue, kAlpha, kRgb };

@@ -25,7 +25,7 @@ Json to_json(const ModelSide& side) {
 
 Json to_json(const Parametric& form) {
   Json roughness = Json::array(), specular = Json::array();
-  for (const auto& row : form.roughness) roughness.push_back(numbers_json(row));
+  for (const auto& row : form.alpha) roughness.push_back(numbers_json(row));
   for (const auto& [power, curve] : form.specular)
     specular.push_back({{"power", power},
                         {"start", finite(curve.start)},
@@ -102,7 +102,7 @@ SpecularTerm read_term(const Field& field) {
 
 Parametric read_parametric(const Field& field) {
   Parametric form;
-  form.roughness = field["roughness"].list(1, [](const Field& row) { return row.numbers(1); });
+  form.alpha = field["roughness"].list(1, [](const Field& row) { return row.numbers(1); });
   form.specular = field["specular"].list(1, read_term);
   const auto falls = [](const SpecularTerm& a, const SpecularTerm& b) { return a.power > b.power; };
   const bool ordered =
@@ -198,7 +198,7 @@ std::string fit_to_json(const Fit& fit) {
       {"method", fit.method},
       {"candidates", candidates},
       {"error_on_held_out_rows",
-       {{"alpha", figures_json(fit.roughness_error)}, {"specular", figures_json(fit.specular_error)}}},
+       {{"alpha", figures_json(fit.alpha_error)}, {"specular", figures_json(fit.specular_error)}}},
       {"likeness", to_json(fit.image_similarity)},
       {"remarks", fit.remarks},
       {"split", split_json(fit.split)},
@@ -219,7 +219,7 @@ Fit read_fit(const Field& root) {
   fit.mapping = read_mapping(root["mapping"]);
   fit.method = root["method"].text_dictionary();
   fit.candidates = root["candidates"].list(0, read_candidate);
-  fit.roughness_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
+  fit.alpha_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
   fit.specular_error = read_figures(root["error_on_held_out_rows"]["specular"]);
   fit.image_similarity = read_similarity(root["likeness"]);
   fit.remarks = root["remarks"].texts();

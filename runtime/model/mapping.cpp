@@ -32,7 +32,7 @@ struct Name {
 };
 
 struct AlphaDependsOnSpecular {
-  bool operator()(const Parametric& form) const { return form.roughness.size() > 1; }
+  bool operator()(const Parametric& form) const { return form.alpha.size() > 1; }
   bool operator()(const Svr& svr) const { return svr.alpha.inputs.size() > 1; }
   bool operator()(const Mlp& mlp) const { return mlp.alpha.inputs.size() > 1; }
   bool operator()(const Chain& chain) const {
@@ -62,7 +62,7 @@ struct IsProportional {
 struct NumberCount {
   std::size_t operator()(const Parametric& form) const {
     std::size_t count = 0;
-    for (const auto& row : form.roughness) count += row.size();
+    for (const auto& row : form.alpha) count += row.size();
     for (const SpecularTerm& term : form.specular) count += count_of(term.factor);
     return count;
   }

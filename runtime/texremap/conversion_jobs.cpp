@@ -49,8 +49,6 @@ bool is_given(const ParameterRequest& request) {
 // The maps of a set that may hold a parameter, by the best role found: some sets call their base color
 // diffuse, or their diffuse color albedo.
 std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
-  const auto is_diffuse = [](Role role) { return role == Role::kDiffuse; };
-  const auto is_base_color = [](Role role) { return role == Role::kBaseColor; };
   const auto either = [](std::vector<MapUse> best, std::vector<MapUse> other) {
     return best.empty() ? other : best;
   };
@@ -58,13 +56,13 @@ std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
     case Parameter::kWidth:
       return uses(set, tells_width);
     case Parameter::kSpecular:
-      return uses(set, [](Role role) { return role == Role::kSpecular; });
+      return uses(set, is<Role::kSpecular>);
     case Parameter::kDiffuse:
-      return either(uses(set, is_diffuse), uses(set, is_base_color));
+      return either(uses(set, is<Role::kDiffuse>), uses(set, is<Role::kBaseColor>));
     case Parameter::kBaseColor:
-      return either(uses(set, is_base_color), uses(set, is_diffuse));
+      return either(uses(set, is<Role::kBaseColor>), uses(set, is<Role::kDiffuse>));
     case Parameter::kMetallic:
-      return uses(set, [](Role role) { return role == Role::kMetallic; });
+      return uses(set, is<Role::kMetallic>);
     default:
       return {};
   }
@@ -103,6 +101,7 @@ class TreeJobs {
   void copy_others(const FoundSet& set, int tile, ConversionJob& job) const;
   std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
   void require_no_collisions() const;
+  void fail(const std::string& message) { jobs_.left_out.push_back({message, true}); }
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
 
   const ConvertOptions& options_;
@@ -123,7 +122,7 @@ JobList TreeJobs::list() {
   Discovery found = find_sets(root_, discovery);
   jobs_.is_tree = true;
   jobs_.unrecognised_count = found.unrecognised.size();
-  for (const WalkProblem& problem : found.problems) jobs_.left_out.push_back({problem.message, true});
+  for (const WalkProblem& problem : found.problems) fail(problem.message);
   for (FoundSet& set : found.sets) {
     if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kWidth))
       set = of_diffuse_alone(std::move(set));
@@ -145,23 +144,14 @@ void TreeJobs::add(const FoundSet& set) {
   for (const Parameter parameter : workflow_.sources()) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const std::string name = plain_name(parameter);
-    if (!found.empty() && workflow_.constants.contains(parameter)) {
-      jobs_.left_out.push_back(
-          {place(set) + ": has a " + std::string(role_name(found.front().role)) +
-               " map, but the warp converts a diffuse map alone (use a warp of all its maps, or "
-               "--diffuse MAP instead of the folder)",
-           true});
-      return;
-    }
-    if (found.size() > 1) {
-      jobs_.left_out.push_back({place(set) + ": " + too_many_text(set, found, name), true});
-      return;
-    }
-    if (!found.empty() || is_given(stand_ins_.parameters.at(parameter))) continue;
-    jobs_.left_out.push_back({place(set) + ": no " + name + " map found (or use " +
-                                  parameter_option(parameter) + " VALUE for such sets)",
-                              true});
-    return;
+    if (!found.empty() && workflow_.constants.contains(parameter))
+      return fail(place(set) + ": has a " + std::string(role_name(found.front().role)) +
+                  " map, but the warp converts a diffuse map alone (use a warp of all its maps, or "
+                  "--diffuse MAP instead of the folder)");
+    if (found.size() > 1) return fail(place(set) + ": " + too_many_text(set, found, name));
+    if (found.empty() && !is_given(stand_ins_.parameters.at(parameter)))
+      return fail(place(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
+                  " VALUE for such sets)");
   }
   converted_.push_back(set);
   for (const int tile : tiles_of(set)) add_tile(set, tile);
@@ -176,10 +166,8 @@ bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::
   const FoundMap& map = map_of(set, use);
   const std::optional<fs::path> file = file_of(map, tile);
   if (!file) {
-    jobs_.left_out.push_back({job.name + (number.empty() ? "" : ", tile " + number) + ": no " +
-                                  std::string(role_name(use.role)) + " map found (" +
-                                  shown(map.path.filename()) + " lacks this tile)",
-                              true});
+    fail(job.name + (number.empty() ? "" : ", tile " + number) + ": no " + std::string(role_name(use.role)) +
+         " map found (" + shown(map.path.filename()) + " lacks this tile)");
     return false;
   }
   job.request.parameters[parameter].source = MapName{root_ / *file, channel_names(use.channels)};

@@ -11,25 +11,16 @@
 namespace remap {
 namespace {
 
-// The value of the option of a parameter; empty where it was not given.
+// The value of the option of a source parameter; empty where it was not given.
 const std::string& word_of(const ConvertOptions& options, Parameter parameter) {
-  static const std::string kNone;
-  switch (parameter) {
-    case Parameter::kWidth:
-      return options.roughness;
-    case Parameter::kSpecular:
-      return options.specular;
-    case Parameter::kDiffuse:
-      return options.diffuse;
-    case Parameter::kBaseColor:
-      return options.base_color;
-    case Parameter::kMetallic:
-      return options.metallic;
-    case Parameter::kMetalMask:
-      return options.metal_mask;
-    default:
-      return kNone;
-  }
+  static const std::map<Parameter, std::string ConvertOptions::*> kOptions = {
+      {Parameter::kWidth, &ConvertOptions::roughness},
+      {Parameter::kSpecular, &ConvertOptions::specular},
+      {Parameter::kDiffuse, &ConvertOptions::diffuse},
+      {Parameter::kBaseColor, &ConvertOptions::base_color},
+      {Parameter::kMetallic, &ConvertOptions::metallic},
+      {Parameter::kMetalMask, &ConvertOptions::metal_mask}};
+  return options.*kOptions.at(parameter);
 }
 
 std::optional<RoughnessConvention> convention_of(const std::string& option, const std::string& word) {
@@ -49,6 +40,7 @@ std::optional<Transfer> transfer_of(const std::string& words, Parameter paramete
     const std::string name = sign == std::string::npos ? "" : word.substr(0, sign);
     if (sign != std::string::npos && std::find(kColors.begin(), kColors.end(), name) == kColors.end())
       fail_unknown("--color-space", "color", name, kColors);
+    // Without a sign, npos + 1 is 0: the whole word.
     const Transfer transfer = chosen_value(kTransfers, "--color-space", "color space", word.substr(sign + 1));
     if (sign == std::string::npos || name == parameter_name(parameter)) chosen = transfer;
   }

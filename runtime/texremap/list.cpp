@@ -10,7 +10,6 @@
 #include "remap/error.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
-#include "texremap/converters_option.hpp"
 #include "workflow/workflow_models.hpp"
 
 namespace remap {
@@ -131,6 +130,16 @@ void list_workflows(const ListOptions& options) {
 }
 
 }  // namespace
+
+void add_converters_option(Command& command) {
+  command
+      .add_action(
+          "--converters", [](const std::string& path) { use_converters(path); },
+          "Use these converters instead of the shipped ones: a converters.json of `remapc emit "
+          "--all`, a fit, or a folder of fits")
+      ->type_name("PATH")
+      ->environment("REMAP_CONVERTERS");
+}
 
 void add_list_command(Command& app) {
   auto options = std::make_shared<ListOptions>();

@@ -11,7 +11,6 @@
 #include "convert/chained_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
-#include "texremap/converters_option.hpp"
 #include "texremap/workflow_choice.hpp"
 
 namespace remap {
@@ -112,7 +111,10 @@ std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
 
 void explain(const PathOptions& asked) {
   PathOptions options = asked;
-  const WorkflowChoice choice = workflow_between(asked.request.source, asked.request.target);
+  ConvertOptions ends;
+  ends.from = asked.request.source;
+  ends.to = asked.request.target;
+  const WorkflowChoice choice = workflow_choice(ends);
   options.request.source = choice.source_brdf;
   options.request.target = choice.target_brdf;
   const bool has_path =

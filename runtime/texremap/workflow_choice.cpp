@@ -252,11 +252,4 @@ WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit&
   return choice;
 }
 
-WorkflowChoice workflow_between(const std::string& from, const std::string& to) {
-  ConvertOptions options;
-  options.from = from;
-  options.to = to;
-  return workflow_choice(options);
-}
-
 }  // namespace remap

@@ -73,9 +73,11 @@ class ImageReader {
   // height or at the end of the image.
   void read_rows(int first_row, int row_count, std::byte* texels);
 
+  // The metadata that an earlier run wrote under `name`, as an attribute or in the tag Software.
+  std::optional<std::string> noted_metadata(const std::string& name) const;
+
  private:
   friend class ImageWriter;
-  friend std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name);
   struct State;  // image_library.hpp
   std::unique_ptr<State> state_;
 };
@@ -89,9 +91,6 @@ struct ImageChanges {
   std::optional<Transfer> transfer;                  // curve of the values
   Metadata metadata;                                 // added; TIFF and JPEG hold it in the tag Software
 };
-
-// The metadata that an earlier run wrote under `name`, as an attribute or in the tag Software.
-std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name);
 
 // One part of a new image. It follows a part of another image in everything except `changes`.
 struct ImagePart {

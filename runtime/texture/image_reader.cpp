@@ -192,8 +192,8 @@ void ImageReader::State::read_rows(int first_row, int row_count, std::byte* texe
          " cannot be read: " + first_line(message, "unknown reason") + " (the file may be truncated)");
 }
 
-std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name) {
-  const OIIO::ImageSpec& spec = reader.state_->levels.front();
+std::optional<std::string> ImageReader::noted_metadata(const std::string& name) const {
+  const OIIO::ImageSpec& spec = state_->levels.front();
   if (const std::string value = spec.get_string_attribute(name); !value.empty()) return value;
   const std::string software = spec.get_string_attribute("Software"), key = name + "=";
   const std::size_t begin = software.find(key);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "remap/error.hpp"
+#include "texture/convert_maps.hpp"
 
 namespace remap {
 namespace {
@@ -54,7 +55,7 @@ void add_row(const TextureSet& set, const StoredRows& rows, int step, MaterialSa
       std::vector<float> row(texels, values.is_map() ? 0.0f : values.constants[c]);
       if (values.is_map()) row = values_of(set, rows, values.channels[c], step);
       if (values.is_map()) to_linear(values.transfer, row);
-      const float factor = values.factors.empty() ? 1.0f : values.factors[values.factors.size() == 1 ? 0 : c];
+      const float factor = values.factor(c);
       const std::size_t before = own[c].size();
       for (std::size_t i = 0; i < row.size(); ++i)
         if (coverage.empty() || coverage[i] > 0.0f) own[c].push_back(row[i] * factor);
@@ -166,36 +167,30 @@ std::vector<std::string> doubts_about(const MaterialSample& sample, const Textur
 std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,
                                          RoughnessConvention width) {
   if (sample.texel_count == 0) return std::nullopt;
-  SpecularWorkflow plain;
+  const SpecularWorkflow plain;
   WorkflowStages to_plain = stages;
   to_plain.target = plain;
   const auto converter = make_workflow_converter(to_plain, InstructionSet::kBaseline);
-  const std::size_t count = sample.texel_count;
-  std::vector<float> widths = sample.rows.at(Parameter::kWidth).front();
-  change_convention(width, converter->info().source.roughness, widths);
-  MaterialRows<const float> in;
-  for (const Parameter parameter : converter->sources()) {
-    const auto& rows = sample.rows.at(parameter);
-    in[parameter].count = rows.size();
-    for (std::size_t c = 0; c < rows.size(); ++c) in[parameter].row[c] = rows[c].data();
-  }
-  in[Parameter::kWidth].row[0] = widths.data();
-  std::array<std::vector<float>, 7> made;
-  for (std::vector<float>& row : made) row.resize(count);
-  MaterialRows<float> out;
+  const std::size_t every = std::max<std::size_t>(1, sample.texel_count / kEstimatedTexels);
+  std::vector<SpecularMaterial> materials((sample.texel_count + every - 1) / every);
+  MapConversion maps;
+  maps.width = materials.size();
+  maps.height = 1;
+  maps.source_convention = width;
+  maps.target_convention = RoughnessConvention::kAlpha;
+  for (const Parameter parameter : converter->sources())
+    for (const std::vector<float>& row : sample.rows.at(parameter))
+      maps.sources[parameter].channels.push_back(float_channel(row.data(), maps.width, every));
+  const auto add_target = [&](Parameter parameter, float& first) {
+    constexpr std::size_t kFloats = sizeof(SpecularMaterial) / sizeof(float);
+    maps.targets[parameter].channels.push_back(float_channel(&first, maps.width, kFloats));
+  };
   for (std::size_t c = 0; c < 3; ++c) {
-    out[Parameter::kDiffuse].row[c] = made[c].data();
-    out[Parameter::kSpecular].row[c] = made[3 + c].data();
+    add_target(Parameter::kDiffuse, materials.front().diffuse[c]);
+    add_target(Parameter::kSpecular, materials.front().specular[c]);
   }
-  out[Parameter::kDiffuse].count = out[Parameter::kSpecular].count = 3;
-  out[Parameter::kWidth] = {{made[6].data()}, 1};
-  converter->convert(count, in, out);
-  change_convention(converter->info().target.roughness, RoughnessConvention::kAlpha, made[6]);
-  std::vector<SpecularMaterial> materials;
-  const std::size_t every = std::max<std::size_t>(1, count / kEstimatedTexels);
-  for (std::size_t i = 0; i < count; i += every)
-    materials.push_back(
-        {{made[0][i], made[1][i], made[2][i]}, {made[3][i], made[4][i], made[5][i]}, made[6][i]});
+  add_target(Parameter::kWidth, materials.front().width);
+  convert_maps(*converter, maps);
   WorkflowConversion conversion{plain, std::get<MetallicWorkflow>(stages.target), Projection{}};
   conversion.specular.width = RoughnessConvention::kAlpha;
   try {

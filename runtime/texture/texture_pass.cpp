@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "remap/error.hpp"
-#include "texture/channel_rows.hpp"
 #include "texture/metallic_field.hpp"
 
 namespace remap {
@@ -296,9 +295,7 @@ std::byte* Pass::texels_of(std::size_t target, Band& band) {
 
 SourceParameter Pass::source_of(Parameter name, const SetParameter& parameter, const Band& band) const {
   SourceParameter source;
-  source.constants = parameter.constants;
-  source.factors = parameter.factors;
-  source.transfer = parameter.transfer;
+  static_cast<ParameterValues&>(source) = parameter;
   source.name = parameter_option(name);
   for (const ChannelPlace& place : parameter.channels) {
     const ImageReader& reader = set_.maps[place.map];
@@ -349,10 +346,7 @@ MapStatistics Pass::convert(Band& band) {
     maps.sources[Parameter::kNearbyMetallic].channels = {
         float_channel(std::as_const(around_band_).data(), maps.width)};
   }
-  maps.target_convention = options_.target_convention;
-  maps.dither = options_.dither;
-  maps.value_statistics = options_.value_statistics;
-  maps.metallic_statistics = options_.metallic_statistics;
+  static_cast<MapTreatment&>(maps) = options_;
   std::size_t clipped = 0;
   for (std::size_t t = 0; t < round_.targets.size(); ++t) {
     const ImageLayout& layout = round_.targets[t].writer->layout();

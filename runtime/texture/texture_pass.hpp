@@ -41,16 +41,11 @@ struct TargetMap {
   std::vector<TargetPart> parts;
 };
 
-struct PassOptions {
+struct PassOptions : MapTreatment {
   int thread_count = 1;  // of the conversion; with more than 1, reading and writing overlap with it
   // Largest size of a band of the set, unless whole tiles need more. Two bands are in memory, or three if
   // pixel types change.
   std::size_t band_bytes = std::size_t{8} << 20;
-  std::optional<RoughnessConvention> target_convention;  // of the results; by default that of the model
-  BadTexels bad_texels = BadTexels::kKeep;
-  bool dither = false;
-  bool value_statistics = false;     // ranges and histograms
-  bool metallic_statistics = false;  // reliability of metallic
   // Undetermined metallic follows the metallic around it as far as that has no visible effect. Maps are read
   // twice. The converter must be able to diagnose.
   bool smooth_metallic = false;

@@ -62,12 +62,9 @@ struct ChannelPlace {
 };
 
 // One parameter of an open set.
-struct SetParameter {
-  std::vector<ChannelPlace>
-      channels;  // empty for a constant; several channels of a parameter other than a color are equal
-  ConstantValues constants;
-  std::vector<float> factors;
-  Transfer transfer = Transfer::kLinear;
+struct SetParameter : ParameterValues {
+  // Empty for a constant. Several channels of a parameter other than a color are equal.
+  std::vector<ChannelPlace> channels;
   bool transfer_is_guessed = false;
 
   bool is_map() const noexcept { return !channels.empty(); }

@@ -1,7 +1,9 @@
 // Decodes the numbers of a map for a converter: the transfer curve of a color, the encoding of a roughness.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "model/convention.hpp"
 #include "text/named_values.hpp"
@@ -15,6 +17,18 @@ enum class Transfer {
 };
 inline constexpr NamedValues<Transfer, 2> kTransfers = {
     {{Transfer::kLinear, "linear"}, {Transfer::kSrgb, "srgb"}}};
+
+// The linear values of a parameter, as far as a map does not hold them.
+struct ParameterValues {
+  std::vector<float> constants;           // one, or one each for red, green and blue; used without a map
+  std::vector<float> factors;             // of the linear values: none, one, or one per channel
+  Transfer transfer = Transfer::kLinear;  // of the stored values
+
+  // The factor of a channel.
+  float factor(std::size_t channel) const {
+    return factors.empty() ? 1.0f : factors[factors.size() == 1 ? 0 : channel];
+  }
+};
 
 // Converts stored values to linear ones and back, in place. NaN stays NaN.
 void to_linear(Transfer transfer, std::span<float> values) noexcept;

@@ -6,8 +6,8 @@ namespace {
 constexpr auto kPlain = DiffuseConvention::kPlain, kScaled = DiffuseConvention::kScaled;
 constexpr auto kRoughness = RoughnessConvention::kRoughness, kGlossiness = RoughnessConvention::kGlossiness;
 
-// All of these have GGX lobes of alpha = roughness^2. Where a converter was measured with the renderer's own
-// lobe, that is the BRDF; the others stand on Mitsuba's GGX.
+// All of these have GGX lobes of alpha = roughness^2. The BRDF is the renderer's own lobe if a converter was
+// measured with it, else Mitsuba's GGX.
 std::vector<WorkflowModel> make_models() {
   return {
       {MetallicWorkflow{"gltf", kCommonDielectricF0, kScaled, kRoughness}, "mitsuba/ggx", true,
