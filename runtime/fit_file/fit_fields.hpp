@@ -45,6 +45,10 @@ Split read_split(const Field& field);
 nlohmann::ordered_json table_record_json(const TableRecord& table);
 TableRecord read_table_record(const Field& field);
 
+// One end of a fit between workflows.
+SpecularWorkflow read_specular_workflow(const Field& side);
+MetallicWorkflow read_metallic_workflow(const Field& side);
+
 // The fields `source`, `target` and `mapping` of a fit between workflows. Refuses conversions that
 // require_valid() refuses.
 WorkflowConversion read_conversion(const Field& fit);

@@ -59,16 +59,6 @@ RoughnessConvention read_width(const Field& side) {
   return side["roughness"].named(kConventions, "roughness, glossiness or alpha");
 }
 
-SpecularWorkflow read_specular_workflow(const Field& side) {
-  side["workflow"].require(side["workflow"].text() == "specular", "\"specular\" on this side of the formula");
-  return {read_model(side["model"]), read_diffuse(side), read_width(side)};
-}
-
-MetallicWorkflow read_metallic_workflow(const Field& side) {
-  side["workflow"].require(side["workflow"].text() == "metallic", "\"metallic\" on this side of the formula");
-  return {read_model(side["model"]), side["dielectric_f0"].number(), read_diffuse(side), read_width(side)};
-}
-
 WorkflowFormula read_formula(const Field& mapping) {
   if (mapping["kind"].text() == "mlp") return LearnedNetwork{read_network(mapping["network"], 4)};
   mapping["kind"].require(mapping["kind"].text() == kWorkflowKind, "analytic or mlp");
@@ -81,6 +71,16 @@ WorkflowFormula read_formula(const Field& mapping) {
 }
 
 }  // namespace
+
+SpecularWorkflow read_specular_workflow(const Field& side) {
+  side["workflow"].require(side["workflow"].text() == "specular", "\"specular\" on this side of the formula");
+  return {read_model(side["model"]), read_diffuse(side), read_width(side)};
+}
+
+MetallicWorkflow read_metallic_workflow(const Field& side) {
+  side["workflow"].require(side["workflow"].text() == "metallic", "\"metallic\" on this side of the formula");
+  return {read_model(side["model"]), side["dielectric_f0"].number(), read_diffuse(side), read_width(side)};
+}
 
 std::string fit_to_json(const WorkflowFit& fit) {
   require_valid(fit.conversion, fit.id);

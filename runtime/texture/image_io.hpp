@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "texture/pixel_type.hpp"
+#include "texture/channel_view.hpp"
 #include "texture/transfer.hpp"
 
 namespace remap {
@@ -38,6 +38,16 @@ struct ImageLayout {
 
   std::size_t row_bytes() const noexcept { return static_cast<std::size_t>(width) * texel_bytes; }
 };
+
+// Whether two images have the same number of channels with the same types.
+bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) noexcept;
+
+// A channel of rows with this layout in memory.
+template <typename Byte>
+BasicChannelView<Byte> channel_view(Byte* texels, const ImageLayout& layout, std::size_t channel) {
+  return {texels + layout.channels[channel].offset, layout.channels[channel].type,
+          static_cast<std::ptrdiff_t>(layout.texel_bytes), static_cast<std::ptrdiff_t>(layout.row_bytes())};
+}
 
 // Sets the number of threads, at least 1, that OpenImageIO and OpenEXR may use in this process.
 void set_image_thread_count(int count);

@@ -1,4 +1,5 @@
 // The reading half of image_io.hpp.
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -86,6 +87,11 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
     layout.texel_bytes += byte_count(*type);
   }
   return layout;
+}
+
+bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) noexcept {
+  return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
+                    [](const Channel& x, const Channel& y) { return x.type == y.type; });
 }
 
 void set_image_thread_count(int count) {

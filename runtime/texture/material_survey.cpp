@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "remap/error.hpp"
+#include "text/report_text.hpp"
 #include "texture/convert_maps.hpp"
 
 namespace remap {
@@ -15,18 +15,6 @@ namespace {
 constexpr int kBands = 16, kTexelsARow = 256;
 constexpr std::size_t kEstimatedTexels = 2048;
 
-// The maps that hold parameters or coverage.
-std::vector<std::size_t> sampled_maps(const TextureSet& set) {
-  std::vector<bool> used(set.maps.size());
-  for (const auto& [parameter, values] : set.parameters)
-    for (const ChannelPlace& place : values.channels) used[place.map] = true;
-  if (set.coverage) used[set.coverage->map] = true;
-  std::vector<std::size_t> maps;
-  for (std::size_t map = 0; map < used.size(); ++map)
-    if (used[map]) maps.push_back(map);
-  return maps;
-}
-
 // One row of every map, as stored.
 using StoredRows = std::map<std::size_t, std::vector<std::byte>>;
 
@@ -34,10 +22,10 @@ using StoredRows = std::map<std::size_t, std::vector<std::byte>>;
 std::vector<float> values_of(const TextureSet& set, const StoredRows& rows, const ChannelPlace& place,
                              int step) {
   const ImageLayout& layout = set.maps[place.map].layout();
-  const Channel& channel = layout.channels[place.channel];
   std::vector<float> values(static_cast<std::size_t>((layout.width + step - 1) / step));
-  load_values(channel.type, rows.at(place.map).data() + channel.offset,
-              layout.texel_bytes * static_cast<std::size_t>(step), values.size(), values.data());
+  ConstChannelView view = channel_view(rows.at(place.map).data(), layout, place.channel);
+  view.texel_stride *= step;
+  load(view, {0, 0, values.size()}, values.data());
   return values;
 }
 
@@ -79,12 +67,6 @@ double share_within(const std::vector<float>& values, float low, float high) {
   return static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(values.size(), 1));
 }
 
-std::string percent(double share) {
-  std::array<char, 16> text;
-  std::snprintf(text.data(), text.size(), "%.0f %%", 100.0 * share);
-  return text.data();
-}
-
 // Most materials are dielectrics with an F0 of 0.03 to 0.05. In the wrong color space they read as 0.19 to
 // 0.25, where only a few gems are, or as 0.002 to 0.004, where no material is.
 void look_at_color_space(const MaterialSample& sample, const TextureSet& set,
@@ -99,8 +81,9 @@ void look_at_color_space(const MaterialSample& sample, const TextureSet& set,
   if (share < kMuch) return;
   const std::string place = set.maps[specular->channels.front().map].path().string();
   messages.push_back(place + ": specular, read as " + std::string(name_of(kTransfers, specular->transfer)) +
-                     ", is " + (is_srgb ? "0.002 to 0.0045" : "0.19 to 0.26") + " in " + percent(share) +
-                     " of the texels, like F0 0.04 stored " + (is_srgb ? "linear" : "in sRGB") +
+                     ", is " + (is_srgb ? "0.002 to 0.0045" : "0.19 to 0.26") + " in " +
+                     remapc::fixed(100.0 * share, 0) + " % of the texels, like F0 0.04 stored " +
+                     (is_srgb ? "linear" : "in sRGB") +
                      " (use --color-space specular=" + (is_srgb ? "linear" : "srgb") + " in that case)");
 }
 
@@ -136,7 +119,7 @@ void look_at_flat_maps(const MaterialSample& sample, const TextureSet& set,
 
 MaterialSample sample_materials(TextureSet& set) {
   MaterialSample sample;
-  const std::vector<std::size_t> maps = sampled_maps(set);
+  const std::set<std::size_t> maps = set.maps_of_material();
   const ImageLayout& first = set.maps[set.first_map()].layout();
   const int height = first.height, step = std::max(1, first.width / kTexelsARow);
   int unit = 1;

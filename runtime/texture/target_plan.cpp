@@ -174,23 +174,13 @@ TargetChannel packed_channel(const TextureSet& set, const std::string& name, flo
   return otherwise;
 }
 
-bool has_name(const TextureSet& set, const ChannelPlace& place) {
-  const auto holds = [&](const SetParameter& parameter) {
-    return std::find(parameter.channels.begin(), parameter.channels.end(), place) != parameter.channels.end();
-  };
-  const auto is_held = [&](const auto& entry) { return holds(entry.second); };
-  return place == set.coverage || std::any_of(set.parameters.begin(), set.parameters.end(), is_held) ||
-         std::any_of(set.carried.begin(), set.carried.end(),
-                     [&](const CarriedParameter& carried) { return holds(carried.parameter); });
-}
-
 // Layouts other than kAsInputs hold named channels only, so an unnamed channel is an error and is not
 // dropped.
 void require_nothing_lost(const TextureSet& set) {
   for (std::size_t map = 0; map < set.maps.size(); ++map) {
     const ImageLayout& layout = set.maps[map].layout();
     for (std::size_t c = 0; c < layout.channels.size(); ++c) {
-      if (has_name(set, {map, c})) continue;
+      if (set.holds({map, c}) || set.coverage == ChannelPlace{map, c}) continue;
       throw Error(ErrorKind::kUsage,
                   set.maps[map].path().string() + ": channel " + layout.channels[c].name +
                       " would be lost (name it with --occlusion or --metallic FILE:CHANNEL, "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <future>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -27,17 +28,6 @@ struct Band {
   std::vector<std::vector<std::byte>> maps;
 };
 
-bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) {
-  return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
-                    [](const Channel& x, const Channel& y) { return x.type == y.type; });
-}
-
-template <typename Byte>
-BasicChannelView<Byte> view_of(Byte* texels, const ImageLayout& layout, std::size_t channel) {
-  return {texels + layout.channels[channel].offset, layout.channels[channel].type,
-          static_cast<std::ptrdiff_t>(layout.texel_bytes), static_cast<std::ptrdiff_t>(layout.row_bytes())};
-}
-
 // The channel of the set that a channel copies; null if it does not.
 const ChannelPlace* copied(const TargetChannel& channel) { return std::get_if<ChannelPlace>(&channel); }
 
@@ -55,19 +45,12 @@ bool converts(const std::vector<Target>& targets) {
 
 // The maps that the targets need.
 std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Target>& targets) {
-  std::vector<bool> needed(set.maps.size());
-  if (converts(targets)) {
-    for (const auto& [parameter, values] : set.parameters)
-      for (const ChannelPlace& place : values.channels) needed[place.map] = true;
-    if (set.coverage) needed[set.coverage->map] = true;
-  }
+  std::set<std::size_t> maps;
+  if (converts(targets)) maps = set.maps_of_material();
   for (const Target& target : targets)
     for (const TargetChannel& channel : target.part->channels)
-      if (const ChannelPlace* from = copied(channel)) needed[from->map] = true;
-  std::vector<std::size_t> maps;
-  for (std::size_t map = 0; map < needed.size(); ++map)
-    if (needed[map]) maps.push_back(map);
-  return maps;
+      if (const ChannelPlace* from = copied(channel)) maps.insert(from->map);
+  return {maps.begin(), maps.end()};
 }
 
 // Parts that are written together. All files of one part form one round; of files with several parts, each
@@ -122,7 +105,7 @@ class Pass {
   void write(Band& band);
   std::byte* texels_of(std::size_t target, Band& band);
   ConstChannelView view_of(const ChannelPlace& place, const Band& band) const {
-    return remap::view_of(band.maps[place.map].data(), set_.maps[place.map].layout(), place.channel);
+    return channel_view(band.maps[place.map].data(), set_.maps[place.map].layout(), place.channel);
   }
   SourceParameter source_of(Parameter name, const SetParameter& parameter, const Band& band) const;
   void add_target(const Target& target, const ConvertedChannel& channel, const ChannelView& view,
@@ -353,7 +336,7 @@ MapStatistics Pass::convert(Band& band) {
     std::byte* texels = texels_of(t, band);
     for (std::size_t c = 0; c < layout.channels.size(); ++c) {
       const TargetChannel& channel = round_.targets[t].part->channels[c];
-      const ChannelView view = remap::view_of(texels, layout, c);
+      const ChannelView view = channel_view(texels, layout, c);
       if (const auto* converted = std::get_if<ConvertedChannel>(&channel))
         add_target(round_.targets[t], *converted, view, maps);
       else if (std::holds_alternative<MaskChannel>(channel))

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -92,6 +93,10 @@ struct TextureSet {
     const auto found = parameters.find(parameter);
     return found == parameters.end() || !found->second.is_map() ? nullptr : &found->second;
   }
+  // Whether a parameter, carried ones included, has this channel.
+  bool holds(const ChannelPlace& place) const;
+  // The maps with channels of parameters or coverage.
+  std::set<std::size_t> maps_of_material() const;
   // The map of the first parameter that has one. It has the size of the set. Throws kUsage if no parameter is
   // a map.
   std::size_t first_map() const;
