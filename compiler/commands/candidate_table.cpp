@@ -72,7 +72,7 @@ std::string errors_text(const remap::Fit& fit, const std::string& rows) {
     return name + " rms " + error_text(figures.rms) + " max " + error_text(figures.max);
   };
   return "on " + std::to_string(fit.split.held_out_rows) + " rows " + rows + ": " +
-         text("alpha", fit.roughness_error) + ", " + text(fit.target.specular, fit.specular_error);
+         text("alpha", fit.alpha_error) + ", " + text(fit.target.specular, fit.specular_error);
 }
 
 nlohmann::ordered_json figures_json(const remap::ErrorFigures& figures) {

@@ -49,7 +49,7 @@ void run_chain(const ChainCommand& command) {
         {"domain",
          {{"alpha", {chain.domain.alpha.min, chain.domain.alpha.max}},
           {"specular", {chain.domain.specular.min, chain.domain.specular.max}}}},
-        {"alpha_error", figures_json(chain.roughness_error)},
+        {"alpha_error", figures_json(chain.alpha_error)},
         {"specular_error", figures_json(chain.specular_error)},
         {"lowered_within", {{"alpha", lowered.alpha.bound}, {"specular", lowered.specular.bound}}},
         {"against_its_steps", steps_text}};
@@ -76,7 +76,7 @@ void run_invert(const ChainCommand& command) {
                                          {"id", inverse.id},
                                          {"inverse_of", fit.id},
                                          {"kind", kind_name(inverse.mapping)},
-                                         {"alpha_error", figures_json(inverse.roughness_error)},
+                                         {"alpha_error", figures_json(inverse.alpha_error)},
                                          {"specular_error", figures_json(inverse.specular_error)}};
     std::cout << json.dump(2) << "\n";
     return;

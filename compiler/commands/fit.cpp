@@ -70,7 +70,7 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
                                    {"id", fit.id},
                                    {"kind", kind_name(fit.mapping)},
                                    {"method", fit.method},
-                                   {"alpha_error", figures_json(fit.roughness_error)},
+                                   {"alpha_error", figures_json(fit.alpha_error)},
                                    {"specular_error", figures_json(fit.specular_error)},
                                    {"candidates", nlohmann::json::array()}};
     for (const remap::Candidate& candidate : fit.candidates)

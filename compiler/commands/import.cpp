@@ -33,7 +33,7 @@ void judge(remap::Fit& fit, const ImportCommand& command) {
   if (rows.empty())
     throw remap::Error(remap::ErrorKind::kInput, table.name + ": no usable rows in the domain of " + fit.id);
   const RowErrors errors = row_errors(fit, rows);
-  fit.roughness_error = errors.alpha;
+  fit.alpha_error = errors.alpha;
   fit.specular_error = errors.specular;
   fit.split.held_out_fraction = 1.0;
   fit.split.held_out_rows = static_cast<std::int64_t>(rows.size());
@@ -58,7 +58,7 @@ void run(const ImportCommand& command) {
                                          {"alpha_vectors", svr.alpha.count()},
                                          {"specular_vectors", svr.specular.count()},
                                          {"rows", fit.split.held_out_rows},
-                                         {"alpha_error", figures(fit.roughness_error)},
+                                         {"alpha_error", figures(fit.alpha_error)},
                                          {"specular_error", figures(fit.specular_error)}};
     std::cout << json.dump(2) << "\n";
     return;

@@ -52,7 +52,7 @@ void list_fits(const ListOptions& options) {
                     {"source", fit.source.model},
                     {"target", fit.target.model},
                     {"kind", kind_name(fit.mapping)},
-                    {"alpha_rms_error", fit.roughness_error.rms},
+                    {"alpha_rms_error", fit.alpha_error.rms},
                     {"specular_rms_error", fit.specular_error.rms}});
     if (!options.json)
       std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << kind_name(fit.mapping)

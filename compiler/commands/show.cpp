@@ -10,7 +10,7 @@
 #include "fit/rows/split.hpp"
 #include "lower/lower.hpp"
 #include "manifest/fit_folder.hpp"
-#include "model/round_trip.hpp"
+#include "model/inverse.hpp"
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "table/domain.hpp"
@@ -63,11 +63,10 @@ std::string inputs_text(std::size_t count) { return count == 1 ? "alpha" : "alph
 // Prints a mapping as formulas of a = alpha1 and s = specular1.
 struct PrintMapping {
   void operator()(const remap::Parametric& form) const {
-    for (std::size_t j = 0; j < form.roughness.size(); ++j) {
+    for (std::size_t j = 0; j < form.alpha.size(); ++j) {
       std::cout << (j == 0 ? "  alpha2 = (" : "\n         + (");
-      for (std::size_t i = 0; i < form.roughness[j].size(); ++i)
-        std::cout << summand(form.roughness[j][i], i == 0) << " a"
-                  << (i == 0 ? "" : "^" + std::to_string(i + 1));
+      for (std::size_t i = 0; i < form.alpha[j].size(); ++i)
+        std::cout << summand(form.alpha[j][i], i == 0) << " a" << (i == 0 ? "" : "^" + std::to_string(i + 1));
       std::cout << ")" << specular_power(j);
     }
     std::cout << "\n";
@@ -172,8 +171,8 @@ void print_trust(const remap::Fit& fit) {
     std::cout << "Deviation of the fit from its table: unknown (no rows held out)\n";
   } else {
     std::cout << "Deviation of the fit from " << rows_text(fit) << "\n  alpha   "
-              << figures_text(fit.roughness_error) << "\n  " << std::left << std::setw(8)
-              << fit.target.specular << figures_text(fit.specular_error) << "\n";
+              << figures_text(fit.alpha_error) << "\n  " << std::left << std::setw(8) << fit.target.specular
+              << figures_text(fit.specular_error) << "\n";
   }
   print_lowering(fit);
 }

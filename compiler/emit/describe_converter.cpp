@@ -54,7 +54,7 @@ std::string provenance(const Fit& fit, const std::string& description) {
   if (fit.has_errors())
     text += std::string("Error ") +
             (fit.split.held_out_rows != 0 ? "on the rows held out: " : "of its steps together: ") +
-            error_text("alpha", fit.roughness_error) + ";\n" +
+            error_text("alpha", fit.alpha_error) + ";\n" +
             error_text(fit.target.specular, fit.specular_error) + ".\n";
   else
     text += "Its error is not known.\n";
@@ -90,7 +90,7 @@ HeaderData described(const Fit& fit, MappingData mapping) {
   header.specular = specular_range(fit);
   header.alpha_by_specular = alpha_depends_on_specular(fit.mapping);
   if (fit.has_errors()) {
-    header.alpha_rms_error = remap::rounded_up(fit.roughness_error.rms, 2);
+    header.alpha_rms_error = remap::rounded_up(fit.alpha_error.rms, 2);
     header.specular_rms_error = remap::rounded_up(fit.specular_error.rms, 2);
   }
   if (fit.image_similarity)

@@ -75,7 +75,7 @@ std::string curve_code(const remap::AlphaCurve& curve, const std::string& name, 
 std::string alpha_statements(const Parametric& form) {
   std::string text;
   std::vector<std::string> names;
-  for (const std::vector<double>& coefficients : form.roughness) {
+  for (const std::vector<double>& coefficients : form.alpha) {
     std::vector<double> row = coefficients;
     row.insert(row.begin(), 0.0);
     names.push_back("r" + std::to_string(names.size()));
@@ -150,7 +150,7 @@ std::string curve_terms(const Parametric& form, const Uses& uses, const std::str
 MappingCode mapping_code(const FittedCurves& curves) {
   const Parametric& form = curves.form;
   const Uses uses = uses_of(curves);
-  const bool alone = form.roughness.size() == 1;
+  const bool alone = form.alpha.size() == 1;
   const std::string statements =
       (uses.square ? "const float alpha_2 = alpha * alpha;\n" : "") + curves_code(curves);
   MappingCode code;

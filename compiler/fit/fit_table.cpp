@@ -97,7 +97,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
     one.mapping = regression.mapping;
     one.method = regression.method;
     const RowErrors errors = row_errors(one, split.held_out);
-    one.roughness_error = errors.alpha;
+    one.alpha_error = errors.alpha;
     one.specular_error = errors.specular;
     return one;
   };

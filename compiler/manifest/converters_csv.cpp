@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "manifest/trust.hpp"
-#include "model/round_trip.hpp"
+#include "model/inverse.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -97,7 +97,7 @@ Row row_of(const Fit& fit, const Pairs& pairs, const Lock& lock) {
   add_pictures(fit, &row);
   add_round_trip(fit, pairs, &row);
   if (fit.has_errors()) {
-    row["alpha_error"] = figure(fit.roughness_error.rms);
+    row["alpha_error"] = figure(fit.alpha_error.rms);
     row["specular_error"] = figure(fit.specular_error.rms);
   }
   if (const auto locked = lock.items.find(fit.id); locked != lock.items.end()) {

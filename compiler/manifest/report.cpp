@@ -134,7 +134,7 @@ std::string mark_text(const FitFolder& folder) {
 std::string small_errors_text(const std::vector<Fit>& fits, const Lock& lock) {
   double fit_error = 0.0, bound = 0.0;
   for (const Fit& fit : fits) {
-    fit_error = std::max(fit_error, fit.roughness_error.rms);
+    fit_error = std::max(fit_error, fit.alpha_error.rms);
     if (const auto locked = lock.items.find(fit.id); locked != lock.items.end())
       bound = std::max(bound, locked->second.alpha_bound);
   }

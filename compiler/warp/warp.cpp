@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 
 #include "remap/error.hpp"
-#include "text/named_values.hpp"
+#include "remap/named_values.hpp"
 #include "text/report_text.hpp"
 #include "warp/paper_warp.hpp"
 #include "warp/warp_table.hpp"

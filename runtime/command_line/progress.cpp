@@ -1,6 +1,7 @@
 #include "command_line/progress.hpp"
 
 #include <cstdio>
+#include <sys/resource.h>
 #include <utility>
 
 namespace remap {
@@ -19,7 +20,19 @@ std::string clock_text(double seconds) {
   return text;
 }
 
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
 }  // namespace
+
+ResourceUse resource_use() noexcept {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return {};
+  constexpr std::size_t kUnit = 1024;  // Linux counts in kilobytes
+  return {seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime),
+          static_cast<std::size_t>(usage.ru_maxrss) * kUnit};
+}
 
 Progress::Progress(std::string label, std::size_t total, bool shown)
     : label_(std::move(label)),

@@ -7,16 +7,115 @@
 #include <new>
 #include <string>
 #include <unistd.h>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "command_line/command.hpp"
 #include "command_line/help_text.hpp"
-#include "command_line/usage_error.hpp"
 #include "remap/error.hpp"
+#include "text/nearest_name.hpp"
 
 namespace remap {
 namespace {
+
+// The command that the arguments chose, as deep as they went.
+const CLI::App& chosen_command(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::string see_help(const CLI::App& command) { return " (see " + command_words(command) + " --help)"; }
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& known,
+                         const CLI::App& command) {
+  const std::string nearest = nearest_name(name, known);
+  return nearest.empty() ? see_help(command) : " (did you mean " + nearest + "?)";
+}
+
+bool ends_with_and_drop(std::string& text, const std::string& ending) {
+  if (!text.ends_with(ending)) return false;
+  text.erase(text.size() - ending.size());
+  return true;
+}
+
+// The message for arguments that no option took.
+std::string extra_text(const CLI::App& command, const std::vector<std::string>& extras) {
+  const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
+  const auto option = std::find_if(extras.begin(), extras.end(), is_option);
+  if (option != extras.end()) {
+    const std::string name = option->substr(0, option->find('='));
+    return "unknown option " + name + did_you_mean(name, option_names(command), command);
+  }
+  const std::vector<std::string> commands = command_names(command);
+  if (!commands.empty())
+    return "unknown command '" + extras.front() + "'" + did_you_mean(extras.front(), commands, command);
+  return "unexpected argument '" + extras.front() + "'" + see_help(command);
+}
+
+// `--model: unknown value 'x' (choose auto, svr)`: a value that a check of the option refused. CLI11 prefixes
+// the message with the option's name.
+std::string refused_value_text(const CLI::App& command, const std::string& what) {
+  const std::size_t colon = what.find(": ");
+  const std::string name = what.substr(0, colon);
+  const CLI::Option* option = command.get_option_no_throw(name);
+  if (colon == std::string::npos || option == nullptr) return what + see_help(command);
+  const std::string allowed = allowed_values(*option), choice = " not in {";
+  if (const std::size_t end = what.find(choice); end != std::string::npos)
+    return name + ": unknown value '" + what.substr(colon + 2, end - colon - 2) + "' (choose " + allowed +
+           ")";
+  const std::string value = ": Value ", range = " not in range ";
+  const std::size_t start = what.find(value), end = what.find(range);
+  if (allowed.empty() || start == std::string::npos || end == std::string::npos)
+    return what + see_help(command);
+  return name + ": invalid value '" + what.substr(start + value.size(), end - start - value.size()) +
+         "' (allowed: " + allowed + ")";
+}
+
+// The message for a command line that `app` refused with `error`: what is wrong and what to do, as `unknown
+// option
+// --form (did you mean --from?)` or `--output is required (see texremap convert --help)`.
+std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& command = chosen_command(app);
+  // Whatever CLI11 complained of, a mistyped option is the likelier reason: with `--form a`, --from is
+  // missing.
+  if (const std::vector<std::string> extras = app.remaining(true); !extras.empty())
+    return extra_text(command, extras);
+  std::string what = error.what();
+  if (error.get_name() == "RequiredError" && what == "A subcommand is required")
+    return "no command given (try --help)";
+  if (error.get_name() == "ValidationError") return refused_value_text(command, what);
+  if (error.get_name() == "ArgumentMismatch" && ends_with_and_drop(what, " missing")) {
+    const std::size_t colon = what.find(": "), end = what.find(" required ", colon);
+    const std::string name = what.substr(0, colon), count = what.substr(colon + 2, end - colon - 2);
+    if (count == "1") return name + ": value missing" + see_help(command);
+    return name + ": expects " + count + " values, " + what.substr(end + std::string(" required ").size());
+  }
+  const std::string conversion = "Could not convert: ", excludes = " excludes ";
+  if (const std::size_t equals = what.find(" = ");
+      what.starts_with(conversion) && equals != std::string::npos)
+    return what.substr(conversion.size(), equals - conversion.size()) + ": invalid value '" +
+           what.substr(equals + 3) + "'" + see_help(command);
+  if (const std::size_t at = what.find(excludes);
+      error.get_name() == "ExcludesError" && at != std::string::npos)
+    return what.substr(0, at) + " cannot be used with " + what.substr(at + excludes.size());
+  return what + see_help(command);
+}
 
 int parse_and_run(CLI::App& app, int argc, const char* const* argv) {
   lay_out_help(app);

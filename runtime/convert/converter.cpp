@@ -27,7 +27,7 @@ ConverterInfo info_of(const Fit& fit) {
           fit.target,
           decimal(own_roughness_range(fit)),
           decimal(specular_range(fit)),
-          known(fit.roughness_error.rms),
+          known(fit.alpha_error.rms),
           known(fit.specular_error.rms),
           image_error,
           InstructionSet::kBaseline,

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "text/named_values.hpp"
+#include "remap/named_values.hpp"
 
 namespace remap {
 namespace {

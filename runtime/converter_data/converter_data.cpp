@@ -62,7 +62,7 @@ ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
           fit.target,
           own_roughness_range(fit),
           specular_range(fit),
-          two_digits(fit.has_errors(), fit.roughness_error.rms),
+          two_digits(fit.has_errors(), fit.alpha_error.rms),
           two_digits(fit.has_errors(), fit.specular_error.rms),
           two_digits(fit.image_similarity.has_value(),
                      fit.image_similarity ? fit.image_similarity->image_error.rms : 0.0),

@@ -5,8 +5,6 @@
 #include <set>
 #include <utility>
 
-#include "discovery/shown_path.hpp"
-
 namespace remap {
 namespace fs = std::filesystem;
 namespace {
@@ -59,7 +57,7 @@ void choose_stems(std::vector<NamedMap>& maps) {
 
 FoundMap found_map(const fs::path& folder, const NamedMap& map) {
   const fs::path path = folder / map.files.name;
-  FoundMap found{path, map.files.pattern, {}, {}, map.reading().habit, map.reading().meaning};
+  FoundMap found{path, map.files.pattern, {}, map.reading().habit, map.reading().meaning};
   for (const int number : map.files.numbers)
     found.tiles.push_back({number, folder / tile_name(*map.files.pattern, number)});
   return found;
@@ -82,25 +80,9 @@ std::optional<MapUse> single_use(FoundSet& set, bool (*wanted)(Role), const std:
   return std::nullopt;
 }
 
-void note_missing_tiles(FoundSet& set) {
-  std::vector<FoundMap*> maps;
-  std::vector<std::vector<int>> numbers;
-  for (std::vector<FoundMap>* list : {&set.maps, &set.bystanders}) {
-    for (FoundMap& map : *list) {
-      maps.push_back(&map);
-      std::vector<int>& own = numbers.emplace_back();
-      for (const Tile& tile : map.tiles) own.push_back(tile.number);
-    }
-  }
-  std::vector<std::vector<int>> missing = missing_tiles(numbers);
-  for (std::size_t i = 0; i < maps.size(); ++i) maps[i]->missing_tiles = std::move(missing[i]);
-}
-
 void judge(FoundSet& set) {
   set.width = single_use(set, tells_width, "roughness");
-  set.specular = single_use(
-      set, [](Role role) { return role == Role::kSpecular; }, "specular");
-  note_missing_tiles(set);
+  set.specular = single_use(set, is<Role::kSpecular>, "specular");
   if (set.state == SetState::kFaulty || set.width) return;
   set.state = SetState::kSkipped;
   set.remarks.push_back(place_of(set) + ": no roughness or glossiness map found");
@@ -164,7 +146,7 @@ const FoundMap& map_of(const FoundSet& set, const MapUse& use) {
 std::vector<std::string> channel_names(Channels channels) {
   if (channels == Channels::kWhole) return {};
   if (channels == Channels::kRgb) return {"R", "G", "B"};
-  return {std::string(channels_name(channels))};
+  return {std::string(name_of(kChannels, channels))};
 }
 
 std::optional<RoughnessConvention> convention_of(Role role) {
@@ -178,7 +160,7 @@ std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found,
   for (const MapUse& use : found) {
     text += (text.empty() ? "" : ", ") + shown(map_of(set, use).path.filename()) + " (";
     text += role_name(use.role);
-    if (use.channels != Channels::kWhole) text += " in " + std::string(channels_name(use.channels));
+    if (use.channels != Channels::kWhole) text += " in " + std::string(name_of(kChannels, use.channels));
     text += ")";
   }
   return std::to_string(found.size()) + " " + what + " maps found: " + text + "; keep one";
@@ -186,7 +168,7 @@ std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found,
 
 Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {
   const Naming& naming = options.naming != nullptr ? *options.naming : built_in_naming();
-  Walk walk = walk_images(root, {options.recursive, options.excluded});
+  Walk walk = walk_images(root, options);
   Discovery discovery;
   discovery.problems = std::move(walk.problems);
   for (const ImageFolder& folder : walk.folders)
@@ -201,21 +183,6 @@ Discovery find_sets(const fs::path& root, const DiscoveryOptions& options) {
   std::sort(discovery.problems.begin(), discovery.problems.end(),
             [&](const WalkProblem& a, const WalkProblem& b) { return bytes(a.path, b.path); });
   return discovery;
-}
-
-std::vector<OutputCollision> output_collisions(std::span<const FoundSet> sets, const OutputPlan& plan) {
-  std::map<std::string, std::pair<std::size_t, fs::path>> writers;
-  std::vector<OutputCollision> collisions;
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (sets[i].state != SetState::kReady) continue;
-    for (PlannedOutput& output : plan(sets[i])) {
-      const fs::path path = output.path.lexically_normal();
-      const auto [first, added] = writers.try_emplace(path.string(), i, output.source);
-      if (!added)
-        collisions.push_back({path, first->second.first, first->second.second, i, std::move(output.source)});
-    }
-  }
-  return collisions;
 }
 
 }  // namespace remap

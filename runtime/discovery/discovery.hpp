@@ -3,9 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -21,7 +19,6 @@ struct FoundMap {
   std::filesystem::path path;          // relative to the root; `<UDIM>` in the name stands for tiles
   std::optional<TilePattern> pattern;  // of the file name
   std::vector<Tile> tiles;             // by number, paths relative to the root; empty for a single file
-  std::vector<int> missing_tiles;      // tiles that only other maps of the set have
   std::string habit;
   std::vector<ChannelMeaning> meaning;
 };
@@ -60,10 +57,8 @@ std::optional<RoughnessConvention> convention_of(Role role);
 // `2 specular maps found: a_spec.png (specular), a_orm.png (specular in R); keep one`.
 std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what);
 
-struct DiscoveryOptions {
-  bool recursive = true;
-  std::vector<std::filesystem::path> excluded;  // folders to skip, such as the one for results
-  const Naming* naming = nullptr;               // null for the built-in habits
+struct DiscoveryOptions : WalkOptions {
+  const Naming* naming = nullptr;  // null for the built-in habits
 };
 
 struct Discovery {
@@ -78,25 +73,5 @@ struct Discovery {
 // order in which the system lists files. Throws kInput if the root cannot be read; all other problems are
 // part of the result.
 Discovery find_sets(const std::filesystem::path& root, const DiscoveryOptions& options);
-
-// A file that the conversion of a set will write.
-struct PlannedOutput {
-  std::filesystem::path path;
-  std::filesystem::path source;  // a source map, for messages
-};
-using OutputPlan = std::function<std::vector<PlannedOutput>(const FoundSet&)>;
-
-// Two outputs with the same name; sets are indices.
-struct OutputCollision {
-  std::filesystem::path path;
-  std::size_t first_set = 0;
-  std::filesystem::path first_source;
-  std::size_t second_set = 0;
-  std::filesystem::path second_source;
-};
-
-// The outputs of ready sets that an earlier set would write, too. Names are compared byte by byte after `.`
-// and `..` are resolved in the text; links and case-insensitive file systems are not considered.
-std::vector<OutputCollision> output_collisions(std::span<const FoundSet> sets, const OutputPlan& plan);
 
 }  // namespace remap

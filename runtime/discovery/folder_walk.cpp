@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "discovery/name_pieces.hpp"
-#include "discovery/shown_path.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -116,6 +115,21 @@ class Walker {
 };
 
 }  // namespace
+
+std::string shown(const std::filesystem::path& path) {
+  constexpr std::string_view kHexDigits = "0123456789abcdef";
+  std::string text;
+  for (const char c : path.string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n')
+      text += "\\n";
+    else if (byte < 0x20 || byte == 0x7f)
+      text += {'\\', 'x', kHexDigits[byte >> 4], kHexDigits[byte & 15u]};
+    else
+      text += c;
+  }
+  return text;
+}
 
 Walk walk_images(const fs::path& root, const WalkOptions& options) { return Walker(root, options).run(); }
 

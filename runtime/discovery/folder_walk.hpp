@@ -7,6 +7,10 @@
 
 namespace remap {
 
+// The path with control characters escaped, such as `\n` and `\x1b`. A file name may hold any byte, but a
+// message must be one line.
+std::string shown(const std::filesystem::path& path);
+
 struct WalkOptions {
   bool recursive = true;
   std::vector<std::filesystem::path> excluded;  // folders to skip, such as the one for results

@@ -18,23 +18,6 @@ struct NameParts {
 
 namespace {
 
-constexpr std::array kRoles = {Role::kRoughness,    Role::kGlossiness, Role::kGlossinessSquared,
-                               Role::kAlphaWidth,   Role::kSpecular,   Role::kSpecularLevel,
-                               Role::kDiffuse,      Role::kBaseColor,  Role::kMetallic,
-                               Role::kOcclusion,    Role::kCavity,     Role::kNormal,
-                               Role::kHeight,       Role::kOpacity,    Role::kEmissive,
-                               Role::kTransmission, Role::kSubsurface, Role::kIor,
-                               Role::kOther};
-constexpr std::array<std::string_view, kRoles.size()> kRoleNames = {
-    "roughness", "glossiness", "glossiness_squared", "alpha_width",  "specular",   "specular_level",
-    "diffuse",   "base_color", "metallic",           "occlusion",    "cavity",     "normal",
-    "height",    "opacity",    "emissive",           "transmission", "subsurface", "ior",
-    "other"};
-
-constexpr std::array kChannels = {Channels::kWhole, Channels::kRed,   Channels::kGreen,
-                                  Channels::kBlue,  Channels::kAlpha, Channels::kRgb};
-constexpr std::array<std::string_view, kChannels.size()> kChannelNames = {"all", "R", "G", "B", "A", "RGB"};
-
 // Formats and qualities next to a resolution (4K-PNG, 2K-HQ) or before a second extension (.exr.tx).
 constexpr std::array<std::string_view, 11> kFormats = {"exr", "tif", "tiff", "png", "jpg", "jpeg",
                                                        "tga", "bmp", "hdr",  "hq",  "lq"};
@@ -79,16 +62,9 @@ Stem stem_before(const NameParts& parts, std::size_t word) {
 
 }  // namespace
 
-std::string_view role_name(Role role) { return kRoleNames[static_cast<std::size_t>(role)]; }
-std::span<const Role> all_roles() { return kRoles; }
 bool tells_width(Role role) {
   return role == Role::kRoughness || role == Role::kGlossiness || role == Role::kAlphaWidth;
 }
-
-std::string_view channels_name(Channels channels) {
-  return kChannelNames[static_cast<std::size_t>(channels)];
-}
-std::span<const Channels> all_channels() { return kChannels; }
 
 bool is_resolution(std::string_view piece) {
   if (piece.size() >= 2 && piece.size() <= 3 && lower(piece.back()) == 'k')

@@ -42,12 +42,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
+
+#include "remap/named_values.hpp"
 
 namespace remap {
 
@@ -74,19 +75,44 @@ enum class Role {
   kOther,  // recognised, without a role here: masks, coats, sheen
 };
 
-// The name in naming files: `base_color`.
-std::string_view role_name(Role role);
-// All roles in the order of the enumeration.
-std::span<const Role> all_roles();
+// The names in naming files.
+inline constexpr NamedValues<Role, 19> kRoles = {{{Role::kRoughness, "roughness"},
+                                                  {Role::kGlossiness, "glossiness"},
+                                                  {Role::kGlossinessSquared, "glossiness_squared"},
+                                                  {Role::kAlphaWidth, "alpha_width"},
+                                                  {Role::kSpecular, "specular"},
+                                                  {Role::kSpecularLevel, "specular_level"},
+                                                  {Role::kDiffuse, "diffuse"},
+                                                  {Role::kBaseColor, "base_color"},
+                                                  {Role::kMetallic, "metallic"},
+                                                  {Role::kOcclusion, "occlusion"},
+                                                  {Role::kCavity, "cavity"},
+                                                  {Role::kNormal, "normal"},
+                                                  {Role::kHeight, "height"},
+                                                  {Role::kOpacity, "opacity"},
+                                                  {Role::kEmissive, "emissive"},
+                                                  {Role::kTransmission, "transmission"},
+                                                  {Role::kSubsurface, "subsurface"},
+                                                  {Role::kIor, "ior"},
+                                                  {Role::kOther, "other"}}};
+inline std::string_view role_name(Role role) { return name_of(kRoles, role); }
 // Whether the role determines the roughness. A set has one such map.
 bool tells_width(Role role);
+template <Role kRole>
+bool is(Role role) {
+  return role == kRole;
+}
 
 // The channels of a file that hold a role.
 enum class Channels { kWhole, kRed, kGreen, kBlue, kAlpha, kRgb };
 
-// The name in naming files: `R`, `RGB`; `all` for the whole map.
-std::string_view channels_name(Channels channels);
-std::span<const Channels> all_channels();
+// The names in naming files; `all` stands for the whole map.
+inline constexpr NamedValues<Channels, 6> kChannels = {{{Channels::kWhole, "all"},
+                                                        {Channels::kRed, "R"},
+                                                        {Channels::kGreen, "G"},
+                                                        {Channels::kBlue, "B"},
+                                                        {Channels::kAlpha, "A"},
+                                                        {Channels::kRgb, "RGB"}}};
 
 struct ChannelMeaning {
   Channels channels = Channels::kWhole;
@@ -102,6 +128,11 @@ struct NamingRule {
 };
 
 enum class ResolutionPlace { kNone, kBefore, kBeforeWithFormat, kAfter };
+inline constexpr NamedValues<ResolutionPlace, 4> kResolutionPlaces = {
+    {{ResolutionPlace::kNone, "none"},
+     {ResolutionPlace::kBefore, "before"},
+     {ResolutionPlace::kBeforeWithFormat, "before-with-format"},
+     {ResolutionPlace::kAfter, "after"}}};
 
 struct Habit {
   std::string name;

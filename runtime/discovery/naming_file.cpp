@@ -1,22 +1,18 @@
 // Reads naming habits from JSON: the built-in table and files that extend it.
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "discovery/naming.hpp"
-#include "discovery/naming_text.hpp"
 #include "system/files.hpp"
 #include "text/json_field.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remap {
-namespace {
 
-constexpr std::array<std::pair<std::string_view, ResolutionPlace>, 4> kPlaces = {
-    {{"none", ResolutionPlace::kNone},
-     {"before", ResolutionPlace::kBefore},
-     {"before-with-format", ResolutionPlace::kBeforeWithFormat},
-     {"after", ResolutionPlace::kAfter}}};
+// The text of naming.json, compiled in so that no file is needed at run time (naming_text.cpp.in).
+extern const std::string_view kNamingText;
+
+namespace {
 
 // Otherwise a mistyped optional field would go unnoticed.
 void refuse_unknown_fields(const Field& field, const std::vector<std::string>& known) {
@@ -35,15 +31,15 @@ bool read_flag(const Field& field, const std::string& key) {
   return field.json()[key].get<bool>();
 }
 
-Role read_role(const Field& field) {
+// The value of the enumeration that the text names; `noun` says what it is.
+template <typename Value, std::size_t Count>
+Value read_named(const Field& field, const NamedValues<Value, Count>& table, const std::string& noun) {
   const std::string text = field.text();
-  std::vector<std::string> known;
-  for (const Role role : all_roles()) {
-    if (role_name(role) == text) return role;
-    known.emplace_back(role_name(role));
-  }
-  field.fail("unknown role '" + text + "'" + suggestion(text, known));
+  if (const auto value = value_named(table, text)) return *value;
+  field.fail("unknown " + noun + " '" + text + "'" + suggestion(text, names_of(table)));
 }
+
+Role read_role(const Field& field) { return read_named(field, kRoles, "role"); }
 
 // A converter reads roughness and specular from one map each, so no rule may name one twice.
 void refuse_doubles(const Field& field, const std::vector<ChannelMeaning>& meaning) {
@@ -56,18 +52,15 @@ void refuse_doubles(const Field& field, const std::vector<ChannelMeaning>& meani
 
 std::vector<ChannelMeaning> read_channels(const Field& field) {
   field.require(field.json().is_object() && !field.json().empty(), "an object of channels and their roles");
-  std::vector<std::string> known;
-  for (const Channels channels : all_channels())
-    if (channels != Channels::kWhole) known.emplace_back(channels_name(channels));
+  std::vector<std::string> known = names_of(kChannels);
+  known.erase(known.begin());  // the whole map
   refuse_unknown_fields(field, known);
   const bool color = has(field, "RGB");
   field.require(!color || (!has(field, "R") && !has(field, "G") && !has(field, "B")),
                 "RGB or its channels one by one");
   std::vector<ChannelMeaning> meaning;
-  for (const Channels channels : all_channels()) {
-    const std::string key(channels_name(channels));
-    if (has(field, key)) meaning.push_back({channels, read_role(field[key])});
-  }
+  for (const auto& [channels, name] : kChannels)
+    if (const std::string key(name); has(field, key)) meaning.push_back({channels, read_role(field[key])});
   refuse_doubles(field, meaning);
   return meaning;
 }
@@ -93,23 +86,14 @@ NamingRule read_rule(const Field& field) {
   return rule;
 }
 
-ResolutionPlace read_place(const Field& field) {
-  const std::string text = field.text();
-  std::vector<std::string> known;
-  for (const auto& [name, place] : kPlaces) {
-    if (name == text) return place;
-    known.emplace_back(name);
-  }
-  field.fail("unknown place of a resolution '" + text + "'" + suggestion(text, known));
-}
-
 Habit read_habit(const Field& field) {
   refuse_unknown_fields(field, {"name", "camel_case", "resolution", "rules"});
   Habit habit;
   habit.name = field["name"].text();
   field["name"].require(!habit.name.empty(), "a name");
   habit.camel_case = read_flag(field, "camel_case");
-  if (has(field, "resolution")) habit.resolution = read_place(field["resolution"]);
+  if (has(field, "resolution"))
+    habit.resolution = read_named(field["resolution"], kResolutionPlaces, "place of a resolution");
   habit.rules = field["rules"].list(1, read_rule);
 
   std::set<std::string> earlier;

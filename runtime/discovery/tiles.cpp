@@ -4,10 +4,9 @@
 #include <array>
 #include <charconv>
 #include <map>
-#include <set>
 
+#include "discovery/folder_walk.hpp"
 #include "discovery/name_pieces.hpp"
-#include "discovery/shown_path.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -17,8 +16,8 @@ namespace {
 constexpr int kFirstUdim = 1001;
 constexpr int kLastUdim = 1999;
 constexpr int kUdimColumns = 10;
-constexpr int kAmbiguousUdim =
-    1024;  // the only power of two among them: a resolution if no other tile exists
+// The only power of two among them: a resolution if no other tile exists.
+constexpr int kAmbiguousUdim = 1024;
 constexpr std::size_t kMostDigits = 9;
 
 constexpr std::array<std::pair<std::string_view, TileStyle>, 3> kTokens = {
@@ -227,18 +226,6 @@ std::vector<TileGroup> group_tiles(std::span<const std::string> names) {
   std::sort(groups.begin(), groups.end(),
             [](const TileGroup& a, const TileGroup& b) { return a.name < b.name; });
   return groups;
-}
-
-std::vector<std::vector<int>> missing_tiles(std::span<const std::vector<int>> tiles_of_maps) {
-  std::set<int> all;
-  for (const std::vector<int>& tiles : tiles_of_maps) all.insert(tiles.begin(), tiles.end());
-  std::vector<std::vector<int>> missing;
-  for (const std::vector<int>& tiles : tiles_of_maps) {
-    std::vector<int>& lacking = missing.emplace_back();
-    if (!tiles.empty())
-      std::set_difference(all.begin(), all.end(), tiles.begin(), tiles.end(), std::back_inserter(lacking));
-  }
-  return missing;
 }
 
 }  // namespace remap

@@ -65,8 +65,4 @@ struct TileGroup {
 // are sorted by name, by bytes.
 std::vector<TileGroup> group_tiles(std::span<const std::string> names);
 
-// For each map, the tiles that only other maps have, ascending. A map without tiles lacks none, because one
-// image may serve every tile.
-std::vector<std::vector<int>> missing_tiles(std::span<const std::vector<int>> tiles_of_maps);
-
 }  // namespace remap

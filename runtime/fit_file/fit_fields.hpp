@@ -1,5 +1,10 @@
-// Fields that fit files and manifests share.
+// Parts of fit files as JSON that several kinds of fits hold, and manifests too. Writers throw kNumeric where
+// a number is not finite, readers kInput.
 #pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
 
 #include "remap/any_fit.hpp"
 #include "remap/fit.hpp"
@@ -7,61 +12,50 @@
 
 namespace remap {
 
-// `[min, max]` with min < max. Throws kInput.
-inline Range read_range(const Field& field) {
-  const Range range{field.at(0, 2).number(), field.at(1, 2).number()};
-  field.require(range.min < range.max, "[min, max] with min < max");
-  return range;
-}
+// `[min, max]` with min < max.
+Range read_range(const Field& field);
 
-// `{"model": ..., "roughness": ..., "specular": ...}`. Throws kInput for names that could not stand in
-// generated code.
-inline ModelSide read_side(const Field& field) {
-  const std::string name = field["roughness"].text();
-  const auto convention = convention_from_name(name);
-  field["roughness"].require(convention.has_value(), "alpha, roughness, exponent, glossiness or squared");
-  const std::string specular = field["specular"].text();
-  field["specular"].require(is_valid_specular(specular), "an identifier that names no width");
-  const std::string model = field["model"].text();
-  field["model"].require(is_valid_model(model), "letters, digits and _ - . /");
-  return {model, *convention, specular};
-}
-
-inline std::string read_id(const Field& field) {
-  const std::string id = field.text();
-  field.require(is_valid_id(id), "a C++ identifier without leading or doubled underscore");
-  return id;
-}
-
-inline std::vector<std::string> read_texts(const Field& field) {
-  return field.list(0, [](const Field& entry) { return entry.text(); });
-}
+// `{"model": ..., "roughness": ..., "specular": ...}`, names that can stand in generated code.
+ModelSide read_side(const Field& field);
+std::string read_id(const Field& field);
+std::string read_model(const Field& field);
 
 // Of `remapc 1.2.3`.
-inline std::string read_tool_version(const Field& field) {
-  const std::string tool = field.text();
-  field.require(tool.starts_with("remapc "), "remapc and its version");
-  return tool.substr(7);
-}
+std::string read_tool_version(const Field& field);
 
-// Whether the root of a fit file is that of a fit of whole materials: its ends name their workflows.
-inline bool is_of_materials(const Field& root) {
-  return root.json().contains("source") && root["source"].json().contains("workflow");
-}
+// The number itself.
+double finite(double value);
+nlohmann::ordered_json numbers_json(const std::vector<double>& numbers);
 
-// The fit of kind `warp` of a root whose format has been looked at (warp_json.cpp). Throws kInput.
-WarpMapFit read_warp_fit(const Field& root);
+nlohmann::ordered_json scaling_json(const Scaling& scaling);
+nlohmann::ordered_json scalings_json(const std::vector<Scaling>& scalings);
+Scaling read_scaling(const Field& field);
+Scaling read_output_scaling(const Field& field);
 
-// Throws kInput where the root of a file is not that of a fit of kFitFormatVersion.
-inline void require_fit_format(const Field& root) {
-  if (root["format"].text() != "remap-fit") root.fail("not a fit file (\"format\" must be \"remap-fit\")");
-  const std::int64_t version = root["version"].count();
-  if (version != kFitFormatVersion)
-    root.fail("has format version " + std::to_string(version) + "; this program reads version " +
-              std::to_string(kFitFormatVersion));
-}
+nlohmann::ordered_json network_json(const Network& network);
+// Refuses another number of outputs, and layers that do not fit each other.
+Network read_network(const Field& field, std::size_t output_count);
 
-// The fit of width and specular whose file has that root. Throws kInput.
+nlohmann::ordered_json figures_json(const ErrorFigures& figures);
+ErrorFigures read_figures(const Field& field);
+
+nlohmann::ordered_json split_json(const Split& split);
+Split read_split(const Field& field);
+
+nlohmann::ordered_json table_record_json(const TableRecord& table);
+TableRecord read_table_record(const Field& field);
+
+// One end of a fit between workflows.
+SpecularWorkflow read_specular_workflow(const Field& side);
+MetallicWorkflow read_metallic_workflow(const Field& side);
+
+// The fields `source`, `target` and `mapping` of a fit between workflows. Refuses conversions that
+// require_valid() refuses.
+WorkflowConversion read_conversion(const Field& fit);
+
+// The fit of each kind whose file has this root.
 Fit read_fit(const Field& root);
+WorkflowFit read_workflow_fit(const Field& root);
+WarpMapFit read_warp_fit(const Field& root);
 
 }  // namespace remap

@@ -3,11 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "fit_file/fit_fields.hpp"
-#include "fit_file/network_json.hpp"
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "system/files.hpp"
-#include "text/json_field.hpp"
 
 namespace remap {
 namespace {
@@ -26,7 +24,7 @@ Json to_json(const ModelSide& side) {
 
 Json to_json(const Parametric& form) {
   Json roughness = Json::array(), specular = Json::array();
-  for (const auto& row : form.roughness) roughness.push_back(numbers_json(row));
+  for (const auto& row : form.alpha) roughness.push_back(numbers_json(row));
   for (const auto& [power, curve] : form.specular)
     specular.push_back({{"power", power},
                         {"start", finite(curve.start)},
@@ -39,7 +37,7 @@ Json to_json(const Parametric& form) {
 }
 
 Json to_json(const KernelExpansion& expansion) {
-  return {{"inputs", scalings_json(expansion.inputs)},  {"output", scalings_json({expansion.output})[0]},
+  return {{"inputs", scalings_json(expansion.inputs)},  {"output", scaling_json(expansion.output)},
           {"gamma", finite(expansion.gamma)},           {"bias", finite(expansion.bias)},
           {"vectors", numbers_json(expansion.vectors)}, {"weights", numbers_json(expansion.weights)}};
 }
@@ -103,7 +101,7 @@ SpecularTerm read_term(const Field& field) {
 
 Parametric read_parametric(const Field& field) {
   Parametric form;
-  form.roughness = field["roughness"].list(1, [](const Field& row) { return row.numbers(1); });
+  form.alpha = field["roughness"].list(1, [](const Field& row) { return row.numbers(1); });
   form.specular = field["specular"].list(1, read_term);
   const auto falls = [](const SpecularTerm& a, const SpecularTerm& b) { return a.power > b.power; };
   const bool ordered =
@@ -199,7 +197,7 @@ std::string fit_to_json(const Fit& fit) {
       {"method", fit.method},
       {"candidates", candidates},
       {"error_on_held_out_rows",
-       {{"alpha", figures_json(fit.roughness_error)}, {"specular", figures_json(fit.specular_error)}}},
+       {{"alpha", figures_json(fit.alpha_error)}, {"specular", figures_json(fit.specular_error)}}},
       {"likeness", to_json(fit.image_similarity)},
       {"remarks", fit.remarks},
       {"split", split_json(fit.split)},
@@ -218,24 +216,46 @@ Fit read_fit(const Field& root) {
   root["domain"]["alpha"].require(fit.domain.alpha.min > 0.0, "an alpha above 0");
   root["domain"]["specular"].require(fit.domain.specular.min == 0.0, "a range from 0");
   fit.mapping = read_mapping(root["mapping"]);
-  fit.method = root["method"].dictionary<std::string>([](const Field& entry) { return entry.text(); });
+  fit.method = root["method"].text_dictionary();
   fit.candidates = root["candidates"].list(0, read_candidate);
-  fit.roughness_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
+  fit.alpha_error = read_figures(root["error_on_held_out_rows"]["alpha"]);
   fit.specular_error = read_figures(root["error_on_held_out_rows"]["specular"]);
   fit.image_similarity = read_similarity(root["likeness"]);
-  fit.remarks = read_texts(root["remarks"]);
+  fit.remarks = root["remarks"].texts();
   fit.split = read_split(root["split"]);
   fit.table = read_table_record(root["table"]);
   fit.tool_version = read_tool_version(root["tool"]);
   return fit;
 }
 
-Fit fit_from_json(std::string_view text, const std::string& place) {
+AnyFit any_fit_from_json(std::string_view text, const std::string& place) {
   const Json json = parse_json(text, place);
   const Field root(json, place);
-  require_fit_format(root);
-  if (is_of_materials(root)) require_width_and_specular(AnyFit{WorkflowFit{}}, ErrorKind::kInput, place);
-  return read_fit(root);
+  if (root["format"].text() != "remap-fit") root.fail("not a fit file (\"format\" must be \"remap-fit\")");
+  const std::int64_t version = root["version"].count();
+  if (version != kFitFormatVersion)
+    root.fail("has format version " + std::to_string(version) + "; this program reads version " +
+              std::to_string(kFitFormatVersion));
+  // The ends of fits of whole materials name their workflows.
+  const bool is_of_materials = json.contains("source") && json["source"].contains("workflow");
+  if (!is_of_materials) return read_fit(root);
+  if (root["mapping"]["kind"].text() == kWarpKind) return read_warp_fit(root);
+  return read_workflow_fit(root);
+}
+
+AnyFit load_any_fit(const std::filesystem::path& path) {
+  return any_fit_from_json(read_file(path), path.string());
+}
+
+const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& place) {
+  if (const Fit* found = std::get_if<Fit>(&fit)) return *found;
+  throw Error(kind, place +
+                        ": converts whole materials, but this needs a fit of roughness and specular "
+                        "(fits of materials can be listed, shown and emitted)");
+}
+
+Fit fit_from_json(std::string_view text, const std::string& place) {
+  return require_width_and_specular(any_fit_from_json(text, place), ErrorKind::kInput, place);
 }
 
 Fit load_fit(const std::filesystem::path& path) { return fit_from_json(read_file(path), path.string()); }

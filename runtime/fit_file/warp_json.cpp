@@ -17,7 +17,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSeparable = "separable";
 constexpr const char* kQuadratic = "quadratic";
-
 constexpr const char* kBlended = "blended";
 constexpr const char* kCopied = "copied";
 
@@ -109,34 +108,22 @@ CompiledWarp read_compiled(const Field& mapping) {
   warp.coordinates.largest_alpha = static_cast<float>(space["alpha"].at(1, 2).number());
   const std::string kind = space["kind"].text();
   space["kind"].require(kind == kSeparable || kind == kQuadratic, "separable or quadratic");
-  if (kind == kQuadratic) {
-    QuadraticTerms terms;
-    terms.weights = read_floats(space["weights"]);
-    warp.coordinates.terms = std::move(terms);
-  } else {
-    SeparableTerms terms;
-    terms.diffuse = read_floats(space["diffuse"]);
-    terms.specular = read_floats(space["specular"]);
-    terms.offset = read_floats(space["offset"]);
-    warp.coordinates.terms = std::move(terms);
-  }
+  if (kind == kQuadratic)
+    warp.coordinates.terms = QuadraticTerms{read_floats(space["weights"])};
+  else
+    warp.coordinates.terms = SeparableTerms{read_floats(space["diffuse"]), read_floats(space["specular"]),
+                                            read_floats(space["offset"])};
   warp.table.nodes = static_cast<std::size_t>(table["nodes"].count());
   warp.table.low = read_floats(table["low"]);
   warp.table.high = read_floats(table["high"]);
   const std::string entries = table["kind"].text();
   table["kind"].require(entries == kBlended || entries == kCopied, "blended or copied");
-  if (entries == kCopied) {
-    CopiedNodes copied;
-    copied.palette = read_palette(table["palette"]);
-    copied.indices = read_numbers<std::uint16_t>(table["indices"]);
-    warp.table.entries = std::move(copied);
-  } else {
-    BlendedNodes blended;
-    blended.least = read_parameters(table["least"]);
-    blended.largest = read_parameters(table["largest"]);
-    blended.codes = read_base64(table["codes"]);
-    warp.table.entries = std::move(blended);
-  }
+  if (entries == kCopied)
+    warp.table.entries =
+        CopiedNodes{read_palette(table["palette"]), read_numbers<std::uint16_t>(table["indices"])};
+  else
+    warp.table.entries = BlendedNodes{read_parameters(table["least"]), read_parameters(table["largest"]),
+                                      read_base64(table["codes"])};
   return warp;
 }
 
@@ -176,12 +163,6 @@ Json table_json(const ParameterTable& table) {
   return json;
 }
 
-std::string read_warp_model(const Field& side) {
-  const std::string model = side["model"].text();
-  side["model"].require(is_valid_model(model), "letters, digits and _ - . /");
-  return model;
-}
-
 }  // namespace
 
 std::string fit_to_json(const WarpMapFit& fit) {
@@ -207,20 +188,17 @@ std::string fit_to_json(const WarpMapFit& fit) {
 
 WarpMapFit read_warp_fit(const Field& root) {
   WarpMapFit fit;
-  fit.id = root["id"].text();
-  root["id"].require(is_valid_id(fit.id), "a C++ identifier without leading or doubled underscore");
-  fit.source_model = read_warp_model(root["source"]);
-  fit.template_model = read_warp_model(root["target"]);
+  fit.id = read_id(root["id"]);
+  fit.source_model = read_model(root["source"]["model"]);
+  fit.template_model = read_model(root["target"]["model"]);
   fit.warp = read_compiled(root["mapping"]);
   require_valid(fit.warp, root.place());
   fit.copy_rms_error = root["copy_rms_error"].number();
   root["copy_rms_error"].require(fit.copy_rms_error >= 0.0 || fit.copy_rms_error == -1.0,
                                  "a share from 0, or -1 where it is not known");
-  fit.method = root["method"].dictionary<std::string>([](const Field& entry) { return entry.text(); });
-  fit.remarks = root["remarks"].list(0, [](const Field& entry) { return entry.text(); });
-  const std::string tool = root["tool"].text();
-  root["tool"].require(tool.starts_with("remapc "), "remapc and its version");
-  fit.tool_version = tool.substr(7);
+  fit.method = root["method"].text_dictionary();
+  fit.remarks = root["remarks"].texts();
+  fit.tool_version = read_tool_version(root["tool"]);
   return fit;
 }
 

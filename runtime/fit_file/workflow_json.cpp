@@ -1,10 +1,6 @@
-// Analytic fits as JSON.
-#include <cmath>
-
-#include "fit_file/workflow_fields.hpp"
-#include "remap/error.hpp"
+// Fits between workflows as JSON.
+#include "fit_file/fit_fields.hpp"
 #include "remap/fit_file.hpp"
-#include "system/files.hpp"
 
 namespace remap {
 namespace {
@@ -32,7 +28,7 @@ Json to_json(const WorkflowFormula& formula) {
   Json json = {{"kind", kWorkflowKind}, {"formula", std::string(formula_name(formula))}};
   if (const auto* projection = std::get_if<Projection>(&formula)) json["prior"] = projection->prior;
   if (const auto* equation = std::get_if<Equation3>(&formula))
-    json["mean"] = std::string(metallic_mean_name(equation->mean));
+    json["mean"] = std::string(name_of(kMetallicMeans, equation->mean));
   return json;
 }
 
@@ -47,7 +43,7 @@ Json to_json(const NetworkTraining& training) {
 
 NetworkTraining read_training(const Field& field) {
   NetworkTraining training;
-  training.method = field["method"].dictionary<std::string>([](const Field& entry) { return entry.text(); });
+  training.method = field["method"].text_dictionary();
   training.base_color = read_figures(field["error_on_held_out_rows"]["base_color"]);
   training.metallic = read_figures(field["error_on_held_out_rows"]["metallic"]);
   training.split = read_split(field["split"]);
@@ -55,17 +51,36 @@ NetworkTraining read_training(const Field& field) {
   return training;
 }
 
-WorkflowFit read_workflow(const Field& root) {
-  WorkflowFit fit;
-  fit.id = read_id(root["id"]);
-  fit.conversion = read_conversion(root);
-  fit.remarks = read_texts(root["remarks"]);
-  if (is_learned(fit.conversion.formula)) fit.training = read_training(root["training"]);
-  fit.tool_version = read_tool_version(root["tool"]);
-  return fit;
+DiffuseConvention read_diffuse(const Field& side) {
+  return side["diffuse"].named(kDiffuseConventions, "plain or scaled");
+}
+
+RoughnessConvention read_width(const Field& side) {
+  return side["roughness"].named(kConventions, "roughness, glossiness or alpha");
+}
+
+WorkflowFormula read_formula(const Field& mapping) {
+  if (mapping["kind"].text() == "mlp") return LearnedNetwork{read_network(mapping["network"], 4)};
+  mapping["kind"].require(mapping["kind"].text() == kWorkflowKind, "analytic or mlp");
+  const std::string name = mapping["formula"].text();
+  if (name == "equation-2") return Equation2{};
+  if (name == "projection") return Projection{mapping["prior"].number()};
+  if (name == "khronos") return KhronosSolver{};
+  mapping["formula"].require(name == "equation-3", "equation-2, projection, equation-3 or khronos");
+  return Equation3{mapping["mean"].named(kMetallicMeans, "plain or albedo")};
 }
 
 }  // namespace
+
+SpecularWorkflow read_specular_workflow(const Field& side) {
+  side["workflow"].require(side["workflow"].text() == "specular", "\"specular\" on this side of the formula");
+  return {read_model(side["model"]), read_diffuse(side), read_width(side)};
+}
+
+MetallicWorkflow read_metallic_workflow(const Field& side) {
+  side["workflow"].require(side["workflow"].text() == "metallic", "\"metallic\" on this side of the formula");
+  return {read_model(side["model"]), side["dielectric_f0"].number(), read_diffuse(side), read_width(side)};
+}
 
 std::string fit_to_json(const WorkflowFit& fit) {
   require_valid(fit.conversion, fit.id);
@@ -84,24 +99,24 @@ std::string fit_to_json(const WorkflowFit& fit) {
   return json.dump(2) + "\n";
 }
 
-AnyFit any_fit_from_json(std::string_view text, const std::string& place) {
-  const Json json = parse_json(text, place);
-  const Field root(json, place);
-  require_fit_format(root);
-  if (is_of_materials(root) && root["mapping"]["kind"].text() == kWarpKind) return read_warp_fit(root);
-  if (is_of_materials(root)) return read_workflow(root);
-  return read_fit(root);
+WorkflowConversion read_conversion(const Field& fit) {
+  WorkflowConversion conversion;
+  conversion.formula = read_formula(fit["mapping"]);
+  const bool to_metallic = conversion.is_to_metallic();
+  conversion.specular = read_specular_workflow(fit[to_metallic ? "source" : "target"]);
+  conversion.metallic = read_metallic_workflow(fit[to_metallic ? "target" : "source"]);
+  require_valid(conversion, fit.place());
+  return conversion;
 }
 
-AnyFit load_any_fit(const std::filesystem::path& path) {
-  return any_fit_from_json(read_file(path), path.string());
-}
-
-const Fit& require_width_and_specular(const AnyFit& fit, ErrorKind kind, const std::string& place) {
-  if (const Fit* found = std::get_if<Fit>(&fit)) return *found;
-  throw Error(kind, place +
-                        ": converts whole materials, but this needs a fit of roughness and specular "
-                        "(fits of materials can be listed, shown and emitted)");
+WorkflowFit read_workflow_fit(const Field& root) {
+  WorkflowFit fit;
+  fit.id = read_id(root["id"]);
+  fit.conversion = read_conversion(root);
+  fit.remarks = root["remarks"].texts();
+  if (is_learned(fit.conversion.formula)) fit.training = read_training(root["training"]);
+  fit.tool_version = read_tool_version(root["tool"]);
+  return fit;
 }
 
 }  // namespace remap

@@ -4,16 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "lower/lowered_value.hpp"
-
 namespace remap {
 namespace {
 
 constexpr int kMostNodes = 32;          // in t, of one cell
 constexpr int kMostSpecularNodes = 13;  // degree 12
-constexpr int kMostDegree = 18;         // in one cell: beyond, floats lose what is gained
+constexpr int kMostDegree = 18;         // in one cell: rounding in floats outweighs the gain of more
 constexpr std::array<double, 7> kPoles = {0.0, 1.0, 0.3, 0.2, 0.1, 0.05, 0.02};
-// Cells, and the highest degree in each: few cells of high degree vectorise, a table pays for every number.
+// Cells, and the highest degree in each. Few cells of high degree vectorise; tables load every coefficient.
 struct CellChoice {
   int count;
   int degree;
@@ -25,7 +23,7 @@ using Matrix = std::vector<std::vector<double>>;  // [degree in t][degree in spe
 
 double as_float(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-// cos of the Chebyshev-Lobatto nodes of degree n, from 1 to -1: ends included, so that neighbours meet.
+// Chebyshev-Lobatto nodes of degree n, from 1 to -1. They include the ends, so that neighbours join.
 double node(int k, int degree) { return degree == 0 ? 0.0 : std::cos(std::numbers::pi * k / degree); }
 
 // cos(pi k / n) for 0 <= k < 2 n.
@@ -125,7 +123,7 @@ Matrix series_in_cell(const MappedFunction& model, const ProofDomain& domain, co
   return rows;
 }
 
-// Of each entry the largest magnitude over the cells.
+// Updates the largest magnitude of each entry.
 void include(Matrix* largest, const Matrix& series) {
   if (largest->empty()) {
     *largest = series;
@@ -138,7 +136,7 @@ void include(Matrix* largest, const Matrix& series) {
       (*largest)[i][j] = std::max((*largest)[i][j], std::fabs(series[i][j]));
 }
 
-// Adds a straight line to a cut series so that it ends where the whole series ends, and cells meet.
+// Adds a straight line to a truncated series so that its ends equal those of the whole series and cells join.
 void meet_ends(const Matrix& series, std::size_t j, std::vector<double>* column) {
   double low = 0.0, high = 0.0;
   for (std::size_t i = column->size(); i < series.size(); ++i) {
@@ -151,8 +149,8 @@ void meet_ends(const Matrix& series, std::size_t j, std::vector<double>* column)
   (*column)[1] += 0.5 * (high - low);
 }
 
-// Cuts the smallest entries of a series as long as their sum stays within `budget`; degrees fall with the
-// power of specular, since a Chebyshev polynomial of specular holds all lower powers.
+// Truncates the smallest entries of a series while their sum is within `budget`. Degrees fall with the power
+// of specular, because a Chebyshev polynomial of specular contains all lower powers.
 std::vector<int> cut(const Matrix& magnitude, double budget, double* dropped) {
   const int n = static_cast<int>(magnitude.size()) - 1, m = static_cast<int>(magnitude[0].size()) - 1;
   std::vector<int> degrees(static_cast<std::size_t>(m + 1), n);
@@ -178,8 +176,8 @@ std::vector<int> cut(const Matrix& magnitude, double budget, double* dropped) {
   return degrees;
 }
 
-// Operations a texel: a coefficient costs a product and a sum, from a table four loads more; a division, an
-// index; every power of specular is added for three channels.
+// Operations per texel: a product and a sum per coefficient, and eight for its loads from a table; eight for
+// a division, and for an index; every power of specular is added for three channels.
 double cost_of(const Shape& shape) {
   const auto count = static_cast<double>(coefficient_count(shape.degrees));
   double cost = 2.0 * count + 6.0 * static_cast<double>(shape.degrees.size() - 1);
@@ -188,7 +186,7 @@ double cost_of(const Shape& shape) {
   return cost;
 }
 
-// Magnitudes of the Chebyshev series over all cells (some, where they are many).
+// The largest magnitudes of the Chebyshev series over all cells, or over about 64 of them.
 Matrix magnitudes_of(const MappedFunction& model, const ProofDomain& domain, double pole,
                      const CellChoice& choice) {
   const Cells cells(pole, choice.count, domain.alpha);
@@ -203,9 +201,9 @@ Shape shape_of(const Matrix& largest, double pole, const CellChoice& choice, dou
   Shape shape{pole, choice.count, {}, 0.0, 0.0};
   double dropped = 0.0;
   shape.degrees = cut(largest, 0.8 * tolerance, &dropped);
-  if (choice.count > 1)  // a straight line at least, by which cells meet
+  if (choice.count > 1)  // at least a straight line, by which cells join
     for (int& degree : shape.degrees) degree = std::max(degree, 1);
-  // What the series of the most nodes does not reach shows in its last entries.
+  // The last entries estimate the truncation error of the series itself.
   double tail = 0.0;
   for (std::size_t i = 0; i < largest.size(); ++i) tail = std::max(tail, largest[i].back());
   for (const double entry : largest.back()) tail = std::max(tail, entry);

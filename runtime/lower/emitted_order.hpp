@@ -3,7 +3,7 @@
 
 namespace remap {
 
-// From this degree on the even and the odd powers are summed apart: a processor works on both sums at once.
+// From this degree on, even and odd powers are summed separately, because a processor can overlap both sums.
 inline constexpr int kShortestSplit = 4;
 
 // c[0] + c[1] u + ... + c[degree] u^degree in the order of operations of generated code. `square`: u * u.

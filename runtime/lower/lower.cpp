@@ -12,19 +12,19 @@
 namespace remap {
 namespace {
 
-// Boxes that one proof may look at, and all proofs of one search together: a search that fails must not cost
-// more than a second or two.
+// The most boxes that one proof, and all proofs of one search, may examine, so that a failing search takes at
+// most about two seconds.
 constexpr std::size_t kFirstBudget = 2000, kBoxBudget = 6000, kSearchBudget = 12000;
 
-// Converters hold alpha as a float, in the model's own parameter: its ends move by some units in the last
-// place of alpha or, for glossiness, of 1 - sqrt(alpha).
+// Converters take the model's own parameter as a float, so the ends of the domain move by some units in the
+// last place of alpha or, for glossiness, of 1 - sqrt(alpha).
 ProofDomain proof_domain(const Domain& domain) {
   const auto room = [](double alpha) { return 2e-6 * alpha + 1.5e-7 * std::sqrt(alpha); };
   return {{domain.alpha.min - room(domain.alpha.min), domain.alpha.max + room(domain.alpha.max)},
           {0.0, domain.specular.max * (1.0 + 2e-6)}};
 }
 
-// Whether the samples rise in a direction: strictly, everywhere.
+// Whether the samples rise strictly everywhere.
 bool rises_with_alpha(const SampleGrid& grid) {
   const std::size_t row = grid.specular.size();
   for (std::size_t i = row; i < grid.values.size(); ++i)
@@ -40,26 +40,26 @@ bool rises_with_specular(const SampleGrid& grid) {
   return true;
 }
 
-// One output of a mapping, and what is wanted of it.
+// One output of a mapping, and the requirements on its polynomial.
 struct Wanted {
-  const char* name = "";       // opens messages
-  const char* unit_text = "";  // follows its figures
+  const char* name = "";       // for messages
+  const char* unit_text = "";  // after figures in messages
   MappedFunction model;
   ProofDomain domain;      // of the function that is lowered
-  bool is_factor = false;  // of specular, which reaches specular_max
+  bool is_factor = false;  // to be multiplied by specular, which is at most specular_max
   double specular_max = 1.0;
   double tolerance = 0.0;  // of the output, relative to `unit`
   double unit = 1.0;
   std::size_t table_limit = 0;
 };
 
-// The polynomial as it stands in a Lowered.
+// The polynomial of a Lowered: a factor becomes the coefficient of specular^1.
 PiecewisePolynomial completed(const Wanted& wanted, PiecewisePolynomial polynomial) {
   if (wanted.is_factor) polynomial.degrees.insert(polynomial.degrees.begin(), -1);
   return polynomial;
 }
 
-// Tries shapes. Bounds are of the output.
+// Tries shapes. Bounds refer to the output.
 class Attempt {
  public:
   explicit Attempt(const Wanted& wanted)
@@ -74,12 +74,12 @@ class Attempt {
            (wanted_.is_factor || lowered.rises_with_specular == rises_with_specular_);
   }
   ShapeFinder& finder() { return finder_; }
-  // Boxes that proofs may still look at.
+  // The number of boxes that proofs may still examine.
   void set_budget(std::size_t boxes) { budget_ = boxes; }
   bool budget_is_spent() const { return budget_ == 0; }
 
-  // The bound is infinite where the shape is not worth a proof, or the budget is spent. `must_rise`: it is of
-  // use only if it rises where the model does.
+  // The bound is infinite if the samples already exceed the tolerance, or if the budget is spent.
+  // `must_rise`: also if the polynomial does not rise where the model does.
   LoweredFunction operator()(const Shape& shape, double tolerance, bool must_rise) {
     const double top = wanted_.is_factor ? wanted_.specular_max : 1.0;
     const ProofDomain whole =
@@ -123,16 +123,16 @@ class Attempt {
   double closest_ = INFINITY;
 };
 
-// Shares of the tolerance that series are cut to. First above 1: what is cut does not reach its sum anywhere.
-// Then below, where a closer polynomial may keep what the nearest loses: that it rises.
+// Shares of the tolerance to which series are truncated. Looser ones come first, because truncation bounds
+// overestimate; tight ones may find a polynomial that still rises.
 constexpr std::array<double, 6> kCuts = {2.8, 2.0, 1.4, 1.0, 0.25, 0.06};
 
 std::size_t table_size(const Shape& shape) {
   return coefficient_count(shape.degrees) * static_cast<std::size_t>(shape.cell_count);
 }
 
-// The cheapest polynomial of the smallest size within the tolerance; of those that rise where the model does
-// if there are any. The closest that was proven, where there is none.
+// The cheapest polynomial of the smallest size within the tolerance, preferably one that rises where the
+// model does. If none is within the tolerance, the one with the smallest proven bound.
 LoweredFunction search(const Wanted& wanted, double tolerance, Attempt* attempt) {
   attempt->set_budget(kSearchBudget);
   const double top = wanted.is_factor ? wanted.specular_max : 1.0;
@@ -153,7 +153,7 @@ LoweredFunction search(const Wanted& wanted, double tolerance, Attempt* attempt)
 
 std::string digits(double value) { return number_text(rounded_up(value, 2)); }
 
-// The smallest tolerance that is met, of some that grow: first what shapes came within or were proven within.
+// Searches growing tolerances for the smallest one that can be met, and throws it.
 [[noreturn]] void refuse(const Wanted& wanted, const LoweredFunction& best, Attempt* attempt) {
   const std::string limit = std::to_string(wanted.table_limit);
   const std::string found = std::string("lower: ") + wanted.name + " cannot be had within " +

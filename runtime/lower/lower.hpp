@@ -1,4 +1,4 @@
-// Lowering: any mapping to polynomials on few pieces, with an error that is proven over the whole domain.
+// Lowers a mapping to piecewise polynomials, with an error bound that is proven over the whole domain.
 #pragma once
 
 #include "lower/lowered.hpp"
@@ -11,9 +11,9 @@ struct LoweringOptions {
   std::size_t table_limit = 2048;    // coefficients of one output
 };
 
-// Lowers both outputs of a mapping. Where the mapping rises with alpha or with specular (judged on a dense
-// grid), so do the polynomials (proven), if a shape within the tolerance does. Throws kNumeric where a
-// tolerance cannot be met within the table limit, with one that can: lowering with that succeeds.
+// Lowers both outputs of a mapping. If the mapping rises with alpha or with specular (on a dense grid), the
+// polynomials do, too (proven), if a shape within the tolerance does. Throws kNumeric if a tolerance cannot
+// be met within the table limit; the message has one with which lowering succeeds.
 Lowered lower(const MappingKind& mapping, const Domain& domain, const LoweringOptions& options = {});
 
 }  // namespace remap

@@ -5,14 +5,13 @@
 #include <queue>
 
 #include "lower/emitted_order.hpp"
-#include "lower/lowered_value.hpp"
 
 namespace remap {
 namespace {
 
-constexpr std::size_t kRisingBudget = 4000;      // boxes that the proof of rising may look at
+constexpr std::size_t kRisingBudget = 4000;      // boxes that the proof of rising may examine
 constexpr double kFloatUnit = 1.0 / 16777216.0;  // unit roundoff of a float, 2^-24
-constexpr double kSmallest = 1.2e-38;            // above the smallest normal float: what underflow may lose
+constexpr double kSmallest = 1.2e-38;            // above the smallest normal float: the loss by underflow
 
 // A box within one cell.
 struct Box {
@@ -24,24 +23,23 @@ struct Box {
 double centre(const Range& range) { return 0.5 * (range.min + range.max); }
 double half_width(const Range& range) { return 0.5 * (range.max - range.min); }
 
-// What an enclosure says of a box: a bound, infinite where it claims nothing, what no bound can be below, and
-// which way to halve the box to make it better.
+// The result of an enclosure over a box.
 struct Verdict {
-  double bound = 0.0;
-  double at_least = -INFINITY;
-  bool halve_alpha = true;
+  double bound = 0.0;           // infinite if the enclosure failed
+  double at_least = -INFINITY;  // no bound can be lower
+  bool halve_alpha = true;      // the direction in which to halve the box
 };
 
 // NaN would be lost in comparisons.
 double claimed(double bound) { return std::isnan(bound) ? INFINITY : bound; }
 
-// `centre`: of what is bounded, its value in the middle of the box.
+// `centre`: the bounded value in the middle of the box.
 template <int Variables, int Order>
 Verdict verdict(const Taylor<Variables, Order>& function, double centre, double bound, const Box& box,
                 bool of_specular) {
   const double at_least = centre - function.rest();
   if (!of_specular) return {claimed(bound), at_least, true};
-  // Where the polynomial has little to say of the box, both directions in turn.
+  // If the remainder dominates the polynomial, both directions in turn.
   const double alpha = function.extent(0), specular = function.extent(Variables - 1);
   const bool tells = std::isfinite(bound) && std::max(alpha, specular) > 0.01 * function.rest();
   return {claimed(bound), at_least, tells ? alpha >= specular : box.alpha_halvings <= box.specular_halvings};
@@ -53,14 +51,15 @@ struct Judged {
   bool operator<(const Judged& other) const { return verdict.bound < other.verdict.bound; }
 };
 
-// The part of the domain in which a cell is used: the first and the last reach as far as the domain does.
+// The part of the domain in which a cell is used. The first and the last cell extend to the ends of the
+// domain.
 Range alpha_of_cell(const PiecewisePolynomial& polynomial, const ProofDomain& domain, int cell) {
   const auto held = [&](double alpha) { return std::clamp(alpha, domain.alpha.min, domain.alpha.max); };
   return {cell == 0 ? domain.alpha.min : held(cell_begin(polynomial, cell)),
           cell + 1 == polynomial.cell_count ? domain.alpha.max : held(cell_begin(polynomial, cell + 1))};
 }
 
-// The part of the domain that each cell covers, cut into some boxes.
+// Initial boxes in the part of the domain of each cell.
 std::vector<Box> first_boxes(const PiecewisePolynomial& polynomial, const ProofDomain& domain,
                              bool of_specular) {
   const int cells = polynomial.cell_count;
@@ -70,7 +69,7 @@ std::vector<Box> first_boxes(const PiecewisePolynomial& polynomial, const ProofD
     const auto [from, to] = alpha_of_cell(polynomial, domain, cell);
     for (int i = 0; i < in_alpha; ++i)
       for (int j = 0; j < in_specular; ++j) {
-        // Squares: a curve bends most near alpha 0.
+        // Quadratic spacing, because curves bend most near alpha 0.
         const auto part = [&, begin = from, end = to](int k) {
           return k == in_alpha ? end : begin + (end - begin) * k * k / (in_alpha * in_alpha);
         };
@@ -98,8 +97,8 @@ std::array<Box, 2> halves(const Box& box, bool halve_alpha) {
   return {low, high};
 }
 
-// Halves the worst box until the worst bound is at most `target`, or the budget is spent, or the target is
-// seen to be out of reach.
+// Halves the worst box until the worst bound is at most `target`, the budget is spent, or the target turns
+// out to be unreachable.
 template <typename Judge>
 Proof refine(const std::vector<Box>& boxes, double target, std::size_t budget, const Judge& judge) {
   std::priority_queue<Judged> queue;
@@ -129,7 +128,7 @@ TexelTaylor texel_specular(const Box& box) {
   return TexelTaylor::variable(1, centre(box.specular), half_width(box.specular));
 }
 
-// sum over powers p of distance^p times a number made of c_p's coefficients in one cell.
+// The sum over powers p of distance^p times `of` the coefficients of c_p in one cell.
 template <typename OfCoefficients>
 double weighed(const PiecewisePolynomial& polynomial, int cell, double distance, const OfCoefficients& of) {
   const float* first =
@@ -143,8 +142,7 @@ double weighed(const PiecewisePolynomial& polynomial, int cell, double distance,
   return sum;
 }
 
-// The derivative as a polynomial of its own: by u, or by specular. Its sign is what counts, and t rises with
-// alpha.
+// The derivative by u or by specular. Only its sign matters, and u rises with alpha.
 PiecewisePolynomial derivative(const PiecewisePolynomial& polynomial, bool by_specular) {
   PiecewisePolynomial result = polynomial;
   result.coefficients.clear();
@@ -162,10 +160,11 @@ PiecewisePolynomial derivative(const PiecewisePolynomial& polynomial, bool by_sp
   return result;
 }
 
-// Where the polynomial is evaluated: the largest |u|, how far rounding moves it, the largest |specular -
-// middle|.
+// The arguments at which the polynomial is evaluated.
 struct Reach {
-  double u = 0.0, u_error = 0.0, distance = 0.0;
+  double u = 0.0;         // largest |u|
+  double u_error = 0.0;   // of its rounding
+  double distance = 0.0;  // largest |specular - middle|
 };
 
 Reach reach_of(const PiecewisePolynomial& polynomial, const ProofDomain& domain) {
@@ -178,7 +177,6 @@ Reach reach_of(const PiecewisePolynomial& polynomial, const ProofDomain& domain)
   const double t_error = pole == 0.0 ? 0.0 : 2.01 * kFloatUnit * t;
   Reach reach;
   reach.u_error = t_error * scale + kFloatUnit * (t * scale + farthest + 0.5);
-  // The first and the last cell reach as far as the domain does.
   reach.u =
       polynomial.cell_count == 1 ? farthest : std::max({0.5, 0.5 - low, high - polynomial.cell_count + 0.5});
   reach.u += reach.u_error;
@@ -205,7 +203,8 @@ double largest_step(const PiecewisePolynomial& polynomial, double distance) {
   return largest;
 }
 
-// A number in a float computation: the interval of its exact values, and how far the computed one may be off.
+// A number in a float computation: the interval of its exact values, and a bound on the error of the computed
+// one.
 struct Uncertain {
   Uncertain() = default;
   explicit Uncertain(float number) : exact{static_cast<double>(number), static_cast<double>(number)} {}
@@ -221,8 +220,8 @@ Range product(const Range& a, const Range& b) {
 }
 Range sum(const Range& a, const Range& b) { return {a.min + b.min, a.max + b.max}; }
 
-// a * x + b in floats: the product rounds, then the sum (running error analysis: Higham 2002, section 5.1). A
-// compiler that fuses both rounds once less.
+// a * x + b in floats, where the product rounds, then the sum (running error analysis: Higham 2002, section
+// 5.1). A fused operation rounds only once.
 Uncertain step(const Uncertain& a, const Uncertain& x, const Uncertain& b) {
   const double of_product = a.error * (x.magnitude() + x.error) + a.magnitude() * x.error;
   const double largest_product = a.magnitude() * x.magnitude() + of_product;
@@ -246,8 +245,7 @@ Range part_of(double reach, int i, int pieces) {
   return {reach * (2.0 * i / pieces - 1.0), reach * (2.0 * (i + 1) / pieces - 1.0)};
 }
 
-// How far the computed polynomial may be from the exact one in a part of a cell, `u` and `w` being off by
-// their errors.
+// A bound on the error of the computed polynomial in a part of a cell, for the errors of `u` and `w`.
 double rounding_in(const PiecewisePolynomial& polynomial, int cell, const Uncertain& u, const Uncertain& w) {
   const float* end =
       polynomial.coefficients.data() + static_cast<std::size_t>(cell + 1) * polynomial.coefficients_a_cell();
@@ -269,7 +267,7 @@ bool proven_positive(const PiecewisePolynomial& polynomial, const ProofDomain& d
     const TexelTaylor value = value_in_cell(polynomial, box.cell, texel_alpha(box), texel_specular(box));
     return verdict(value, -value.constant(), value.deviation() - value.constant(), box, of_specular);
   };
-  // The coefficients of a derivative were rounded to floats once more.
+  // The coefficients of the derivative were rounded to floats again.
   const Reach reach = reach_of(polynomial, domain);
   double margin = 0.0;
   for (int cell = 0; cell < polynomial.cell_count; ++cell)
@@ -301,7 +299,7 @@ Proof proven_error(const MappedFunction& model, const PiecewisePolynomial& polyn
   const auto boxes = first_boxes(polynomial, domain, model.of_specular);
   const Proof proof = model.of_specular ? refine(boxes, target, box_budget, judge_both)
                                         : refine(boxes, target, box_budget, judge_alpha);
-  return {proof.bound * (1.0 + 1e-9), proof.boxes};  // the additions of bounds themselves round
+  return {proof.bound * (1.0 + 1e-9), proof.boxes};  // covers rounding in the additions of bounds
 }
 
 double rounding_error(const PiecewisePolynomial& polynomial, const ProofDomain& domain) {
@@ -318,7 +316,7 @@ double rounding_error(const PiecewisePolynomial& polynomial, const ProofDomain& 
                                   polynomial.middle == 0.0f ? 0.0 : kFloatUnit * reach.distance));
         if (!(error <= worst)) worst = claimed(error);
       }
-  // Moved across a joint, a value is that of the neighbour.
+  // A texel that rounding moves across a joint gets the value of the neighbouring cell.
   return claimed(worst * (1.0 + 1e-9) + largest_step(polynomial, reach.distance));
 }
 
@@ -328,7 +326,6 @@ bool proven_rising_with_alpha(const PiecewisePolynomial& polynomial, const Proof
 
 bool proven_rising_with_specular(const PiecewisePolynomial& polynomial, const ProofDomain& domain) {
   if (polynomial.degrees.size() < 2) return false;
-  // Between 0 and the domain's edge specular takes the derivative's place as it stands.
   return proven_positive(derivative(polynomial, true), domain);
 }
 

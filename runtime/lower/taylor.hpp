@@ -1,6 +1,6 @@
-// Taylor models (Makino and Berz 2003): a polynomial over a box and a proven bound on what it leaves out. A
-// function of model/evaluate.hpp applied to them encloses that function over the whole box, rounding of the
-// arithmetic included; lowering proves its error bounds with it.
+// Taylor models (Makino and Berz 2003): a polynomial over a box and a proven bound on its remainder. The
+// functions of model/evaluate.hpp, applied to them, enclose the function over the whole box, including
+// rounding errors. Lowering proves its error bounds with them.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,9 @@
 
 namespace remap {
 
-// A polynomial in `Variables` (1 or 2) variables of total degree `Order`, each variable in [-1, 1] over the
-// box, and `rest`: the enclosed function lies within `rest` of the polynomial everywhere in the box. Where
-// numbers overflow, or a function has no bound over the box, rest is infinite or NaN: nothing is claimed
-// then.
+// A polynomial of total degree `Order` in 1 or 2 variables, each in [-1, 1] over the box. The enclosed
+// function lies within `rest` of the polynomial everywhere in the box. After an overflow, and for a function
+// that is unbounded over the box, rest is infinite or NaN, which makes no statement.
 template <int Variables, int Order>
 class Taylor {
   static_assert(Variables == 1 || Variables == 2);

@@ -8,7 +8,6 @@
 #include <memory>
 #include <span>
 
-#include "maps/channel_rows.hpp"
 #include "remap/error.hpp"
 #include "remap/map_statistics.hpp"
 #include "text/number_text.hpp"
@@ -17,6 +16,10 @@ namespace remap {
 namespace {
 
 constexpr std::size_t kMaxChannels = 3;
+
+// The number of texels converted at a time, so that their rows stay in the cache of one core.
+constexpr std::size_t kSegment = 2048;
+using FloatRow = std::array<float, kSegment>;
 
 bool is_ordinary(float value, float highest) { return value >= 0.0f && value <= highest; }
 constexpr float kLargest = std::numeric_limits<float>::max();
@@ -163,8 +166,7 @@ void Conversion::load_channel(const SourceParameter& parameter, std::size_t chan
     load(parameter.channels[channel], segment, values);
     to_linear(parameter.transfer, {values, segment.count});
   }
-  if (parameter.factors.empty()) return;
-  const float factor = parameter.factors[parameter.factors.size() == 1 ? 0 : channel];
+  const float factor = parameter.factor(channel);
   if (factor == 1.0f) return;
   for (std::size_t i = 0; i < segment.count; ++i) values[i] *= factor;
 }
@@ -367,22 +369,7 @@ MapStatistics Conversion::convert_rows(std::size_t begin, std::size_t end) const
   return statistics;
 }
 
-template <typename Float, typename Byte>
-BasicChannelView<Byte> float_view(Float* first, std::size_t width, std::size_t values_a_texel) {
-  const auto texel = static_cast<std::ptrdiff_t>(values_a_texel * sizeof(float));
-  return {reinterpret_cast<Byte*>(first), PixelType::kFloat, texel,
-          texel * static_cast<std::ptrdiff_t>(width)};
-}
-
 }  // namespace
-
-ChannelView float_channel(float* first, std::size_t width, std::size_t values_a_texel) noexcept {
-  return float_view<float, std::byte>(first, width, values_a_texel);
-}
-
-ConstChannelView float_channel(const float* first, std::size_t width, std::size_t values_a_texel) noexcept {
-  return float_view<const float, const std::byte>(first, width, values_a_texel);
-}
 
 MapStatistics convert_maps(const Converter& converter, const MapConversion& maps, int thread_count) {
   const Conversion conversion(converter, maps);

@@ -6,20 +6,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "text/named_values.hpp"
-
 namespace remap {
 namespace {
-
-constexpr NamedValues<PixelType, 9> kTypes = {{{PixelType::kUint8, "uint8"},
-                                               {PixelType::kUint16, "uint16"},
-                                               {PixelType::kUint32, "uint"},
-                                               {PixelType::kInt8, "int8"},
-                                               {PixelType::kInt16, "int16"},
-                                               {PixelType::kInt32, "int"},
-                                               {PixelType::kHalf, "half"},
-                                               {PixelType::kFloat, "float"},
-                                               {PixelType::kDouble, "double"}}};
 
 // The storage of a half. The templates below must distinguish it from uint16_t.
 struct HalfBits {
@@ -114,12 +102,6 @@ std::size_t byte_count(PixelType type) noexcept {
 
 bool is_integer(PixelType type) noexcept {
   return type != PixelType::kHalf && type != PixelType::kFloat && type != PixelType::kDouble;
-}
-
-std::string_view pixel_type_name(PixelType type) noexcept { return name_of(kTypes, type); }
-
-std::optional<PixelType> pixel_type_from_name(std::string_view name) noexcept {
-  return value_named(kTypes, name);
 }
 
 void load_values(PixelType type, const std::byte* first, std::size_t stride, std::size_t count,

@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "text/named_values.hpp"
-
 namespace remap {
 namespace {
-
-constexpr NamedValues<Transfer, 2> kTransfers = {{{Transfer::kLinear, "linear"}, {Transfer::kSrgb, "srgb"}}};
 
 float srgb_to_linear(float stored) noexcept {
   const float magnitude = std::fabs(stored);
@@ -25,12 +21,6 @@ float linear_to_srgb(float linear) noexcept {
 }
 
 }  // namespace
-
-std::string_view transfer_name(Transfer transfer) { return name_of(kTransfers, transfer); }
-
-std::optional<Transfer> transfer_from_name(std::string_view name) { return value_named(kTransfers, name); }
-
-std::vector<std::string> transfer_names() { return names_of(kTransfers); }
 
 void to_linear(Transfer transfer, std::span<float> values) noexcept {
   if (transfer == Transfer::kLinear) return;

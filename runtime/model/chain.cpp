@@ -15,7 +15,7 @@ namespace remap {
 namespace {
 
 constexpr int kAlphas = 401, kSpeculars = 64;  // of the grid on which the domain is found
-constexpr int kCoarse = 25;                    // widths and speculars on which errors are carried on
+constexpr int kCoarse = 25;                    // alphas and speculars on which errors are propagated
 constexpr double kSameEdge = 1e-9;             // of a domain, relative
 
 double at(const Range& range, int i, int count) {
@@ -58,8 +58,8 @@ bool covers(const Range& range, double value) {
   return value >= range.min * (1.0 - kSameEdge) && value <= range.max * (1.0 + kSameEdge);
 }
 
-// The first step whose domain a texel leaves; steps.size() where none. Specular below 0 is for the domain
-// rule.
+// The first step whose domain a texel leaves; steps.size() if it stays in all. Specular below 0 is left to
+// the domain rule.
 std::size_t leaves(const std::vector<Fit>& steps, const MappedTexel& texel) {
   const std::vector<MappedTexel> passed = states(steps, texel);
   for (std::size_t i = 1; i < steps.size(); ++i)
@@ -103,7 +103,7 @@ Domain chain_domain(const std::vector<Fit>& steps) {
   return *domain;
 }
 
-// How the outputs of a chain from step `first` on follow its inputs: [output][input], alpha then specular.
+// Derivatives of the outputs by the inputs of step `first`: [output][input], alpha then specular.
 using Jacobian = std::array<std::array<double, 2>, 2>;
 
 Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const MappedTexel& texel) {
@@ -118,8 +118,8 @@ Jacobian jacobian(const std::vector<Fit>& steps, std::size_t first, const Mapped
   return {{{by_alpha[0], by_specular[0]}, {by_alpha[1], by_specular[1]}}};
 }
 
-// Error figures of all steps carried on to the end of the chain: the squares of rms add up and are averaged
-// over the domain, the others add up, the worst place counts.
+// Error figures of all steps, propagated to the end of the chain. Squares of rms are summed and averaged over
+// the domain; the other figures are summed, and their maximum over the domain is taken.
 struct CarriedErrors {
   double square = 0.0;
   ErrorFigures figures;
@@ -146,16 +146,16 @@ void carry_errors(const std::vector<Fit>& steps, Fit* chain) {
       for (std::size_t s = 0; s < steps.size(); ++s) {
         const Jacobian rest = s + 1 == steps.size() ? Jacobian{{{1.0, 0.0}, {0.0, 1.0}}}
                                                     : jacobian(steps, s + 1, passed[s + 1]);
-        alpha.add(rest[0], steps[s].roughness_error, steps[s].specular_error, &alpha_here);
-        specular.add(rest[1], steps[s].roughness_error, steps[s].specular_error, &specular_here);
+        alpha.add(rest[0], steps[s].alpha_error, steps[s].specular_error, &alpha_here);
+        specular.add(rest[1], steps[s].alpha_error, steps[s].specular_error, &specular_here);
       }
       alpha.take(alpha_here);
       specular.take(specular_here);
     }
   const double points = kCoarse * kCoarse;
-  chain->roughness_error = alpha.figures;
+  chain->alpha_error = alpha.figures;
   chain->specular_error = specular.figures;
-  chain->roughness_error.rms = std::sqrt(alpha.square / points);
+  chain->alpha_error.rms = std::sqrt(alpha.square / points);
   chain->specular_error.rms = std::sqrt(specular.square / points);
 }
 

@@ -1,4 +1,4 @@
-// Fits one after another, composed into one fit.
+// Composes a sequence of fits into one fit.
 #pragma once
 
 #include <string>
@@ -8,26 +8,24 @@
 
 namespace remap {
 
-// How far a chain is from its steps applied one after another, each with its own domain rule, over the
-// chain's domain: sampled, largest difference in the target's alpha and in its specular. Grey texels differ
-// where a step maps specular below 0, which it holds at 0 and the chain does not. Colored ones differ
-// besides where the width depends on specular: a step follows the width of the largest channel, the chain
-// that of each.
+// The largest sampled differences over the chain's domain between a chain and its steps, each applied with
+// its own domain rule. Grey texels differ where a step maps specular below 0: the step clamps it to 0, the
+// chain does not. Colored texels also differ where alpha depends on specular: a step uses the alpha of the
+// largest channel for all channels, the chain that of each channel.
 struct ChainDifference {
   double alpha = 0.0;
   double grey_specular = 0.0;
   double color_specular = 0.0;
 };
 
-// The fit of kind `chain` that applies `steps` in turn; steps that are chains themselves are taken apart.
-// `id`: empty for `<source>_to_<target>`. Its domain is where every step stays in its own domain. Its error
-// figures are those of the steps carried on to the end to first order, and its image error their sum: errors
-// of matching are systematic. Throws kUsage for fewer than 2 steps, a cycle and an id that is no identifier;
-// kInput where a step does not take the parameters that the one before it gives, and where domains do not
-// meet.
+// The fit of kind `chain` that applies `steps` in order; steps that are chains are expanded. `id`: empty for
+// `<source>_to_<target>`. In its domain every step stays in its own domain. Its error figures are those of
+// the steps, propagated to the end to first order; its image error is their sum, because errors of matching
+// are systematic. Throws kUsage for fewer than 2 steps, a cycle or an invalid id; kInput if the parameters of
+// two neighbouring steps differ, or if their domains do not overlap.
 Fit compose(const std::vector<Fit>& steps, const std::string& id = "");
 
-// `chain`: what compose() made of `steps`.
+// `chain`: the result of compose(steps).
 ChainDifference difference_from_steps(const Fit& chain, const std::vector<Fit>& steps);
 
 }  // namespace remap

@@ -2,19 +2,7 @@
 
 #include <cmath>
 
-#include "text/named_values.hpp"
-
 namespace remap {
-namespace {
-
-constexpr NamedValues<RoughnessConvention, 5> kConventions = {
-    {{RoughnessConvention::kAlpha, "alpha"},
-     {RoughnessConvention::kRoughness, "roughness"},
-     {RoughnessConvention::kExponent, "exponent"},
-     {RoughnessConvention::kGlossiness, "glossiness"},
-     {RoughnessConvention::kSquared, "squared"}}};
-
-}  // namespace
 
 double to_alpha(RoughnessConvention convention, double own) {
   switch (convention) {
@@ -47,13 +35,5 @@ double from_alpha(RoughnessConvention convention, double alpha) {
   }
   return alpha;
 }
-
-std::string_view convention_name(RoughnessConvention convention) { return name_of(kConventions, convention); }
-
-std::optional<RoughnessConvention> convention_from_name(std::string_view name) {
-  return value_named(kConventions, name);
-}
-
-std::vector<std::string> convention_names() { return names_of(kConventions); }
 
 }  // namespace remap

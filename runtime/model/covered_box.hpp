@@ -1,4 +1,4 @@
-// The box that a ragged region of (alpha, specular) holds: the domain of a fit.
+// The domain of a fit: a box within the covered region of (alpha, specular), which may be ragged.
 #pragma once
 
 #include <cmath>
@@ -9,17 +9,17 @@
 
 namespace remap {
 
-// A strip of the region: the widths from `first` to `last`, covered from specular 0 up to `reach`.
+// A strip of the region: alpha from `first` to `last`, covered from specular 0 to `reach`.
 struct CoveredColumn {
   double first = 0.0, last = 0.0;
   double reach = 0.0;   // 0: not covered
-  bool is_gap = false;  // nothing is known of it; its neighbours speak for it
+  bool is_gap = false;  // without data; the box may span it
 };
 
-// The box within columns in rising order that is best to convert in; none where no column is covered. Beyond
-// a domain specular is extrapolated in proportion, which is exact to some tenths of a percent between models
-// that scale, while a width that is held at the edge is simply wrong: the wider range wins unless it costs
-// more than the fourth power of its gain in specular.
+// The best box within columns in rising order; none if no column is covered. Outside a domain, specular is
+// extrapolated in proportion, with errors of some tenths of a percent between models that scale, whereas
+// alpha is clamped, which is wrong. So the wider alpha range wins unless specular shrinks by more than the
+// fourth power of the gain.
 std::optional<Domain> covered_box(const std::vector<CoveredColumn>& columns);
 
 }  // namespace remap

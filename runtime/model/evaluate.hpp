@@ -1,7 +1,6 @@
-// Every kind of mapping as a formula over any scalar: doubles for the interpreter, Taylor models for proofs
-// (lower/taylor.hpp). One text, so that what is proven is what is interpreted.
-//
-// A scalar needs +, -, * with itself and with double, and the functions that are declared for double below.
+// The formula of each kind of mapping over any scalar: doubles for the interpreter, Taylor models for proofs
+// (lower/taylor.hpp), so that proofs hold for the interpreted formula. A scalar needs +, -, * with itself and
+// with double, and the functions that are declared for double below.
 #pragma once
 
 #include <cmath>
@@ -86,7 +85,7 @@ std::vector<Scalar> network_outputs(const Network& network, std::vector<Scalar> 
   return values;
 }
 
-// The inputs that a regressor of `count` inputs takes: alpha alone, or both.
+// The inputs of a regressor with `count` inputs: alpha alone, or both.
 template <typename Scalar>
 std::vector<Scalar> inputs_of(std::size_t count, const Scalar& alpha, const Scalar& specular) {
   if (count == 1) return {alpha};
@@ -100,15 +99,14 @@ Scalar expansion_value(const KernelExpansion& expansion, const Scalar& alpha, co
   return scaled_back(expansion.output, gaussian_sum(expansion, inputs) + expansion.bias);
 }
 
-// Target alpha of each kind.
 template <typename Scalar>
 Scalar target_alpha(const Parametric& form, const Scalar& alpha, const Scalar& specular) {
   Scalar sum = alpha * 0.0;
-  for (std::size_t j = form.roughness.size(); j-- > 0;) {
-    const std::vector<double>& row = form.roughness[j];
+  for (std::size_t j = form.alpha.size(); j-- > 0;) {
+    const std::vector<double>& row = form.alpha[j];
     Scalar polynomial = alpha * 0.0;
     for (std::size_t i = row.size(); i-- > 0;) polynomial = (polynomial + row[i]) * alpha;
-    sum = j + 1 == form.roughness.size() ? polynomial : sum * specular + polynomial;
+    sum = j + 1 == form.alpha.size() ? polynomial : sum * specular + polynomial;
   }
   return sum;
 }
@@ -121,7 +119,6 @@ Scalar target_alpha(const Mlp& mlp, const Scalar& alpha, const Scalar& specular)
   return network_outputs(mlp.alpha, inputs_of(mlp.alpha.inputs.size(), alpha, specular))[0];
 }
 
-// Target specular of each kind.
 template <typename Scalar>
 Scalar target_specular(const Parametric& form, const Scalar& alpha, const Scalar& specular) {
   Scalar sum = alpha * 0.0;
@@ -142,7 +139,7 @@ Scalar target_specular(const Mlp& mlp, const Scalar& alpha, const Scalar& specul
   return network_outputs(mlp.specular, inputs_of(mlp.specular.inputs.size(), alpha, specular))[0];
 }
 
-// A chain up to its last step: what that one gets.
+// Applies all steps but the last.
 template <typename Scalar>
 void follow_chain(const Chain& chain, Scalar* alpha, Scalar* specular) {
   for (std::size_t i = 0; i + 1 < chain.steps.size(); ++i) {

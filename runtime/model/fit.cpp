@@ -11,7 +11,7 @@ bool is_identifier_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-// Words that look like an identifier but cannot name a namespace: the keywords of C++20, [lex.key].
+// The keywords of C++20, [lex.key], which cannot name a namespace.
 constexpr std::array<std::string_view, 92> kKeywords = {
     "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
     "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",

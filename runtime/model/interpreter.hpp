@@ -1,5 +1,5 @@
-// The reference interpreter: a fit evaluated in double precision. It is the oracle that every generated
-// header is tested against, and the way to apply a fit that has not been compiled.
+// The reference interpreter: evaluates a fit in double precision. Generated headers are tested against it,
+// and fits that cannot be lowered run in it.
 #pragma once
 
 #include <span>
@@ -8,23 +8,23 @@
 
 namespace remap {
 
-// The mapping inside its domain, in canonical coordinates. No domain rule.
+// Alpha and specular inside the domain, without the domain rule.
 MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double specular);
 
-// One texel with the domain rule, in the models' own parameters.
-// `roughness`: source's own width parameter. `specular`: one linear value a channel; `specular_out`: as many.
-// Returns the target's own width parameter. Rule (see fit.hpp, Domain): the width is clamped to the covered
-// range; specular below 0 is held at 0; where a channel is beyond the covered specular range all channels are
-// evaluated at the scale that brings the largest to the edge, and scaled back, so that chroma is kept. Target
-// specular below 0 is held at 0: where a target's Fresnel outshines a dark source, the best is black. Target
-// alpha is that of the largest channel. NaN in the width makes every output NaN; a channel that is NaN or
-// infinite stays so, and the others do not see it. `in_domain`, if given, tells whether any of that was
-// needed.
+// One texel with the domain rule, in the models' own parameters. `roughness`: the source's width parameter.
+// `specular`: one linear value per channel; `specular_out`: as many. Returns the target's width parameter.
+//
+// The domain rule: the width is clamped to the covered range, and specular below 0 to 0. If a channel exceeds
+// the covered specular range, all channels are scaled so that the largest lies on the edge, evaluated and
+// scaled back, which keeps chroma. Target specular below 0 becomes 0: a target with a strong Fresnel effect
+// matches a dark source best by black. Target alpha is that of the largest channel. NaN in the width makes
+// every output NaN. A channel that is NaN or infinite stays so and does not affect the others. `in_domain`,
+// if given, receives whether the texel was inside the domain.
 double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
                       std::span<double> specular_out, bool* in_domain = nullptr);
 
-// The covered ranges of the source's own width parameter and of its specular, rounded to float: texels are
-// floats, and generated headers and the interpreter must agree about the texel on the edge.
+// The covered ranges of the source's own width parameter and of its specular, rounded to float, so that
+// generated headers and the interpreter agree on texels at the edge.
 Range own_roughness_range(const Fit& fit);
 Range specular_range(const Fit& fit);
 

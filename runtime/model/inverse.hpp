@@ -1,4 +1,5 @@
-// The way back through a mapping.
+// Source parameters from target parameters: the inverse of a mapping, and how well the converter of the other
+// direction agrees with it.
 #pragma once
 
 #include <optional>
@@ -7,11 +8,23 @@
 
 namespace remap {
 
-// The source parameters in `domain` that `mapping` takes to `target`, to the resolution of doubles; none
-// where no such parameters are found. The mapping must rise: target alpha with alpha, target specular with
-// specular at every alpha, and target alpha with alpha along a line of equal target specular; fits that ship
-// do.
+// The source parameters in `domain` that `mapping` takes to `target`, to the resolution of doubles; none if
+// they are not found. The mapping must be monotonic, as shipped fits are: target alpha rises with alpha,
+// target specular with specular at every alpha, and target alpha with alpha along a line of equal target
+// specular.
 std::optional<MappedTexel> inverse(const MappingKind& mapping, const Domain& domain,
                                    const MappedTexel& target);
+
+// Relative changes |there and back - texel| / texel of alpha and of specular, over the part of a grid on
+// `there`'s domain that it maps into `back`'s.
+struct RoundTrip {
+  double alpha_median = 0.0, alpha_p99 = 0.0;
+  double specular_median = 0.0, specular_p99 = 0.0;
+  double share = 0.0;  // of the grid that both cover; 0: no figures
+};
+RoundTrip round_trip(const Fit& there, const Fit& back);
+
+// Whether the round trip is good: medians within 0.5 %, 99th percentiles within 2 %.
+bool returns(const RoundTrip& trip);
 
 }  // namespace remap

@@ -2,13 +2,8 @@
 
 #include <algorithm>
 
-#include "text/named_values.hpp"
-
 namespace remap {
 namespace {
-
-constexpr NamedValues<Activation, 3> kActivations = {
-    {{Activation::kRelu, "relu"}, {Activation::kTanh, "tanh"}, {Activation::kSilu, "silu"}}};
 
 std::size_t count_of(const Network& network) {
   std::size_t count = 2 * (network.inputs.size() + network.outputs.size());
@@ -37,7 +32,7 @@ struct Name {
 };
 
 struct AlphaDependsOnSpecular {
-  bool operator()(const Parametric& form) const { return form.roughness.size() > 1; }
+  bool operator()(const Parametric& form) const { return form.alpha.size() > 1; }
   bool operator()(const Svr& svr) const { return svr.alpha.inputs.size() > 1; }
   bool operator()(const Mlp& mlp) const { return mlp.alpha.inputs.size() > 1; }
   bool operator()(const Chain& chain) const {
@@ -67,7 +62,7 @@ struct IsProportional {
 struct NumberCount {
   std::size_t operator()(const Parametric& form) const {
     std::size_t count = 0;
-    for (const auto& row : form.roughness) count += row.size();
+    for (const auto& row : form.alpha) count += row.size();
     for (const SpecularTerm& term : form.specular) count += count_of(term.factor);
     return count;
   }
@@ -81,14 +76,6 @@ struct NumberCount {
 };
 
 }  // namespace
-
-std::string_view activation_name(Activation activation) { return name_of(kActivations, activation); }
-
-std::optional<Activation> activation_from_name(std::string_view name) {
-  return value_named(kActivations, name);
-}
-
-std::vector<std::string> activation_names() { return names_of(kActivations); }
 
 MappingKind widened(const RegressedKind& mapping) {
   return std::visit([](const auto& kind) { return MappingKind(kind); }, mapping);

@@ -5,6 +5,9 @@
 
 namespace remap {
 
+// `--converters`, an option of every command.
+void add_converters_option(Command& command);
+
 void add_convert_command(Command& app);
 void add_list_command(Command& app);
 void add_path_command(Command& app);

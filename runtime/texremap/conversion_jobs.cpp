@@ -5,7 +5,6 @@
 #include <set>
 
 #include "discovery/discovery.hpp"
-#include "discovery/shown_path.hpp"
 #include "remap/error.hpp"
 #include "texremap/conversion_request.hpp"
 
@@ -50,8 +49,6 @@ bool is_given(const ParameterRequest& request) {
 // The maps of a set that may hold a parameter, by the best role found: some sets call their base color
 // diffuse, or their diffuse color albedo.
 std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
-  const auto is_diffuse = [](Role role) { return role == Role::kDiffuse; };
-  const auto is_base_color = [](Role role) { return role == Role::kBaseColor; };
   const auto either = [](std::vector<MapUse> best, std::vector<MapUse> other) {
     return best.empty() ? other : best;
   };
@@ -59,13 +56,13 @@ std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
     case Parameter::kWidth:
       return uses(set, tells_width);
     case Parameter::kSpecular:
-      return uses(set, [](Role role) { return role == Role::kSpecular; });
+      return uses(set, is<Role::kSpecular>);
     case Parameter::kDiffuse:
-      return either(uses(set, is_diffuse), uses(set, is_base_color));
+      return either(uses(set, is<Role::kDiffuse>), uses(set, is<Role::kBaseColor>));
     case Parameter::kBaseColor:
-      return either(uses(set, is_base_color), uses(set, is_diffuse));
+      return either(uses(set, is<Role::kBaseColor>), uses(set, is<Role::kDiffuse>));
     case Parameter::kMetallic:
-      return uses(set, [](Role role) { return role == Role::kMetallic; });
+      return uses(set, is<Role::kMetallic>);
     default:
       return {};
   }
@@ -102,8 +99,9 @@ class TreeJobs {
                    ConversionJob& job);
   void carry(const FoundSet& set, int tile, TextureSetRequest& request) const;
   void copy_others(const FoundSet& set, int tile, ConversionJob& job) const;
-  std::vector<PlannedOutput> outputs(const FoundSet& set) const;
+  std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
   void require_no_collisions() const;
+  void fail(const std::string& message) { jobs_.left_out.push_back({message, true}); }
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
 
   const ConvertOptions& options_;
@@ -124,7 +122,7 @@ JobList TreeJobs::list() {
   Discovery found = find_sets(root_, discovery);
   jobs_.is_tree = true;
   jobs_.unrecognised_count = found.unrecognised.size();
-  for (const WalkProblem& problem : found.problems) jobs_.left_out.push_back({problem.message, true});
+  for (const WalkProblem& problem : found.problems) fail(problem.message);
   for (FoundSet& set : found.sets) {
     if (set.state == SetState::kSkipped && workflow_.constants.contains(Parameter::kWidth))
       set = of_diffuse_alone(std::move(set));
@@ -146,23 +144,14 @@ void TreeJobs::add(const FoundSet& set) {
   for (const Parameter parameter : workflow_.sources()) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const std::string name = plain_name(parameter);
-    if (!found.empty() && workflow_.constants.contains(parameter)) {
-      jobs_.left_out.push_back(
-          {place(set) + ": has a " + std::string(role_name(found.front().role)) +
-               " map, but the warp converts a diffuse map alone (use a warp of all its maps, or "
-               "--diffuse MAP instead of the folder)",
-           true});
-      return;
-    }
-    if (found.size() > 1) {
-      jobs_.left_out.push_back({place(set) + ": " + too_many_text(set, found, name), true});
-      return;
-    }
-    if (!found.empty() || is_given(stand_ins_.parameters.at(parameter))) continue;
-    jobs_.left_out.push_back({place(set) + ": no " + name + " map found (or use " +
-                                  parameter_option(parameter) + " VALUE for such sets)",
-                              true});
-    return;
+    if (!found.empty() && workflow_.constants.contains(parameter))
+      return fail(place(set) + ": has a " + std::string(role_name(found.front().role)) +
+                  " map, but the warp converts a diffuse map alone (use a warp of all its maps, or "
+                  "--diffuse MAP instead of the folder)");
+    if (found.size() > 1) return fail(place(set) + ": " + too_many_text(set, found, name));
+    if (found.empty() && !is_given(stand_ins_.parameters.at(parameter)))
+      return fail(place(set) + ": no " + name + " map found (or use " + parameter_option(parameter) +
+                  " VALUE for such sets)");
   }
   converted_.push_back(set);
   for (const int tile : tiles_of(set)) add_tile(set, tile);
@@ -177,10 +166,8 @@ bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::
   const FoundMap& map = map_of(set, use);
   const std::optional<fs::path> file = file_of(map, tile);
   if (!file) {
-    jobs_.left_out.push_back({job.name + (number.empty() ? "" : ", tile " + number) + ": no " +
-                                  std::string(role_name(use.role)) + " map found (" +
-                                  shown(map.path.filename()) + " lacks this tile)",
-                              true});
+    fail(job.name + (number.empty() ? "" : ", tile " + number) + ": no " + std::string(role_name(use.role)) +
+         " map found (" + shown(map.path.filename()) + " lacks this tile)");
     return false;
   }
   job.request.parameters[parameter].source = MapName{root_ / *file, channel_names(use.channels)};
@@ -236,8 +223,9 @@ void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) co
     }
 }
 
-// The files that the conversion of a set writes, each with one of its source maps. Tiles count as one file.
-std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set) const {
+// The files that the conversion of a set writes, relative to the output folder, each with one of its source
+// maps. Tiles count as one file.
+std::map<fs::path, fs::path> TreeJobs::outputs(const FoundSet& set) const {
   const FoundMap& first = set.width ? map_of(set, *set.width) : set.maps.front();
   const ResultNames names = {set.name + "_", tiles_of(set).front() == 0 ? "" : ".<UDIM>"};
   const std::string extension =
@@ -253,23 +241,24 @@ std::vector<PlannedOutput> TreeJobs::outputs(const FoundSet& set) const {
     }
     sources.emplace(path, source);
   }
-  if (choice_.mask) sources.emplace(set.folder / set_file_name(*choice_.mask, names), first.path);
-  for (const MeasureMap& map : choice_.measures)
+  for (const DiagnosisMap& map : choice_.diagnoses)
     sources.emplace(set.folder / set_file_name(map.name, names), first.path);
-  std::vector<PlannedOutput> planned;
-  for (const auto& [path, source] : sources) planned.push_back({path, source});
-  return planned;
+  return sources;
 }
 
+// Names are compared byte by byte after `.` and `..` are resolved in the text; links and case-insensitive
+// file systems are not considered.
 void TreeJobs::require_no_collisions() const {
-  const std::vector<OutputCollision> collisions =
-      output_collisions(converted_, [&](const FoundSet& set) { return outputs(set); });
-  if (collisions.empty()) return;
-  const OutputCollision& first = collisions.front();
-  throw Error(ErrorKind::kUsage, shown(fs::path(options_.output) / first.path) +
-                                     ": would be written twice, from " + shown(root_ / first.first_source) +
-                                     " and from " + shown(root_ / first.second_source) +
-                                     " (rename one of the sets)");
+  std::map<fs::path, fs::path> all;
+  for (const FoundSet& set : converted_)
+    for (const auto& [path, source] : outputs(set)) {
+      const auto [first, is_new] = all.try_emplace(path.lexically_normal(), source);
+      if (!is_new)
+        throw Error(ErrorKind::kUsage, shown(fs::path(options_.output) / first->first) +
+                                           ": would be written twice, from " + shown(root_ / first->second) +
+                                           " and from " + shown(root_ / source) +
+                                           " (rename one of the sets)");
+    }
 }
 
 // A file name with a placeholder for the tile.

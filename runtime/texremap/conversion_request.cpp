@@ -6,78 +6,58 @@
 #include <thread>
 
 #include "remap/error.hpp"
-#include "text/named_values.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remap {
 namespace {
 
-// The value of the option of a parameter; empty where it was not given.
+// The value of the option of a source parameter; empty where it was not given.
 const std::string& word_of(const ConvertOptions& options, Parameter parameter) {
-  static const std::string kNone;
-  switch (parameter) {
-    case Parameter::kWidth:
-      return options.roughness;
-    case Parameter::kSpecular:
-      return options.specular;
-    case Parameter::kDiffuse:
-      return options.diffuse;
-    case Parameter::kBaseColor:
-      return options.base_color;
-    case Parameter::kMetallic:
-      return options.metallic;
-    case Parameter::kMetalMask:
-      return options.metal_mask;
-    default:
-      return kNone;
-  }
+  static const std::map<Parameter, std::string ConvertOptions::*> kOptions = {
+      {Parameter::kWidth, &ConvertOptions::roughness},
+      {Parameter::kSpecular, &ConvertOptions::specular},
+      {Parameter::kDiffuse, &ConvertOptions::diffuse},
+      {Parameter::kBaseColor, &ConvertOptions::base_color},
+      {Parameter::kMetallic, &ConvertOptions::metallic},
+      {Parameter::kMetalMask, &ConvertOptions::metal_mask}};
+  return options.*kOptions.at(parameter);
 }
 
 std::optional<RoughnessConvention> convention_of(const std::string& option, const std::string& word) {
   if (word.empty()) return std::nullopt;
-  const auto convention = convention_from_name(word);
-  if (!convention) fail_unknown(option, "encoding", word, convention_names());
-  return convention;
+  return chosen_value(kConventions, option, "encoding", word);
 }
 
 // Finds the color space of `parameter` in a list such as `srgb` or `specular=linear,diffuse=srgb`.
 std::optional<Transfer> transfer_of(const std::string& words, Parameter parameter) {
+  static const std::vector<std::string> kColors = {"specular", "diffuse", "base_color"};
   std::optional<Transfer> chosen;
   for (std::size_t begin = 0; begin < words.size();) {
     const std::size_t end = std::min(words.find(',', begin), words.size());
-    std::string word = words.substr(begin, end - begin);
+    const std::string word = words.substr(begin, end - begin);
     begin = end + 1;
-    if (const std::size_t sign = word.find('='); sign != std::string::npos) {
-      const std::string name = word.substr(0, sign);
-      const std::vector<std::string> colors = {"specular", "diffuse", "base_color"};
-      if (std::find(colors.begin(), colors.end(), name) == colors.end())
-        fail_unknown("--color-space", "color", name, colors);
-      word = word.substr(sign + 1);
-      if (!transfer_from_name(word)) fail_unknown("--color-space", "color space", word, transfer_names());
-      if (name != parameter_name(parameter)) continue;
-    }
-    chosen = transfer_from_name(word);
-    if (!chosen) fail_unknown("--color-space", "color space", word, transfer_names());
+    const std::size_t sign = word.find('=');
+    const std::string name = sign == std::string::npos ? "" : word.substr(0, sign);
+    if (sign != std::string::npos && std::find(kColors.begin(), kColors.end(), name) == kColors.end())
+      fail_unknown("--color-space", "color", name, kColors);
+    // Without a sign, npos + 1 is 0: the whole word.
+    const Transfer transfer = chosen_value(kTransfers, "--color-space", "color space", word.substr(sign + 1));
+    if (sign == std::string::npos || name == parameter_name(parameter)) chosen = transfer;
   }
   return chosen;
 }
 
 std::optional<PixelType> chosen_type(const std::string& name) {
   if (name.empty()) return std::nullopt;
-  const std::vector<std::string> known = {"uint8", "uint16", "half", "float"};
-  if (std::find(known.begin(), known.end(), name) == known.end())
-    fail_unknown("--type", "pixel type", name, known);
-  return pixel_type_from_name(name);
+  constexpr NamedValues<PixelType, 4> kWritten = {{{PixelType::kUint8, "uint8"},
+                                                   {PixelType::kUint16, "uint16"},
+                                                   {PixelType::kHalf, "half"},
+                                                   {PixelType::kFloat, "float"}}};
+  return chosen_value(kWritten, "--type", "pixel type", name);
 }
 
 constexpr NamedValues<BadTexels, 3> kBadTexels = {
     {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
-
-BadTexels bad_texels_of(const std::string& word) {
-  const auto known = value_named(kBadTexels, word);
-  if (!known) fail_unknown("--bad-texels", "treatment", word, names_of(kBadTexels));
-  return *known;
-}
 
 std::vector<float> factors_of(const std::string& option, const std::string& text) {
   return text.empty() ? std::vector<float>{} : parse_factors(option, text);
@@ -190,16 +170,16 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   const std::string word = !options.layout.empty()                        ? options.layout
                            : is_other_kind || !workflow.constants.empty() ? "separate"
                                                                           : "as-inputs";
-  const auto layout = layout_from_name(word);
-  if (!layout) fail_unknown("--layout", "layout", options.layout, layout_names());
-  choice.layout = *layout;
+  choice.layout = chosen_value(kLayouts, "--layout", "layout", word);
   choice.extension = options.format;
   choice.type = chosen_type(options.type);
-  if (!options.mask.empty()) choice.mask = options.mask;
-  if (!options.residual.empty()) choice.measures.push_back({Parameter::kResidual, options.residual});
-  if (!options.metallic_width.empty())
-    choice.measures.push_back({Parameter::kMetallicWidth, options.metallic_width});
-  if (!options.doubts.empty()) choice.measures.push_back({Parameter::kDoubts, options.doubts});
+  const auto add_diagnosis = [&](const TargetChannel& content, const std::string& file) {
+    if (!file.empty()) choice.diagnoses.push_back({content, file});
+  };
+  add_diagnosis(MaskChannel{}, options.mask);
+  add_diagnosis(ConvertedChannel{Parameter::kResidual}, options.residual);
+  add_diagnosis(ConvertedChannel{Parameter::kMetallicWidth}, options.metallic_width);
+  add_diagnosis(ConvertedChannel{Parameter::kDoubts}, options.doubts);
   choice.parameters = workflow.targets();
   choice.colors_stay_grey = !workflow.is_material();
   if (workflow.is_material() && width_of(*workflow.target) == RoughnessConvention::kGlossiness &&
@@ -214,7 +194,7 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
 PassOptions pass_options(const ConvertOptions& options) {
   PassOptions pass;
   pass.target_convention = convention_of("--output-encoding", options.output_encoding);
-  pass.bad_texels = bad_texels_of(options.bad_texels);
+  pass.bad_texels = chosen_value(kBadTexels, "--bad-texels", "treatment", options.bad_texels);
   pass.dither = options.dither;
   pass.value_statistics = options.json;
   pass.metallic_statistics = options.json || !options.quiet;

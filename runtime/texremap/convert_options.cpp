@@ -5,7 +5,7 @@
 
 #include "command_line/command.hpp"
 #include "remap/error.hpp"
-#include "texremap/converters_option.hpp"
+#include "texremap/commands.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remap {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "command_line/command.hpp"
+#include "remap/named_values.hpp"
 
 namespace remap {
 
@@ -63,5 +64,14 @@ void add_convert_options(Command& command, ConvertOptions& options);
 // Throws kUsage: `option` got `word`, but the `known` names of a `noun` are others.
 [[noreturn]] void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
                                const std::vector<std::string>& known);
+
+// The value that `word` names. Throws as above if it names none.
+template <typename Value, std::size_t Count>
+Value chosen_value(const NamedValues<Value, Count>& table, const std::string& option, const std::string& noun,
+                   const std::string& word) {
+  const auto value = value_named(table, word);
+  if (!value) fail_unknown(option, noun, word, names_of(table));
+  return *value;
+}
 
 }  // namespace remap

@@ -1,15 +1,14 @@
 #include "texremap/convert_report.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <iomanip>
 #include <iostream>
 
 #include "command_line/run_app.hpp"
 #include "texremap/converter_text.hpp"
 #include "text/number_text.hpp"
+#include "text/report_text.hpp"
 
 namespace remap {
 namespace {
@@ -26,8 +25,7 @@ std::string conventions_text(const WorkflowEnd& end) {
 std::string material_text(const ChosenConverter& chosen) {
   const WorkflowChoice& workflow = chosen.workflow;
   const auto end_text = [](const WorkflowEnd& end) {
-    return model_of(end) + " (" + std::string(workflow_kind_name(kind_of(end))) + ": " +
-           conventions_text(end) + ")";
+    return model_of(end) + " (" + std::string(kind_name(end)) + ": " + conventions_text(end) + ")";
   };
   std::string text = end_text(*workflow.source) + " to " + end_text(*workflow.target);
   if (workflow.is_to_metallic()) text += " by " + std::string(formula_name(workflow.formula));
@@ -63,18 +61,18 @@ std::string first_text(const MapStatistics& counts) {
          std::to_string(counts.first_bad->y) + ")";
 }
 
-// The result that holds `parameter`; null where none does.
-Json file_json(const JobReport& report, Parameter parameter) {
-  for (const JobReport::Result& result : report.results)
-    if (std::find(result.parameters.begin(), result.parameters.end(), parameter) != result.parameters.end())
-      return result.path.string();
-  return {};
+// The first result that `holds` accepts; null without one.
+template <typename Holds>
+Json file_json(const JobReport& report, const Holds& holds) {
+  const auto found = std::find_if(report.results.begin(), report.results.end(), holds);
+  return found == report.results.end() ? Json() : Json(found->path.string());
 }
 
-Json mask_json(const JobReport& report) {
-  for (const JobReport::Result& result : report.results)
-    if (result.mask) return result.path.string();
-  return {};
+Json file_json(const JobReport& report, Parameter parameter) {
+  return file_json(report, [parameter](const JobReport::Result& result) {
+    return std::find(result.parameters.begin(), result.parameters.end(), parameter) !=
+           result.parameters.end();
+  });
 }
 
 Json paths_json(const std::vector<std::filesystem::path>& paths) {
@@ -90,7 +88,7 @@ Json values_json(const ParameterStatistics& statistics) {
 
 Json end_json(const WorkflowEnd& end) {
   Json json = {{"model", model_of(end)},
-               {"workflow", workflow_kind_name(kind_of(end))},
+               {"workflow", kind_name(end)},
                {"diffuse", diffuse_convention_name(diffuse_of(end))}};
   if (const auto* metallic = std::get_if<MetallicWorkflow>(&end))
     json["dielectric_f0"] = metallic->dielectric_f0;
@@ -145,11 +143,7 @@ std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-std::string seconds_text(double seconds) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.2f s", seconds);
-  return text.data();
-}
+std::string seconds_text(double seconds) { return remapc::fixed(seconds, 2) + " s"; }
 
 std::string files_text(const JobReport& report) {
   constexpr std::size_t kShown = 3;
@@ -178,9 +172,9 @@ Json job_json(const ChosenConverter& chosen, const JobReport& report) {
   std::vector<Parameter> named = chosen.converter().targets();
   for (const Parameter parameter : named)
     if (parameter != Parameter::kDoubts) json[plain_name(parameter)] = file_json(report, parameter);
-  json["mask"] = mask_json(report);
+  json["mask"] = file_json(report, [](const JobReport::Result& result) { return result.mask; });
   json["copies"] = paths_json(report.copies);
-  json["specular_color_space"] = transfer_name(report.specular_transfer);
+  json["specular_color_space"] = name_of(kTransfers, report.specular_transfer);
   json.update(counts_json(counts));
   for (const Parameter parameter : chosen.converter().sources())
     if (std::find(named.begin(), named.end(), parameter) == named.end()) named.push_back(parameter);
@@ -310,15 +304,12 @@ void print_confidence(const std::string& program, const std::string& place, cons
                       " texels reflect more than 1; clamped to 1 (put emission into a map of its own)");
   if (metallic.texel_count == 0) return;
   const auto share = [&](std::size_t count) {
-    std::array<char, 32> text;
-    std::snprintf(text.data(), text.size(), "%.2f %%",
-                  100.0 * static_cast<double>(count) / static_cast<double>(metallic.texel_count));
-    return std::string(text.data());
+    const double part = static_cast<double>(count) / static_cast<double>(metallic.texel_count);
+    return remapc::fixed(100.0 * part, 2) + " %";
   };
-  std::array<char, 96> residual;
-  std::snprintf(residual.data(), residual.size(), "%.4f rms, %.3f at most", metallic.rms_residual(),
-                static_cast<double>(metallic.largest_residual));
-  print_message(program, place + "not representable in metal-rough (residual): " + residual.data() +
+  const std::string residual = remapc::fixed(metallic.rms_residual(), 4) + " rms, " +
+                               remapc::fixed(static_cast<double>(metallic.largest_residual), 3) + " at most";
+  print_message(program, place + "not representable in metal-rough (residual): " + residual +
                              "; pictures differ by about 0.42 of it");
   print_message(program, place + "metallic undetermined, no visible effect: " + share(metallic.guess.count) +
                              " (too dark: " + share(metallic.dark.count) +

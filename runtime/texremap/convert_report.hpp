@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "command_line/resource_use.hpp"
+#include "command_line/progress.hpp"
 #include "remap/path.hpp"
 #include "texremap/conversion_jobs.hpp"
 #include "texture/material_survey.hpp"

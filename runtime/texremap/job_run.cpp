@@ -76,7 +76,7 @@ void require_not_converted(const TextureSet& set, const ChosenConverter& chosen,
           : workflow_over(source, WorkflowKind::kSpecular, RoughnessConvention::kAlpha).end;
   const std::string& brdf = workflow.is_material() ? workflow.source_brdf : source;
   for (const ImageReader& map : set.maps) {
-    const std::optional<std::string> model = noted_metadata(map, "remap:target");
+    const std::optional<std::string> model = map.noted_metadata("remap:target");
     if (model && *model != source && !holds_materials_of(*model, end, brdf))
       throw Error(ErrorKind::kUsage, map.path().string() + ": already converted to " + *model +
                                          ", but the source is " + source + " (--force converts it anyway)");
@@ -88,7 +88,7 @@ bool is_made_of(const std::filesystem::path& path, const std::string& hash) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   try {
-    return noted_metadata(ImageReader(path), "remap:inputs") == hash;
+    return ImageReader(path).noted_metadata("remap:inputs") == hash;
   } catch (const Error&) {
     return false;  // an incomplete image is not ours
   }
@@ -123,12 +123,12 @@ bool all_done(const TargetPlan& plan, const std::string& hash, bool force) {
 }
 
 JobReport::Result result_of(const PlannedMap& planned) {
-  using Content = TargetChannel::Content;
   JobReport::Result result{planned.path, {}, false};
-  for (const PlannedPart& part : planned.parts)
+  for (const TargetPart& part : planned.parts)
     for (const TargetChannel& channel : part.channels) {
-      if (channel.content == Content::kParameter) result.parameters.push_back(channel.parameter);
-      result.mask |= channel.content == Content::kMask;
+      if (const auto* converted = std::get_if<ConvertedChannel>(&channel))
+        result.parameters.push_back(converted->parameter);
+      result.mask |= std::holds_alternative<MaskChannel>(channel);
     }
   return result;
 }

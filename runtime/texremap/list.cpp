@@ -11,7 +11,6 @@
 #include "remap/workflow_models.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
-#include "texremap/converters_option.hpp"
 
 namespace remap {
 namespace {
@@ -95,7 +94,7 @@ void list_models(const ListOptions& options) {
 
 Json workflow_json(const WorkflowModel& model) {
   Json json = {{"model", model_of(model.end)},
-               {"workflow", workflow_kind_name(kind_of(model.end))},
+               {"workflow", kind_name(model.end)},
                {"diffuse", diffuse_convention_name(diffuse_of(model.end))},
                {"dielectric_f0", Json()},
                {"width", convention_name(width_of(model.end))},
@@ -131,6 +130,16 @@ void list_workflows(const ListOptions& options) {
 }
 
 }  // namespace
+
+void add_converters_option(Command& command) {
+  command
+      .add_action(
+          "--converters", [](const std::string& path) { use_converters(path); },
+          "Use these converters instead of the shipped ones: a converters.json of `remapc emit "
+          "--all`, a fit, or a folder of fits")
+      ->type_name("PATH")
+      ->environment("REMAP_CONVERTERS");
+}
 
 void add_list_command(Command& app) {
   auto options = std::make_shared<ListOptions>();

@@ -11,7 +11,6 @@
 #include "remap/chained_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
-#include "texremap/converters_option.hpp"
 #include "texremap/workflow_choice.hpp"
 
 namespace remap {
@@ -92,8 +91,8 @@ void print_json(const std::vector<ConverterPath>& paths, const ConverterInfo& wh
 }
 
 std::string end_text(const WorkflowEnd& end, const std::string& brdf) {
-  return model_of(end) + ": " + std::string(workflow_kind_name(kind_of(end))) + " over " + brdf +
-         ", diffuse " + std::string(diffuse_convention_name(diffuse_of(end)));
+  return model_of(end) + ": " + std::string(kind_name(end)) + " over " + brdf + ", diffuse " +
+         std::string(diffuse_convention_name(diffuse_of(end)));
 }
 
 // The stages of a material conversion, with the models at both ends.
@@ -112,7 +111,10 @@ std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
 
 void explain(const PathOptions& asked) {
   PathOptions options = asked;
-  const WorkflowChoice choice = workflow_between(asked.request.source, asked.request.target);
+  ConvertOptions ends;
+  ends.from = asked.request.source;
+  ends.to = asked.request.target;
+  const WorkflowChoice choice = workflow_choice(ends);
   options.request.source = choice.source_brdf;
   options.request.target = choice.target_brdf;
   const bool has_path =

@@ -12,9 +12,7 @@ namespace {
 
 std::optional<WorkflowKind> kind_named(const std::string& option, const std::string& word) {
   if (word.empty()) return std::nullopt;
-  const auto kind = workflow_kind_from_name(word);
-  if (!kind) fail_unknown(option, "workflow", word, workflow_kind_names());
-  return kind;
+  return chosen_value(kWorkflowKinds, option, "workflow", word);
 }
 
 // The roughness parameter of a model of the graph. An unknown model is refused later, by the search for a
@@ -45,8 +43,8 @@ NamedEnd named_end(const std::string& option, const std::string& name, const std
   NamedEnd end{option, name, find_workflow_model(name), kind_named(option + "-workflow", kind)};
   if (end.model != nullptr && end.kind && *end.kind != kind_of(end.model->end))
     throw Error(ErrorKind::kUsage, option + "-workflow: " + name + " has the " +
-                                       std::string(workflow_kind_name(kind_of(end.model->end))) +
-                                       " workflow, not " + kind + " (remove this option)");
+                                       std::string(kind_name(end.model->end)) + " workflow, not " + kind +
+                                       " (remove this option)");
   return end;
 }
 
@@ -62,11 +60,8 @@ void set_f0(std::optional<WorkflowEnd>& end, double f0) {
 void choose_diffuse(const ConvertOptions& options, const WorkflowModel& source, const WorkflowModel& target,
                     WorkflowChoice& choice) {
   if (!options.diffuse_convention.empty()) {
-    const auto convention = diffuse_convention_from_name(options.diffuse_convention);
-    if (!convention)
-      fail_unknown("--diffuse-convention", "convention", options.diffuse_convention,
-                   diffuse_convention_names());
-    set_diffuse(*choice.source, *convention);
+    set_diffuse(*choice.source, chosen_value(kDiffuseConventions, "--diffuse-convention", "convention",
+                                             options.diffuse_convention));
   } else if (!source.conventions_known) {
     const std::string other = diffuse_of(*choice.source) == DiffuseConvention::kPlain ? "scaled" : "plain";
     choice.assumptions.push_back(
@@ -255,13 +250,6 @@ WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit&
   if (is_of_diffuse_alone(fit)) choose_diffuse_alone(options, choice);
   require_workflow(options, choice);
   return choice;
-}
-
-WorkflowChoice workflow_between(const std::string& from, const std::string& to) {
-  ConvertOptions options;
-  options.from = from;
-  options.to = to;
-  return workflow_choice(options);
 }
 
 }  // namespace remap

@@ -42,9 +42,6 @@ WorkflowChoice workflow_choice(const ConvertOptions& options);
 // name. Throws kUsage for options that cannot be used with a warp, and for models other than the warp's.
 WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit);
 
-// workflow_choice() for `--from` and `--to` alone.
-WorkflowChoice workflow_between(const std::string& from, const std::string& to);
-
 struct ModelPair {
   std::string source, target;
 };

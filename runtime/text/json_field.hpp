@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "remap/error.hpp"
+#include "remap/named_values.hpp"
 
 namespace remap {
 
@@ -50,6 +51,9 @@ class Field {
   std::vector<double> numbers(std::size_t fewest) const {
     return list(fewest, [](const Field& entry) { return entry.number(); });
   }
+  std::vector<std::string> texts() const {
+    return list(0, [](const Field& entry) { return entry.text(); });
+  }
   const nlohmann::ordered_json& json() const { return value_; }
   const std::string& place() const { return place_; }
   std::string text() const {
@@ -58,6 +62,13 @@ class Field {
     const bool one_line = std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; });
     require(one_line, "a text of one line");  // the text may become a comment in generated code
     return text;
+  }
+  // The value of the enumeration that the text names; `expected` lists the names.
+  template <typename Value, std::size_t Count>
+  Value named(const NamedValues<Value, Count>& table, const std::string& expected) const {
+    const auto value = value_named(table, text());
+    require(value.has_value(), expected);
+    return *value;
   }
   double number() const {
     require(value_.is_number(), "a number");
@@ -76,6 +87,9 @@ class Field {
     std::map<std::string, Value> entries;
     for (const auto& [key, value] : value_.items()) entries[key] = read(Field(value, place_ + "." + key));
     return entries;
+  }
+  std::map<std::string, std::string> text_dictionary() const {
+    return dictionary<std::string>([](const Field& entry) { return entry.text(); });
   }
   // Throws `place: expected EXPECTED, found VALUE`.
   void require(bool condition, const std::string& expected) const {

@@ -1,12 +1,12 @@
 // A hash of the inputs of a result, by which a resumed run recognises finished results.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+
+struct XXH3_state_s;
 
 namespace remap {
 
@@ -14,9 +14,6 @@ namespace remap {
 class ContentHash {
  public:
   ContentHash();
-  ~ContentHash();
-  ContentHash(ContentHash&&) noexcept;
-  ContentHash& operator=(ContentHash&&) noexcept;
 
   // Adds a text and its length, so `ab`, `c` and `a`, `bc` differ.
   void add(std::string_view text);
@@ -27,8 +24,7 @@ class ContentHash {
   std::string hex() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> state_;
 };
 
 }  // namespace remap

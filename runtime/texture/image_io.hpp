@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "remap/pixel_type.hpp"
+#include "remap/channel_view.hpp"
 #include "remap/transfer.hpp"
 
 namespace remap {
@@ -38,6 +38,16 @@ struct ImageLayout {
 
   std::size_t row_bytes() const noexcept { return static_cast<std::size_t>(width) * texel_bytes; }
 };
+
+// Whether two images have the same number of channels with the same types.
+bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) noexcept;
+
+// A channel of rows with this layout in memory.
+template <typename Byte>
+BasicChannelView<Byte> channel_view(Byte* texels, const ImageLayout& layout, std::size_t channel) {
+  return {texels + layout.channels[channel].offset, layout.channels[channel].type,
+          static_cast<std::ptrdiff_t>(layout.texel_bytes), static_cast<std::ptrdiff_t>(layout.row_bytes())};
+}
 
 // Sets the number of threads, at least 1, that OpenImageIO and OpenEXR may use in this process.
 void set_image_thread_count(int count);
@@ -73,9 +83,11 @@ class ImageReader {
   // height or at the end of the image.
   void read_rows(int first_row, int row_count, std::byte* texels);
 
+  // The metadata that an earlier run wrote under `name`, as an attribute or in the tag Software.
+  std::optional<std::string> noted_metadata(const std::string& name) const;
+
  private:
   friend class ImageWriter;
-  friend std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name);
   struct State;  // image_library.hpp
   std::unique_ptr<State> state_;
 };
@@ -89,9 +101,6 @@ struct ImageChanges {
   std::optional<Transfer> transfer;                  // curve of the values
   Metadata metadata;                                 // added; TIFF and JPEG hold it in the tag Software
 };
-
-// The metadata that an earlier run wrote under `name`, as an attribute or in the tag Software.
-std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name);
 
 // One part of a new image. It follows a part of another image in everything except `changes`.
 struct ImagePart {

@@ -1,4 +1,5 @@
 // The reading half of image_io.hpp.
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -49,7 +50,7 @@ bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format, s
 constexpr int kMostParts = 4096;
 
 std::optional<PixelType> pixel_type(OIIO::TypeDesc type) {
-  return type.is_array() ? std::nullopt : pixel_type_from_name(type.c_str());
+  return type.is_array() ? std::nullopt : value_named(kPixelTypes, type.c_str());
 }
 
 }  // namespace
@@ -86,6 +87,11 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
     layout.texel_bytes += byte_count(*type);
   }
   return layout;
+}
+
+bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) noexcept {
+  return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
+                    [](const Channel& x, const Channel& y) { return x.type == y.type; });
 }
 
 void set_image_thread_count(int count) {
@@ -192,8 +198,8 @@ void ImageReader::State::read_rows(int first_row, int row_count, std::byte* texe
          " cannot be read: " + first_line(message, "unknown reason") + " (the file may be truncated)");
 }
 
-std::optional<std::string> noted_metadata(const ImageReader& reader, const std::string& name) {
-  const OIIO::ImageSpec& spec = reader.state_->levels.front();
+std::optional<std::string> ImageReader::noted_metadata(const std::string& name) const {
+  const OIIO::ImageSpec& spec = state_->levels.front();
   if (const std::string value = spec.get_string_attribute(name); !value.empty()) return value;
   const std::string software = spec.get_string_attribute("Software"), key = name + "=";
   const std::size_t begin = software.find(key);

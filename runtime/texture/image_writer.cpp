@@ -58,9 +58,7 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
 };
 
 bool same_storage(const ImageLayout& a, const ImageLayout& b) {
-  return a.width == b.width && a.height == b.height &&
-         std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
-                    [](const Channel& x, const Channel& y) { return x.type == y.type; });
+  return a.width == b.width && a.height == b.height && same_pixel_types(a, b);
 }
 
 }  // namespace

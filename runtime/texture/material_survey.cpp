@@ -3,28 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
+#include "remap/convert_maps.hpp"
 #include "remap/error.hpp"
+#include "text/report_text.hpp"
 
 namespace remap {
 namespace {
 
 constexpr int kBands = 16, kTexelsARow = 256;
 constexpr std::size_t kEstimatedTexels = 2048;
-
-// The maps that hold parameters or coverage.
-std::vector<std::size_t> sampled_maps(const TextureSet& set) {
-  std::vector<bool> used(set.maps.size());
-  for (const auto& [parameter, values] : set.parameters)
-    for (const ChannelPlace& place : values.channels) used[place.map] = true;
-  if (set.coverage) used[set.coverage->map] = true;
-  std::vector<std::size_t> maps;
-  for (std::size_t map = 0; map < used.size(); ++map)
-    if (used[map]) maps.push_back(map);
-  return maps;
-}
 
 // One row of every map, as stored.
 using StoredRows = std::map<std::size_t, std::vector<std::byte>>;
@@ -33,10 +22,10 @@ using StoredRows = std::map<std::size_t, std::vector<std::byte>>;
 std::vector<float> values_of(const TextureSet& set, const StoredRows& rows, const ChannelPlace& place,
                              int step) {
   const ImageLayout& layout = set.maps[place.map].layout();
-  const Channel& channel = layout.channels[place.channel];
   std::vector<float> values(static_cast<std::size_t>((layout.width + step - 1) / step));
-  load_values(channel.type, rows.at(place.map).data() + channel.offset,
-              layout.texel_bytes * static_cast<std::size_t>(step), values.size(), values.data());
+  ConstChannelView view = channel_view(rows.at(place.map).data(), layout, place.channel);
+  view.texel_stride *= step;
+  load(view, {0, 0, values.size()}, values.data());
   return values;
 }
 
@@ -54,7 +43,7 @@ void add_row(const TextureSet& set, const StoredRows& rows, int step, MaterialSa
       std::vector<float> row(texels, values.is_map() ? 0.0f : values.constants[c]);
       if (values.is_map()) row = values_of(set, rows, values.channels[c], step);
       if (values.is_map()) to_linear(values.transfer, row);
-      const float factor = values.factors.empty() ? 1.0f : values.factors[values.factors.size() == 1 ? 0 : c];
+      const float factor = values.factor(c);
       const std::size_t before = own[c].size();
       for (std::size_t i = 0; i < row.size(); ++i)
         if (coverage.empty() || coverage[i] > 0.0f) own[c].push_back(row[i] * factor);
@@ -78,12 +67,6 @@ double share_within(const std::vector<float>& values, float low, float high) {
   return static_cast<double>(inside) / static_cast<double>(std::max<std::size_t>(values.size(), 1));
 }
 
-std::string percent(double share) {
-  std::array<char, 16> text;
-  std::snprintf(text.data(), text.size(), "%.0f %%", 100.0 * share);
-  return text.data();
-}
-
 // Most materials are dielectrics with an F0 of 0.03 to 0.05. In the wrong color space they read as 0.19 to
 // 0.25, where only a few gems are, or as 0.002 to 0.004, where no material is.
 void look_at_color_space(const MaterialSample& sample, const TextureSet& set,
@@ -97,9 +80,10 @@ void look_at_color_space(const MaterialSample& sample, const TextureSet& set,
   const double share = is_srgb ? share_within(values, 0.0018f, 0.0045f) : share_within(values, 0.185f, 0.26f);
   if (share < kMuch) return;
   const std::string place = set.maps[specular->channels.front().map].path().string();
-  messages.push_back(place + ": specular, read as " + std::string(transfer_name(specular->transfer)) +
-                     ", is " + (is_srgb ? "0.002 to 0.0045" : "0.19 to 0.26") + " in " + percent(share) +
-                     " of the texels, like F0 0.04 stored " + (is_srgb ? "linear" : "in sRGB") +
+  messages.push_back(place + ": specular, read as " + std::string(name_of(kTransfers, specular->transfer)) +
+                     ", is " + (is_srgb ? "0.002 to 0.0045" : "0.19 to 0.26") + " in " +
+                     remapc::fixed(100.0 * share, 0) + " % of the texels, like F0 0.04 stored " +
+                     (is_srgb ? "linear" : "in sRGB") +
                      " (use --color-space specular=" + (is_srgb ? "linear" : "srgb") + " in that case)");
 }
 
@@ -135,7 +119,7 @@ void look_at_flat_maps(const MaterialSample& sample, const TextureSet& set,
 
 MaterialSample sample_materials(TextureSet& set) {
   MaterialSample sample;
-  const std::vector<std::size_t> maps = sampled_maps(set);
+  const std::set<std::size_t> maps = set.maps_of_material();
   const ImageLayout& first = set.maps[set.first_map()].layout();
   const int height = first.height, step = std::max(1, first.width / kTexelsARow);
   int unit = 1;
@@ -166,36 +150,30 @@ std::vector<std::string> doubts_about(const MaterialSample& sample, const Textur
 std::optional<DielectricF0> estimated_f0(const MaterialSample& sample, const WorkflowStages& stages,
                                          RoughnessConvention width) {
   if (sample.texel_count == 0) return std::nullopt;
-  SpecularWorkflow plain;
+  const SpecularWorkflow plain;
   WorkflowStages to_plain = stages;
   to_plain.target = plain;
   const auto converter = make_workflow_converter(to_plain, InstructionSet::kBaseline);
-  const std::size_t count = sample.texel_count;
-  std::vector<float> widths = sample.rows.at(Parameter::kWidth).front();
-  change_convention(width, converter->info().source.roughness, widths);
-  MaterialRows<const float> in;
-  for (const Parameter parameter : converter->sources()) {
-    const auto& rows = sample.rows.at(parameter);
-    in[parameter].count = rows.size();
-    for (std::size_t c = 0; c < rows.size(); ++c) in[parameter].row[c] = rows[c].data();
-  }
-  in[Parameter::kWidth].row[0] = widths.data();
-  std::array<std::vector<float>, 7> made;
-  for (std::vector<float>& row : made) row.resize(count);
-  MaterialRows<float> out;
+  const std::size_t every = std::max<std::size_t>(1, sample.texel_count / kEstimatedTexels);
+  std::vector<SpecularMaterial> materials((sample.texel_count + every - 1) / every);
+  MapConversion maps;
+  maps.width = materials.size();
+  maps.height = 1;
+  maps.source_convention = width;
+  maps.target_convention = RoughnessConvention::kAlpha;
+  for (const Parameter parameter : converter->sources())
+    for (const std::vector<float>& row : sample.rows.at(parameter))
+      maps.sources[parameter].channels.push_back(float_channel(row.data(), maps.width, every));
+  const auto add_target = [&](Parameter parameter, float& first) {
+    constexpr std::size_t kFloats = sizeof(SpecularMaterial) / sizeof(float);
+    maps.targets[parameter].channels.push_back(float_channel(&first, maps.width, kFloats));
+  };
   for (std::size_t c = 0; c < 3; ++c) {
-    out[Parameter::kDiffuse].row[c] = made[c].data();
-    out[Parameter::kSpecular].row[c] = made[3 + c].data();
+    add_target(Parameter::kDiffuse, materials.front().diffuse[c]);
+    add_target(Parameter::kSpecular, materials.front().specular[c]);
   }
-  out[Parameter::kDiffuse].count = out[Parameter::kSpecular].count = 3;
-  out[Parameter::kWidth] = {{made[6].data()}, 1};
-  converter->convert(count, in, out);
-  change_convention(converter->info().target.roughness, RoughnessConvention::kAlpha, made[6]);
-  std::vector<SpecularMaterial> materials;
-  const std::size_t every = std::max<std::size_t>(1, count / kEstimatedTexels);
-  for (std::size_t i = 0; i < count; i += every)
-    materials.push_back(
-        {{made[0][i], made[1][i], made[2][i]}, {made[3][i], made[4][i], made[5][i]}, made[6][i]});
+  add_target(Parameter::kWidth, materials.front().width);
+  convert_maps(*converter, maps);
   WorkflowConversion conversion{plain, std::get<MetallicWorkflow>(stages.target), Projection{}};
   conversion.specular.width = RoughnessConvention::kAlpha;
   try {

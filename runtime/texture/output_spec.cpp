@@ -19,7 +19,9 @@ constexpr std::array kCodingAttributes = {
 // Attributes that OpenImageIO derives from the old pixels.
 constexpr std::array kPixelSummaries = {"oiio:SHA-1", "oiio:ConstantColor", "oiio:AverageColor"};
 
-OIIO::TypeDesc type_desc(PixelType type) { return OIIO::TypeDesc(std::string(pixel_type_name(type))); }
+std::string name_of(PixelType type) { return std::string(name_of(kPixelTypes, type)); }
+OIIO::TypeDesc type_desc(PixelType type) { return OIIO::TypeDesc(name_of(type)); }
+PixelType pixel_type(OIIO::TypeDesc type) { return value_named(kPixelTypes, type.c_str()).value(); }
 
 // The type in which `format` holds values of `type` with the least loss; none for unsupported formats.
 // OpenImageIO's own choice takes 8 bits even if the format has 16.
@@ -147,21 +149,19 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
 
   if (!output.supports("channelformats")) spec.channelformats.clear();
   const bool is_mixed = !spec.channelformats.empty() && !changes.type;
-  const PixelType type = changes.type.value_or(pixel_type_from_name(spec.format.c_str()).value());
+  const PixelType type = changes.type.value_or(pixel_type(spec.format));
   // Few programs read half in TIFF, so only a file that already has half keeps it.
   const bool keeps_half = format == "tiff" && model_format == format && model.format == OIIO::TypeHalf;
   const std::optional<PixelType> stored =
       keeps_half && type == PixelType::kHalf ? type : stored_type(format, type);
   if (!stored) fail("is not supported for writing (use --format exr, tif or png)");
   if (changes.type && *stored != *changes.type)
-    fail("cannot hold " + std::string(pixel_type_name(type)) + " pixels (use " +
-         std::string(pixel_type_name(*stored)) + ")");
+    fail("cannot hold " + name_of(type) + " pixels (use " + name_of(*stored) + ")");
   if (!is_mixed && type_desc(*stored) != model.format) spec.erase_attribute("oiio:BitsPerSample");
   if (!is_mixed) spec.set_format(type_desc(*stored));
 
   // Integers may have a transfer curve; floats are linear.
-  const bool loses_curve =
-      !is_mixed && is_integer(pixel_type_from_name(model.format.c_str()).value()) && !is_integer(*stored);
+  const bool loses_curve = !is_mixed && is_integer(pixel_type(model.format)) && !is_integer(*stored);
   if (changes.transfer)
     spec.attribute("oiio:ColorSpace", *changes.transfer == Transfer::kSrgb ? "sRGB" : "Linear");
   if (loses_curve) spec.attribute("oiio:ColorSpace", "Linear");

@@ -7,20 +7,11 @@
 
 #include "remap/error.hpp"
 #include "system/files.hpp"
-#include "text/named_values.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
 namespace {
-
-using Content = TargetChannel::Content;
-
-constexpr NamedValues<Layout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
-                                              {Layout::kSeparate, "separate"},
-                                              {Layout::kOrm, "orm"},
-                                              {Layout::kArm, "arm"},
-                                              {Layout::kSpecGloss, "specgloss"}}};
 
 void require_known_extension(const std::string& extension) {
   static const std::array<std::string, 9> kExtensions = {"exr",  "tif", "tiff", "png", "jpg",
@@ -87,9 +78,9 @@ TargetChannel content_of(const TextureSet& set, const ChannelPlace& place, const
                                          " (choose channels with FILE:CHANNEL)");
     held = parameter;
     const auto index = static_cast<std::size_t>(found - values.channels.begin());
-    if (is_wanted(choice, parameter)) content = TargetChannel::of(parameter, is_color(parameter) ? index : 0);
+    if (is_wanted(choice, parameter)) content = ConvertedChannel{parameter, is_color(parameter) ? index : 0};
   }
-  return content.value_or(TargetChannel::copy(place));
+  return content.value_or(place);
 }
 
 ImageChanges changes_of(const TargetChoice& choice) {
@@ -109,10 +100,13 @@ std::string own_name(const std::string& name, bool is_grey, const TextureSet& se
   return choice.names.before + name + choice.names.after + extension;
 }
 
-std::vector<TargetChannel>::const_iterator find_color(const std::vector<TargetChannel>& channels) {
-  return std::find_if(channels.begin(), channels.end(), [](const TargetChannel& channel) {
-    return channel.content == Content::kParameter && is_color(channel.parameter);
-  });
+// The first color that is converted into one of the channels.
+std::optional<Parameter> color_of(const std::vector<TargetChannel>& channels) {
+  for (const TargetChannel& channel : channels)
+    if (const auto* converted = std::get_if<ConvertedChannel>(&channel);
+        converted != nullptr && is_color(converted->parameter))
+      return converted->parameter;
+  return std::nullopt;
 }
 
 // The parameter whose file a result follows: the same parameter, or a color that it is made from.
@@ -130,25 +124,14 @@ Transfer color_transfer(const TextureSet& set, Parameter parameter) {
   return set.parameters.count(parameter) > 0 ? Transfer::kLinear : Transfer::kSrgb;
 }
 
-// The same for a file of this pixel type: only integers have a curve.
-Transfer stored_transfer(const TextureSet& set, Parameter parameter, PixelType type) {
-  return is_integer(type) ? color_transfer(set, parameter) : Transfer::kLinear;
-}
-
 // A new map, for a parameter that is a constant in the set or is in another file there.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
-  const auto color = find_color(channels);
-  PlannedPart part{set.first_map(), changes_of(choice), {}};
+  TargetPart part{set.first_map(), changes_of(choice), std::move(channels)};
+  const std::optional<Parameter> color = color_of(part.channels);
   part.changes.channels = channel_names;
-  part.changes.transfer = color == channels.end() ? Transfer::kLinear : color_transfer(set, color->parameter);
-  part.channels = std::move(channels);
+  part.changes.transfer = color ? color_transfer(set, *color) : Transfer::kLinear;
   return {choice.folder / own_name(name, channel_names.size() == 1, set, choice), {part}};
-}
-
-PlannedMap width_map(const TextureSet& set, const TargetChoice& choice) {
-  return new_map(file_name(Parameter::kWidth, choice), kGrey, {TargetChannel::of(Parameter::kWidth)}, set,
-                 choice);
 }
 
 // Three channels, or one if the color is grey in the set and stays grey.
@@ -158,7 +141,7 @@ std::vector<TargetChannel> color_channels(const TextureSet& set, Parameter param
   const bool is_grey =
       choice.colors_stay_grey && found != set.parameters.end() && found->second.channel_count() == 1;
   std::vector<TargetChannel> channels;
-  for (std::size_t c = 0; c < (is_grey ? 1u : 3u); ++c) channels.push_back(TargetChannel::of(parameter, c));
+  for (std::size_t c = 0; c < (is_grey ? 1u : 3u); ++c) channels.push_back(ConvertedChannel{parameter, c});
   return channels;
 }
 
@@ -167,7 +150,7 @@ PlannedMap color_map(const TextureSet& set, Parameter parameter, const TargetCho
   std::vector<std::string> names = channels.size() == 1 ? kGrey : kColor;
   const bool has_coverage = parameter == Parameter::kDiffuse || parameter == Parameter::kBaseColor;
   if (set.coverage && has_coverage) {
-    channels.push_back(TargetChannel::copy(*set.coverage));
+    channels.push_back(*set.coverage);
     names.push_back("A");
   }
   PlannedMap planned = new_map(file_name(parameter, choice), names, std::move(channels), set, choice);
@@ -177,28 +160,18 @@ PlannedMap color_map(const TextureSet& set, Parameter parameter, const TargetCho
 }
 
 TargetChannel carried_channel(const SetParameter& parameter) {
-  return parameter.is_map() ? TargetChannel::copy(parameter.channels.front())
-                            : TargetChannel::constant(parameter.constants.front());
+  if (parameter.is_map()) return parameter.channels.front();
+  return parameter.constants.front();
 }
 
 // A channel of a packed map: the converted metallic, a carried parameter, or the constant `otherwise`.
 TargetChannel packed_channel(const TextureSet& set, const std::string& name, float otherwise,
                              const TargetChoice& choice) {
   if (name == parameter_name(Parameter::kMetallic) && is_wanted(choice, Parameter::kMetallic))
-    return TargetChannel::of(Parameter::kMetallic);
+    return ConvertedChannel{Parameter::kMetallic};
   for (const CarriedParameter& carried : set.carried)
     if (carried.name == name) return carried_channel(carried.parameter);
-  return TargetChannel::constant(otherwise);
-}
-
-bool has_name(const TextureSet& set, const ChannelPlace& place) {
-  const auto holds = [&](const SetParameter& parameter) {
-    return std::find(parameter.channels.begin(), parameter.channels.end(), place) != parameter.channels.end();
-  };
-  const auto is_held = [&](const auto& entry) { return holds(entry.second); };
-  return place == set.coverage || std::any_of(set.parameters.begin(), set.parameters.end(), is_held) ||
-         std::any_of(set.carried.begin(), set.carried.end(),
-                     [&](const CarriedParameter& carried) { return holds(carried.parameter); });
+  return otherwise;
 }
 
 // Layouts other than kAsInputs hold named channels only, so an unnamed channel is an error and is not
@@ -207,7 +180,7 @@ void require_nothing_lost(const TextureSet& set) {
   for (std::size_t map = 0; map < set.maps.size(); ++map) {
     const ImageLayout& layout = set.maps[map].layout();
     for (std::size_t c = 0; c < layout.channels.size(); ++c) {
-      if (has_name(set, {map, c})) continue;
+      if (set.holds({map, c}) || set.coverage == ChannelPlace{map, c}) continue;
       throw Error(ErrorKind::kUsage,
                   set.maps[map].path().string() + ": channel " + layout.channels[c].name +
                       " would be lost (name it with --occlusion or --metallic FILE:CHANNEL, "
@@ -241,16 +214,14 @@ void add_copy(const fs::path& source, const fs::path& path, TargetPlan& plan) {
 // A file that holds one parameter.
 PlannedMap own_map(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
   if (is_color(parameter)) return color_map(set, parameter, choice);
-  if (parameter == Parameter::kWidth) return width_map(set, choice);
-  return new_map(file_name(parameter, choice), kGrey, {TargetChannel::of(parameter)}, set, choice);
+  return new_map(file_name(parameter, choice), kGrey, {ConvertedChannel{parameter}}, set, choice);
 }
 
 // The color of a file with one grey channel and nothing else, if the result must have three channels.
 std::optional<Parameter> grey_alone(const PlannedMap& planned, const TargetChoice& choice) {
   if (choice.colors_stay_grey || planned.parts.size() != 1) return std::nullopt;
   const std::vector<TargetChannel>& channels = planned.parts.front().channels;
-  if (channels.size() != 1 || find_color(channels) == channels.end()) return std::nullopt;
-  return channels.front().parameter;
+  return channels.size() == 1 ? color_of(channels) : std::nullopt;
 }
 
 TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
@@ -262,7 +233,7 @@ TargetPlan maps_as_inputs(const TextureSet& set, const TargetChoice& choice) {
     bool holds_something = false;
     for (const std::size_t map : parts_of_file(set, first)) {
       seen[map] = true;
-      PlannedPart part{map, changes_of(choice), {}};
+      TargetPart part{map, changes_of(choice), {}};
       for (std::size_t c = 0; c < set.maps[map].layout().channels.size(); ++c)
         part.channels.push_back(content_of(set, {map, c}, choice));
       const bool is_changed = std::any_of(part.channels.begin(), part.channels.end(), is_converted);
@@ -313,7 +284,7 @@ std::vector<PlannedMap> separate_maps(const TextureSet& set, const TargetChoice&
 std::vector<PlannedMap> specgloss_maps(const TextureSet& set, const TargetChoice& choice) {
   std::vector<TargetChannel> channels = color_channels(set, Parameter::kSpecular, choice);
   channels.resize(3, channels.front());  // grey in every color
-  channels.push_back(TargetChannel::of(Parameter::kWidth));
+  channels.push_back(ConvertedChannel{Parameter::kWidth});
   std::vector<PlannedMap> all = {
       new_map(file_name(Parameter::kSpecular, choice), kColorAndAlpha, channels, set, choice)};
   if (is_wanted(choice, Parameter::kDiffuse)) all.push_back(color_map(set, Parameter::kDiffuse, choice));
@@ -335,7 +306,7 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
   if (is_specgloss) return specgloss_maps(set, choice);
   std::vector<PlannedMap> all = {
       new_map(file_name(Parameter::kWidth, choice), kColor,
-              {packed_channel(set, "occlusion", 1.0f, choice), TargetChannel::of(Parameter::kWidth),
+              {packed_channel(set, "occlusion", 1.0f, choice), ConvertedChannel{Parameter::kWidth},
                packed_channel(set, "metallic", 0.0f, choice)},
               set, choice)};
   for (const Parameter parameter : choice.parameters)
@@ -348,10 +319,6 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
 std::string set_file_name(const fs::path& file, const ResultNames& names) {
   return names.before + file.stem().string() + names.after + file.extension().string();
 }
-
-std::optional<Layout> layout_from_name(std::string_view name) { return value_named(kLayouts, name); }
-
-std::vector<std::string> layout_names() { return names_of(kLayouts); }
 
 std::string file_name(Parameter parameter, const TargetChoice& choice) {
   const bool is_width = parameter == Parameter::kWidth;
@@ -372,14 +339,15 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
     require_nothing_lost(set);
     plan.maps = choice.layout == Layout::kSeparate ? separate_maps(set, choice) : packed_maps(set, choice);
   }
-  const auto add_named = [&](const std::string& file, const TargetChannel& channel) {
-    PlannedMap map = new_map("mask", kGrey, {channel}, set, choice);
-    map.path = choice.folder / set_file_name(file, choice.names);
+  for (const DiagnosisMap& diagnosis : choice.diagnoses) {
+    PlannedMap map = new_map(diagnosis.name, kGrey, {diagnosis.content}, set, choice);
+    map.path = choice.folder / set_file_name(diagnosis.name, choice.names);
     map.parts.front().changes.type = std::nullopt;
     plan.maps.push_back(map);
-  };
-  if (choice.mask) add_named(*choice.mask, TargetChannel::mask());
-  for (const MeasureMap& map : choice.measures) add_named(map.name, TargetChannel::of(map.measure));
+  }
+  for (PlannedMap& map : plan.maps)
+    for (TargetPart& part : map.parts)
+      if (const auto color = color_of(part.channels)) part.color_transfer = color_transfer(set, *color);
   for (const CopiedFile& file : choice.copies) {
     const bool keeps_name = file.name.empty() || choice.layout == Layout::kAsInputs;
     const std::string name =
@@ -397,18 +365,8 @@ std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& pla
   std::vector<TargetMap> targets;
   for (const PlannedMap& map : plan.maps) {
     std::vector<ImagePart> parts;
-    for (const PlannedPart& part : map.parts) parts.push_back({&set.maps[part.model], part.changes});
-    targets.push_back({ImageWriter(map.path, parts), {}});
-    TargetMap& target = targets.back();
-    for (std::size_t p = 0; p < map.parts.size(); ++p) {
-      const std::vector<TargetChannel>& channels = map.parts[p].channels;
-      target.parts.push_back({channels});
-      const auto color = find_color(channels);
-      if (color == channels.end()) continue;
-      const auto channel = static_cast<std::size_t>(color - channels.begin());
-      target.parts[p].color_transfer = stored_transfer(
-          set, color->parameter, target.writer.layout(static_cast<int>(p)).channels[channel].type);
-    }
+    for (const TargetPart& part : map.parts) parts.push_back({&set.maps[part.model], part.changes});
+    targets.push_back({ImageWriter(map.path, parts), map.parts});
   }
   return targets;
 }

@@ -4,29 +4,23 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "remap/named_values.hpp"
 #include "texture/texture_pass.hpp"
 
 namespace remap {
 
-// One part of a planned file.
-struct PlannedPart {
-  std::size_t model = 0;  // index of the map of the set that the part follows
-  ImageChanges changes;
-  std::vector<TargetChannel> channels;
-};
 struct PlannedMap {
   std::filesystem::path path;
-  std::vector<PlannedPart> parts;
+  std::vector<TargetPart> parts;
 };
 
 // A file of the material that is not converted but copied byte for byte.
 struct CopiedFile {
   std::filesystem::path source;
-  std::string
-      name;  // of the copy, without extension, in layouts that name their files; empty to keep its name
+  // Of the copy, without extension, in layouts that name their files; empty to keep the name of the file.
+  std::string name;
 };
 struct PlannedCopy {
   std::filesystem::path source;
@@ -46,8 +40,11 @@ enum class Layout {
   kArm,        // like kOrm, named arm
   kSpecGloss,  // specular_glossiness: specular, with glossiness in alpha; and diffuse
 };
-std::optional<Layout> layout_from_name(std::string_view name);
-std::vector<std::string> layout_names();
+inline constexpr NamedValues<Layout, 5> kLayouts = {{{Layout::kAsInputs, "as-inputs"},
+                                                     {Layout::kSeparate, "separate"},
+                                                     {Layout::kOrm, "orm"},
+                                                     {Layout::kArm, "arm"},
+                                                     {Layout::kSpecGloss, "specgloss"}}};
 
 // Text before and after the names of results without an input: `wood_` specular `.1001`.
 struct ResultNames {
@@ -58,9 +55,9 @@ struct ResultNames {
 // Adds this text to a file name: mask.png becomes `wood_mask.1001.png`.
 std::string set_file_name(const std::filesystem::path& file, const ResultNames& names);
 
-// A map with a diagnosis of the conversion.
-struct MeasureMap {
-  Parameter measure = Parameter::kResidual;
+// A map of one channel with a diagnosis of the conversion: the mask, or a measure.
+struct DiagnosisMap {
+  TargetChannel content;
   std::string name;  // of the file
 };
 
@@ -69,10 +66,9 @@ struct TargetChoice {
   std::vector<Parameter> parameters = {Parameter::kWidth, Parameter::kSpecular};  // to write
   std::string width_name = "roughness";  // name of a separate roughness file
   bool colors_stay_grey = true;          // colors that are grey in the set stay grey in a separate file
-  std::vector<MeasureMap> measures;
-  std::string extension;            // of all files; empty for those of the inputs
-  std::optional<PixelType> type;    // of all files
-  std::optional<std::string> mask;  // name of the file that marks texels outside the domain
+  std::vector<DiagnosisMap> diagnoses;
+  std::string extension;          // of all files; empty for those of the inputs
+  std::optional<PixelType> type;  // of all files
   ResultNames names;
   Layout layout = Layout::kAsInputs;
   std::vector<CopiedFile> copies;

@@ -4,17 +4,15 @@
 #include <cmath>
 #include <future>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 
-#include "maps/channel_rows.hpp"
 #include "maps/metallic_field.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
 namespace {
-
-using Content = TargetChannel::Content;
 
 // EXR compresses 1, 16 or 32 rows together (256 for dwab). Bands do not split such groups.
 constexpr std::size_t kChunkRows = 32;
@@ -30,16 +28,8 @@ struct Band {
   std::vector<std::vector<std::byte>> maps;
 };
 
-bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) {
-  return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
-                    [](const Channel& x, const Channel& y) { return x.type == y.type; });
-}
-
-template <typename Byte>
-BasicChannelView<Byte> view_of(Byte* texels, const ImageLayout& layout, std::size_t channel) {
-  return {texels + layout.channels[channel].offset, layout.channels[channel].type,
-          static_cast<std::ptrdiff_t>(layout.texel_bytes), static_cast<std::ptrdiff_t>(layout.row_bytes())};
-}
+// The channel of the set that a channel copies; null if it does not.
+const ChannelPlace* copied(const TargetChannel& channel) { return std::get_if<ChannelPlace>(&channel); }
 
 // A part of a file, with its writer.
 struct Target {
@@ -55,19 +45,12 @@ bool converts(const std::vector<Target>& targets) {
 
 // The maps that the targets need.
 std::vector<std::size_t> maps_needed(const TextureSet& set, const std::vector<Target>& targets) {
-  std::vector<bool> needed(set.maps.size());
-  if (converts(targets)) {
-    for (const auto& [parameter, values] : set.parameters)
-      for (const ChannelPlace& place : values.channels) needed[place.map] = true;
-    if (set.coverage) needed[set.coverage->map] = true;
-  }
+  std::set<std::size_t> maps;
+  if (converts(targets)) maps = set.maps_of_material();
   for (const Target& target : targets)
     for (const TargetChannel& channel : target.part->channels)
-      if (channel.content == Content::kCopy) needed[channel.from.map] = true;
-  std::vector<std::size_t> maps;
-  for (std::size_t map = 0; map < needed.size(); ++map)
-    if (needed[map]) maps.push_back(map);
-  return maps;
+      if (const ChannelPlace* from = copied(channel)) maps.insert(from->map);
+  return {maps.begin(), maps.end()};
 }
 
 // Parts that are written together. All files of one part form one round; of files with several parts, each
@@ -121,8 +104,11 @@ class Pass {
   MapStatistics convert(Band& band);
   void write(Band& band);
   std::byte* texels_of(std::size_t target, Band& band);
+  ConstChannelView view_of(const ChannelPlace& place, const Band& band) const {
+    return channel_view(band.maps[place.map].data(), set_.maps[place.map].layout(), place.channel);
+  }
   SourceParameter source_of(Parameter name, const SetParameter& parameter, const Band& band) const;
-  void add_target(const Target& target, const TargetChannel& channel, const ChannelView& view,
+  void add_target(const Target& target, const ConvertedChannel& channel, const ChannelView& view,
                   MapConversion& maps) const;
 
   TextureSet& set_;
@@ -157,32 +143,31 @@ Pass::Pass(TextureSet& set, const Round& round, const Converter& converter, cons
 
 int Pass::map_in_place(const Target& target) const {
   const auto& channels = target.part->channels;
-  const auto copy = std::find_if(channels.begin(), channels.end(),
-                                 [](const TargetChannel& c) { return c.content == Content::kCopy; });
-  const auto is_constant = [](const TargetChannel& c) { return c.content == Content::kConstant; };
+  const auto is_constant = [](const TargetChannel& c) { return std::holds_alternative<float>(c); };
   if (std::any_of(channels.begin(), channels.end(), is_constant)) return -1;
   const auto follows = [&](std::size_t map) {
     if (!same_pixel_types(set_.maps[map].layout(), target.writer->layout())) return false;
     for (std::size_t c = 0; c < channels.size(); ++c)
-      if (channels[c].content == Content::kCopy && channels[c].from != ChannelPlace{map, c}) return false;
+      if (const ChannelPlace* from = copied(channels[c]); from != nullptr && *from != ChannelPlace{map, c})
+        return false;
     return true;
   };
   // A map that another target copies from must not be overwritten.
   const auto is_shared = [&](std::size_t map) {
+    const auto is_from_map = [&](const TargetChannel& c) {
+      const ChannelPlace* from = copied(c);
+      return from != nullptr && from->map == map;
+    };
     return std::any_of(round_.targets.begin(), round_.targets.end(), [&](const Target& other) {
       return other.part != target.part &&
-             std::any_of(
-                 other.part->channels.begin(), other.part->channels.end(),
-                 [&](const TargetChannel& c) { return c.content == Content::kCopy && c.from.map == map; });
+             std::any_of(other.part->channels.begin(), other.part->channels.end(), is_from_map);
     });
   };
   const auto is_taken = [&](std::size_t map) {
     return std::find(in_place_.begin(), in_place_.end(), static_cast<int>(map)) != in_place_.end();
   };
-  for (const std::size_t map : round_.maps) {
-    if (copy != channels.end() && copy->from.map != map) continue;
+  for (const std::size_t map : round_.maps)
     if (follows(map) && !is_shared(map) && !is_taken(map)) return static_cast<int>(map);
-  }
   return -1;
 }
 
@@ -292,13 +277,11 @@ std::byte* Pass::texels_of(std::size_t target, Band& band) {
 
 SourceParameter Pass::source_of(Parameter name, const SetParameter& parameter, const Band& band) const {
   SourceParameter source;
-  source.constants = parameter.constants;
-  source.factors = parameter.factors;
-  source.transfer = parameter.transfer;
+  static_cast<ParameterValues&>(source) = parameter;
   source.name = parameter_option(name);
   for (const ChannelPlace& place : parameter.channels) {
     const ImageReader& reader = set_.maps[place.map];
-    source.channels.push_back(view_of(band.maps[place.map].data(), reader.layout(), place.channel));
+    source.channels.push_back(view_of(place, band));
     source.channel_names.push_back(reader.layout().channels[place.channel].name);
     source.name = reader.path().string();
     // Color transforms of lossy files turn grey into colors that differ by a step or two.
@@ -307,10 +290,8 @@ SourceParameter Pass::source_of(Parameter name, const SetParameter& parameter, c
   return source;
 }
 
-void Pass::add_target(const Target& target, const TargetChannel& channel, const ChannelView& view,
+void Pass::add_target(const Target& target, const ConvertedChannel& channel, const ChannelView& view,
                       MapConversion& maps) const {
-  if (channel.content == Content::kMask) maps.mask = view;
-  if (channel.content != Content::kParameter) return;
   TargetParameter& parameter = maps.targets[channel.parameter];
   // Equal channels are appended; the channels of a color have fixed places.
   const auto source = set_.parameters.find(channel.parameter);
@@ -320,7 +301,8 @@ void Pass::add_target(const Target& target, const TargetChannel& channel, const 
   const std::size_t place = is_copy ? parameter.channels.size() : channel.index;
   parameter.channels.resize(std::max(parameter.channels.size(), place + 1));
   parameter.channels[place] = view;
-  if (is_color(channel.parameter)) parameter.transfer = target.part->color_transfer;
+  // Only integers have a curve.
+  if (is_color(channel.parameter) && is_integer(view.type)) parameter.transfer = target.part->color_transfer;
 }
 
 MapConversion Pass::sources_of(const Band& band) const {
@@ -331,9 +313,7 @@ MapConversion Pass::sources_of(const Band& band) const {
   if (round_.is_converting) {
     for (const auto& [parameter, values] : set_.parameters)
       maps.sources[parameter] = source_of(parameter, values, band);
-    if (set_.coverage)
-      maps.coverage = view_of(std::as_const(band.maps[set_.coverage->map]).data(),
-                              set_.maps[set_.coverage->map].layout(), set_.coverage->channel);
+    if (set_.coverage) maps.coverage = view_of(*set_.coverage, band);
   }
   maps.source_convention = set_.convention;
   maps.bad_texels = options_.bad_texels;
@@ -348,27 +328,23 @@ MapStatistics Pass::convert(Band& band) {
     maps.sources[Parameter::kNearbyMetallic].channels = {
         float_channel(std::as_const(around_band_).data(), maps.width)};
   }
-  maps.target_convention = options_.target_convention;
-  maps.dither = options_.dither;
-  maps.value_statistics = options_.value_statistics;
-  maps.metallic_statistics = options_.metallic_statistics;
+  static_cast<MapTreatment&>(maps) = options_;
   std::size_t clipped = 0;
   for (std::size_t t = 0; t < round_.targets.size(); ++t) {
     const ImageLayout& layout = round_.targets[t].writer->layout();
     std::byte* texels = texels_of(t, band);
     for (std::size_t c = 0; c < layout.channels.size(); ++c) {
       const TargetChannel& channel = round_.targets[t].part->channels[c];
-      const ChannelView view = view_of(texels, layout, c);
-      add_target(round_.targets[t], channel, view, maps);
-      if (channel.content == Content::kConstant) {
-        const auto* value = reinterpret_cast<const std::byte*>(&channel.value);
-        clipped += copy_channel({value, PixelType::kFloat, 0, 0}, view, maps.width, maps.height);
-      }
-      if (channel.content == Content::kCopy && in_place_[t] < 0) {
-        const ConstChannelView from = view_of(std::as_const(band.maps[channel.from.map]).data(),
-                                              set_.maps[channel.from.map].layout(), channel.from.channel);
-        clipped += copy_channel(from, view, maps.width, maps.height);
-      }
+      const ChannelView view = channel_view(texels, layout, c);
+      if (const auto* converted = std::get_if<ConvertedChannel>(&channel))
+        add_target(round_.targets[t], *converted, view, maps);
+      else if (std::holds_alternative<MaskChannel>(channel))
+        maps.mask = view;
+      else if (const auto* value = std::get_if<float>(&channel))
+        clipped += copy_channel({reinterpret_cast<const std::byte*>(value), PixelType::kFloat, 0, 0}, view,
+                                maps.width, maps.height);
+      else if (const ChannelPlace* from = copied(channel); in_place_[t] < 0)
+        clipped += copy_channel(view_of(*from, band), view, maps.width, maps.height);
     }
   }
   MapStatistics statistics;
@@ -393,10 +369,6 @@ int level_count(const TextureSet& set, const Round& round) {
 }
 
 }  // namespace
-
-bool is_converted(const TargetChannel& channel) noexcept {
-  return channel.content != Content::kCopy && channel.content != Content::kConstant;
-}
 
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
                                const PassOptions& options) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <variant>
 #include <vector>
 
 #include "remap/convert_maps.hpp"
@@ -14,47 +15,24 @@
 
 namespace remap {
 
-// The content of a channel of a result.
-struct TargetChannel {
-  enum class Content { kParameter, kCopy, kConstant, kMask };
-  Content content = Content::kCopy;
-  Parameter parameter = Parameter::kWidth;  // for kParameter
-  std::size_t index = 0;                    // channel of the parameter
-  ChannelPlace from;                        // for kCopy
-  float value = 0.0f;                       // for kConstant
-
-  static TargetChannel of(Parameter made, std::size_t channel = 0) {
-    TargetChannel target;
-    target.content = Content::kParameter;
-    target.parameter = made;
-    target.index = channel;
-    return target;
-  }
-  static TargetChannel copy(ChannelPlace place) {
-    TargetChannel target;
-    target.from = place;
-    return target;
-  }
-  static TargetChannel constant(float stored) {
-    TargetChannel target;
-    target.content = Content::kConstant;
-    target.value = stored;
-    return target;
-  }
-  static TargetChannel mask() {
-    TargetChannel target;
-    target.content = Content::kMask;
-    return target;
-  }
+// The content of a channel of a result: a converted value, the mask of texels outside the domain, a copy of a
+// channel of the set, or one stored value for all texels.
+struct ConvertedChannel {
+  Parameter parameter = Parameter::kWidth;
+  std::size_t index = 0;  // channel of the parameter
 };
+struct MaskChannel {};
+using TargetChannel = std::variant<ConvertedChannel, MaskChannel, ChannelPlace, float>;
 
 // Whether a converter makes the channel, that is, it is neither a copy nor a constant.
-bool is_converted(const TargetChannel& channel) noexcept;
+inline bool is_converted(const TargetChannel& channel) noexcept { return channel.index() < 2; }
 
 // One part of a result.
 struct TargetPart {
+  std::size_t model = 0;  // index of the map of the set that the part follows
+  ImageChanges changes;
   std::vector<TargetChannel> channels;          // all channels of the part
-  Transfer color_transfer = Transfer::kLinear;  // of the converted colors
+  Transfer color_transfer = Transfer::kLinear;  // of the converted colors, where the file holds integers
 };
 
 // One result file.
@@ -63,16 +41,11 @@ struct TargetMap {
   std::vector<TargetPart> parts;
 };
 
-struct PassOptions {
+struct PassOptions : MapTreatment {
   int thread_count = 1;  // of the conversion; with more than 1, reading and writing overlap with it
   // Largest size of a band of the set, unless whole tiles need more. Two bands are in memory, or three if
   // pixel types change.
   std::size_t band_bytes = std::size_t{8} << 20;
-  std::optional<RoughnessConvention> target_convention;  // of the results; by default that of the model
-  BadTexels bad_texels = BadTexels::kKeep;
-  bool dither = false;
-  bool value_statistics = false;     // ranges and histograms
-  bool metallic_statistics = false;  // reliability of metallic
   // Undetermined metallic follows the metallic around it as far as that has no visible effect. Maps are read
   // twice. The converter must be able to diagnose.
   bool smooth_metallic = false;

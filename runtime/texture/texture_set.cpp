@@ -231,14 +231,6 @@ void require_factors(std::string_view option, const SetParameter& parameter) {
                                        std::to_string(parameter.channel_count()) + " channels)");
 }
 
-bool holds_parameter(const TextureSet& set, const ChannelPlace& place) {
-  const std::vector<const SetParameter*> parameters = mapped_parameters(set);
-  return std::any_of(parameters.begin(), parameters.end(), [&](const SetParameter* parameter) {
-    return std::find(parameter->channels.begin(), parameter->channels.end(), place) !=
-           parameter->channels.end();
-  });
-}
-
 std::optional<ChannelPlace> find_coverage(const TextureSet& set) {
   for (const Parameter parameter : {Parameter::kDiffuse, Parameter::kBaseColor}) {
     const SetParameter* color = set.map_of(parameter);
@@ -247,7 +239,7 @@ std::optional<ChannelPlace> find_coverage(const TextureSet& set) {
     const int alpha = set.maps[map].layout().alpha_channel;
     if (alpha < 0) continue;
     const ChannelPlace place{map, static_cast<std::size_t>(alpha)};
-    if (!holds_parameter(set, place)) return place;
+    if (!set.holds(place)) return place;
   }
   return std::nullopt;
 }
@@ -283,6 +275,22 @@ std::vector<float> parse_factors(std::string_view option, std::string_view text)
   const auto values = numbers(text);
   require_usable(option, text, values.value_or(std::vector<float>{}), "one or three finite factors from 0");
   return *values;
+}
+
+bool TextureSet::holds(const ChannelPlace& place) const {
+  const std::vector<const SetParameter*> mapped = mapped_parameters(*this);
+  return std::any_of(mapped.begin(), mapped.end(), [&](const SetParameter* parameter) {
+    return std::find(parameter->channels.begin(), parameter->channels.end(), place) !=
+           parameter->channels.end();
+  });
+}
+
+std::set<std::size_t> TextureSet::maps_of_material() const {
+  std::set<std::size_t> used;
+  for (const auto& [parameter, values] : parameters)
+    for (const ChannelPlace& place : values.channels) used.insert(place.map);
+  if (coverage) used.insert(coverage->map);
+  return used;
 }
 
 std::size_t TextureSet::first_map() const {

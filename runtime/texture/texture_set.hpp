@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -62,12 +63,9 @@ struct ChannelPlace {
 };
 
 // One parameter of an open set.
-struct SetParameter {
-  std::vector<ChannelPlace>
-      channels;  // empty for a constant; several channels of a parameter other than a color are equal
-  ConstantValues constants;
-  std::vector<float> factors;
-  Transfer transfer = Transfer::kLinear;
+struct SetParameter : ParameterValues {
+  // Empty for a constant. Several channels of a parameter other than a color are equal.
+  std::vector<ChannelPlace> channels;
   bool transfer_is_guessed = false;
 
   bool is_map() const noexcept { return !channels.empty(); }
@@ -95,6 +93,10 @@ struct TextureSet {
     const auto found = parameters.find(parameter);
     return found == parameters.end() || !found->second.is_map() ? nullptr : &found->second;
   }
+  // Whether a parameter, carried ones included, has this channel.
+  bool holds(const ChannelPlace& place) const;
+  // The maps with channels of parameters or coverage.
+  std::set<std::size_t> maps_of_material() const;
   // The map of the first parameter that has one. It has the size of the set. Throws kUsage if no parameter is
   // a map.
   std::size_t first_map() const;

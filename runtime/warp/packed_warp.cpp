@@ -7,7 +7,7 @@
 namespace remap {
 namespace {
 
-constexpr std::size_t kLanes = 4;  // dimensions, and what fills them up
+constexpr std::size_t kLanes = 4;  // dimensions, padded
 
 PackedSeparable packed_terms(const AppearanceCoordinates& space, const SeparableTerms& terms) {
   const std::size_t n = space.dimension, nodes = width_node_count(space, terms);

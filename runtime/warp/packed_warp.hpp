@@ -1,5 +1,5 @@
-// A compiled warp laid out for its pass: what warp/code reads, here and in generated headers. Both take their
-// numbers from here, so that both give the same bits.
+// The memory layout of a compiled warp for warp/code. Generated headers contain the same numbers, so that
+// both give the same bits.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 namespace remap {
 
 struct PackedSeparable {
-  std::vector<float> diffuse;      // 3 x 4: weights of a channel for each dimension; 0
-  std::vector<float> width_nodes;  // nodes of alpha x 4 x 4: the same of specular, then offsets
+  std::vector<float> diffuse;      // 3 x 4: weights of a channel for each dimension, then 0
+  std::vector<float> width_nodes;  // nodes of alpha x 4 x 4: the same for specular, then offsets
   std::int32_t last_width = 0;     // the last node of alpha but one
 };
 
@@ -23,12 +23,12 @@ struct PackedQuadratic {
 };
 
 struct PackedBlended {
-  std::vector<float> entries;  // nodes x 8: parameters as they are, and 0
+  std::vector<float> entries;  // nodes x 8: decoded parameters, then 0
 };
 
 struct PackedCopied {
   std::vector<std::uint16_t> indices;
-  std::vector<float> palette;  // texels x 7, and one number more
+  std::vector<float> palette;  // texels x 7, then one 0
 };
 
 struct PackedWarp {

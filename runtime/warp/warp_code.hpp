@@ -8,13 +8,13 @@
 #include <cstring>
 #include <utility>
 
-#if defined(__clang__)  // a loop that cannot be vectorised is no fault
+#if defined(__clang__)  // silences the warning about loops that cannot be vectorised
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Wpass-failed"
 #endif
 
 namespace remap::warp_code {
-// Each needs those before it.
+// Each depends on those before it.
 // clang-format off
 #include "workflow/code/floats.inc"
 #include "workflow/code/rows.inc"

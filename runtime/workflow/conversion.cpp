@@ -24,7 +24,7 @@ std::array<Pointer, Count> rows(std::span<const Pointer> given, const char* what
   return all;
 }
 
-// A network is interpreted in double precision, a texel at a time: what its header is held against.
+// Interprets a network in double precision, texel by texel.
 std::size_t interpret(const Network& network, const code::Conventions& use,
                       const std::array<const float*, 7>& in, const std::array<float*, 5>& out) {
   code::HeldBlock<7, code::kMetallicBlock> block;
@@ -45,7 +45,7 @@ std::size_t interpret(const Network& network, const code::Conventions& use,
   return outside;
 }
 
-// The block of the formula that leads to metallic.
+// Converts a block to metallic by a formula.
 struct ConvertBlock {
   const code::Conventions& use;
   const std::array<const float*, 7>& in;

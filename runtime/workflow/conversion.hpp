@@ -1,6 +1,6 @@
-// Materials from one workflow to the other, in memory. Closed forms take floats throughout, and give bit for
-// bit what the generated header of the same conversion gives where products and sums are not fused. Networks
-// are interpreted in double precision: the oracle of their headers.
+// Converts materials from one workflow to the other in memory. Closed forms use floats, with the same bits as
+// the generated header of the conversion if products and sums are not fused. Networks are interpreted in
+// double precision, to test their headers.
 #pragma once
 
 #include <array>
@@ -22,15 +22,14 @@ struct MetallicMaterial {
   float width = 0.0f;
 };
 
-// `count` texels. `in` and `out`: one row of texels a channel, in the order of source_parameters() and
-// target_parameters(); an output row may be exactly any input row, other rows may not overlap. Values beyond
-// 0 to 1 are held there; NaN makes the outputs that depend on it NaN. Returns the number of texels that had
-// such values. Throws kUsage for another number of rows, kInput for a conversion that require_valid()
-// refuses.
+// Converts `count` texels. `in` and `out`: one row per channel, in the order of source_parameters() and
+// target_parameters(). An output row may equal an input row; other rows must not overlap. Values outside [0,
+// 1] are clamped; NaN makes the outputs that depend on it NaN. Returns the number of texels with such values.
+// Throws kUsage for a wrong number of rows, and the errors of require_valid().
 std::size_t convert_workflow(const WorkflowConversion& conversion, std::size_t count,
                              std::span<const float* const> in, std::span<float* const> out);
 
-// One texel. Throws kUsage for a conversion in the other direction.
+// Converts one texel. Throws kUsage for a conversion in the other direction.
 MetallicMaterial to_metallic(const WorkflowConversion& conversion, const SpecularMaterial& material);
 SpecularMaterial to_specular(const WorkflowConversion& conversion, const MetallicMaterial& material);
 

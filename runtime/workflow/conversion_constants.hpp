@@ -1,4 +1,4 @@
-// A conversion as the constants of its formulas; for those who run them.
+// The constants of a conversion for its formulas.
 #pragma once
 
 #include "remap/workflow.hpp"

@@ -45,7 +45,7 @@ float width_of(const code::Texel& texel, const code::Conventions& use) {
   return code::metallic_width(errors.data(), code::good_error(texel, use));
 }
 
-// Root mean square of the residuals of the projection.
+// The root mean square of the residuals of the projection.
 double mean_residual(const WorkflowConversion& conversion, std::span<const SpecularMaterial> materials,
                      double f0) {
   WorkflowConversion tried = conversion;
@@ -64,7 +64,7 @@ double mean_residual(const WorkflowConversion& conversion, std::span<const Specu
   return std::sqrt(sum / static_cast<double>(count));
 }
 
-// Where a function that falls and rises is least, by golden sections (Kiefer 1953).
+// The argument that minimises a unimodal function, by golden sections (Kiefer 1953).
 template <typename Function>
 double least_argument(const Function& function, double low, double high) {
   constexpr double kGolden = 0.6180339887498949;

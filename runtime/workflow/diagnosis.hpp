@@ -1,4 +1,4 @@
-// What a metallic material cannot say of the specular one that it stands for.
+// The reliability of a metallic material that was made from a specular one.
 #pragma once
 
 #include <span>
@@ -7,38 +7,37 @@
 
 namespace remap {
 
-// Of one texel.
+// The diagnosis of one texel.
 struct MetallicDiagnosis {
-  // Square root of the weighted squared error that the conversion leaves; the difference of the pictures
-  // under natural light is about 0.42 of it, as root mean square of display values. 0: an exact match.
+  // Square root of the remaining weighted squared error; 0 for an exact match. Pictures under natural light
+  // differ by about 0.42 of it, as root mean square of display values.
   float residual = 0.0f;
-  // Share of [0, 1] in which metallic could lie with a squared error within (1/255)^2 of the least,
-  // each metallic with the base color that is best for it. Above 0.2 metallic is a guess on which the
-  // picture does not depend.
+  // Share of [0, 1] in which metallic, with the best base color for it, has a squared error within (1/255)^2
+  // of the least one. Above 0.2 metallic is undetermined, without effect on the picture.
   float metallic_width = 0.0f;
-  // Whether a parameter was beyond 0 to 1, or a channel asks for a base color beyond it by more than half a
-  // step of 8 bits.
+  // Whether a parameter, or by more than half a step of 8 bits the base color of a channel, was outside [0,
+  // 1].
   bool is_clamped = false;
 };
 
-// Of `result`, which any method may have made of `material`. Weights and errors are those of the projection;
-// its prior has no part in them. All fields of a texel that holds NaN: NaN, NaN, true. Throws kInput as
-// require_valid() does.
+// Diagnoses `result`, which any method may have made from `material`. Weights and errors are those of the
+// projection without its prior. NaN in the texel gives {NaN, NaN, true}. Throws the errors of
+// require_valid().
 MetallicDiagnosis diagnose(const WorkflowConversion& conversion, const SpecularMaterial& material,
                            const MetallicMaterial& result);
 
-// The F0 of a dielectric that maps were made with, estimated as that of least residual.
+// The F0 of dielectrics in maps, estimated as the F0 with the least residual.
 struct DielectricF0 {
   double f0 = kCommonDielectricF0;
   double residual = 0.0;  // root mean square over the texels, at this F0
-  // Whether the residual 0.01 beside it is at least twice as large: texels that are all metal, or whose maps
-  // follow no metallic material, do not tell.
+  // Whether the residual at a distance of 0.01 is at least twice as large. It is not if all texels are metal,
+  // or if the maps do not follow any metallic material.
   bool is_certain = false;
 };
 
-// `materials`: texels of a map, some thousand of all its parts are enough; those with NaN are passed over.
-// `conversion` gives the conventions; its own F0 is not used. The diffuse convention cannot be told from the
-// residual, so it must be known. F0 is looked for in 0 to 0.12. Throws kInput where no texel is left.
+// `materials`: texels of a map; some thousand from all its parts suffice, and those with NaN are skipped.
+// `conversion` gives the conventions; its own F0 is not used. The diffuse convention must be known, because
+// it does not show in the residual. F0 is searched in 0 to 0.12. Throws kInput if all texels have NaN.
 DielectricF0 estimate_dielectric_f0(const WorkflowConversion& conversion,
                                     std::span<const SpecularMaterial> materials);
 

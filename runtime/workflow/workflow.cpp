@@ -3,16 +3,11 @@
 #include <array>
 
 #include "remap/error.hpp"
-#include "text/named_values.hpp"
 #include "text/number_text.hpp"
 
 namespace remap {
 namespace {
 
-constexpr NamedValues<DiffuseConvention, 2> kDiffuseConventions = {
-    {{DiffuseConvention::kPlain, "plain"}, {DiffuseConvention::kScaled, "scaled"}}};
-constexpr NamedValues<MetallicMean, 2> kMeans = {
-    {{MetallicMean::kPlain, "plain"}, {MetallicMean::kAlbedo, "albedo"}}};
 constexpr double kLargestDielectricF0 = 0.9;
 
 struct Name {
@@ -92,19 +87,6 @@ std::vector<MaterialParameter> parameters(const MetallicWorkflow& workflow) {
 }
 
 }  // namespace
-
-std::string_view diffuse_convention_name(DiffuseConvention convention) {
-  return name_of(kDiffuseConventions, convention);
-}
-std::optional<DiffuseConvention> diffuse_convention_from_name(std::string_view name) {
-  return value_named(kDiffuseConventions, name);
-}
-std::vector<std::string> diffuse_convention_names() { return names_of(kDiffuseConventions); }
-
-std::string_view metallic_mean_name(MetallicMean mean) { return name_of(kMeans, mean); }
-std::optional<MetallicMean> metallic_mean_from_name(std::string_view name) {
-  return value_named(kMeans, name);
-}
 
 std::string_view formula_name(const WorkflowFormula& formula) { return std::visit(Name{}, formula); }
 

@@ -1,6 +1,6 @@
-// The formulas of workflow conversions: the very text that generated headers hold
-// (compiler/emit/workflow_code.cpp), so that both give the same bits; and, for this program alone, those of
-// the diagnosis.
+// The formulas of workflow conversions, from the same text as generated headers
+// (compiler/emit/workflow_code.cpp) so that both give the same bits, and those of the diagnosis, which only
+// this program uses.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 #include <cstring>
 #include <utility>
 
-#if defined(__clang__)  // a loop that cannot be vectorised is no fault
+#if defined(__clang__)  // silences the warning about loops that cannot be vectorised
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Wpass-failed"
 #endif
 
 namespace remap::workflow_code {
-// Each needs those before it.
+// Each depends on those before it.
 // clang-format off
 #include "workflow/code/floats.inc"
 #include "workflow/code/conventions.inc"

@@ -1,20 +1,13 @@
 #include "remap/workflow_models.hpp"
 
-#include <array>
-
-#include "text/named_values.hpp"
-
 namespace remap {
 namespace {
-
-constexpr NamedValues<WorkflowKind, 2> kKinds = {
-    {{WorkflowKind::kSpecular, "specular"}, {WorkflowKind::kMetallic, "metallic"}}};
 
 constexpr auto kPlain = DiffuseConvention::kPlain, kScaled = DiffuseConvention::kScaled;
 constexpr auto kRoughness = RoughnessConvention::kRoughness, kGlossiness = RoughnessConvention::kGlossiness;
 
-// All of these have GGX lobes of alpha = roughness^2. Where a converter was measured with the renderer's own
-// lobe, that is the BRDF; the others stand on Mitsuba's GGX.
+// All of these have GGX lobes of alpha = roughness^2. The BRDF is the renderer's own lobe if a converter was
+// measured with it, else Mitsuba's GGX.
 std::vector<WorkflowModel> make_models() {
   return {
       {MetallicWorkflow{"gltf", kCommonDielectricF0, kScaled, kRoughness}, "mitsuba/ggx", true,
@@ -40,12 +33,6 @@ std::vector<WorkflowModel> make_models() {
 
 }  // namespace
 
-std::string_view workflow_kind_name(WorkflowKind kind) { return name_of(kKinds, kind); }
-std::optional<WorkflowKind> workflow_kind_from_name(std::string_view name) {
-  return value_named(kKinds, name);
-}
-std::vector<std::string> workflow_kind_names() { return names_of(kKinds); }
-
 const std::vector<WorkflowModel>& workflow_models() {
   static const std::vector<WorkflowModel> models = make_models();
   return models;
@@ -60,7 +47,7 @@ const WorkflowModel* find_workflow_model(std::string_view name) {
 WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, RoughnessConvention width) {
   WorkflowModel model;
   model.brdf = brdf;
-  model.reason = "a " + std::string(workflow_kind_name(kind)) + " layer over " + brdf;
+  model.reason = "a " + std::string(name_of(kWorkflowKinds, kind)) + " layer over " + brdf;
   if (kind == WorkflowKind::kSpecular)
     model.end = SpecularWorkflow{brdf, kPlain, width};
   else

@@ -74,7 +74,7 @@ TEST_CASE("remapc import: a table measures the errors") {
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
   CHECK(result.output.find("\"rows\": 24") != std::string::npos);
-  CHECK(load_fit(session.path("fits/my_svr.json")).roughness_error.rms > 0.0);
+  CHECK(load_fit(session.path("fits/my_svr.json")).alpha_error.rms > 0.0);
   const ProcessResult shown = session.remapc({"show", "my_svr", "--fits", session.path("fits")});
   CHECK(shown.output.find("24 rows (trained elsewhere)") != std::string::npos);
 }

@@ -81,7 +81,7 @@ Parametric random_parametric(Random* random) {
   for (std::size_t j = 0; j < rows; ++j) {
     std::vector<double> row;
     for (std::size_t i = random->count(1, 6); i-- > 0;) row.push_back(random->normal() * wildness);
-    form.roughness.push_back(row);
+    form.alpha.push_back(row);
   }
   const double wild_specular = random->chance(0.7) ? 1.0 : random->magnitude(1e-6, 1e4);
   if (random->chance(0.4)) {

@@ -40,7 +40,7 @@ struct Least {
 
 double alpha_derivative(const Parametric& form, double alpha, double specular) {
   double sum = 0.0, specular_power = 1.0;
-  for (const std::vector<double>& row : form.roughness) {
+  for (const std::vector<double>& row : form.alpha) {
     double polynomial = 0.0;
     for (std::size_t i = row.size(); i-- > 0;)
       polynomial = polynomial * alpha + static_cast<double>(i + 1) * row[i];
@@ -68,7 +68,7 @@ std::string place(const Least& least, bool with_specular) {
 
 void require_rising_alpha(const Parametric& form, const remap::Domain& domain) {
   Least least;
-  const bool flat = form.roughness.size() == 1;  // the same at every specular
+  const bool flat = form.alpha.size() == 1;  // the same at every specular
   for (int i = 0; i <= kAlphaSteps; ++i) {
     const double alpha = grid_value(domain.alpha, i, kAlphaSteps);
     for (int j = flat ? kSpecularSteps : 0; j <= kSpecularSteps; ++j) {
@@ -142,7 +142,7 @@ Parametric fit_parametric(const std::vector<TableRow>& rows, const remap::Domain
                           const ParametricForm& form, const Parametric* near) {
   Parametric fit;
   fit.specular = fit_specular_terms(rows, *form.specular, near == nullptr ? nullptr : &near->specular);
-  fit.roughness = fit_roughness(rows, *form.roughness);
+  fit.alpha = fit_roughness(rows, *form.roughness);
   require_rising_alpha(fit, domain);
   require_rising_specular(fit, domain, least_positive_specular(rows));
   return fit;

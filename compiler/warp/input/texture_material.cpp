@@ -3,7 +3,7 @@
 #include "discovery/discovery.hpp"
 #include "remap/convert_maps.hpp"
 #include "remap/error.hpp"
-#include "remap/material_rows.hpp"
+#include "remap/workflow_converter.hpp"
 #include "texture/texture_set.hpp"
 #include "warp/input/image_texels.hpp"
 

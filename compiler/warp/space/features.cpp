@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "remap/error.hpp"
-#include "text/named_values.hpp"
+#include "remap/named_values.hpp"
 #include "warp/space/sampled_features.hpp"
 
 namespace remapc {

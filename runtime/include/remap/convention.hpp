@@ -1,11 +1,13 @@
-// How a BRDF model names its width: every convention is an exact, invertible function of alpha, the
-// microfacet width in which sweeps and fits run.
+// The parameters by which BRDF models state the microfacet width. Each is an invertible function of alpha, in
+// which sweeps and fits work.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "remap/named_values.hpp"
 
 namespace remap {
 
@@ -17,15 +19,24 @@ enum class RoughnessConvention {
   kSquared,     // alpha^2, the square that the formulas of microfacet distributions hold
 };
 
-// Own parameter to alpha and back, in double precision. Exact inverses of each other up to rounding on
-// alpha in (0, 1]; the exponent of alpha = 0 is infinite.
+// Converts the model's own parameter to alpha and back. The functions are inverses up to rounding for alpha
+// in (0, 1]; the exponent of alpha 0 is infinite.
 double to_alpha(RoughnessConvention convention, double own);
 double from_alpha(RoughnessConvention convention, double alpha);
 
-// `alpha`, `roughness`, `exponent`, `glossiness`, `squared`: the word in fits and tables, and the name of the
-// parameter in generated headers.
-std::string_view convention_name(RoughnessConvention convention);
-std::optional<RoughnessConvention> convention_from_name(std::string_view name);
-std::vector<std::string> convention_names();
+// The names in fits and tables, and of the parameter in generated headers.
+inline constexpr NamedValues<RoughnessConvention, 5> kConventions = {
+    {{RoughnessConvention::kAlpha, "alpha"},
+     {RoughnessConvention::kRoughness, "roughness"},
+     {RoughnessConvention::kExponent, "exponent"},
+     {RoughnessConvention::kGlossiness, "glossiness"},
+     {RoughnessConvention::kSquared, "squared"}}};
+inline std::string_view convention_name(RoughnessConvention convention) {
+  return name_of(kConventions, convention);
+}
+inline std::optional<RoughnessConvention> convention_from_name(std::string_view name) {
+  return value_named(kConventions, name);
+}
+inline std::vector<std::string> convention_names() { return names_of(kConventions); }
 
 }  // namespace remap

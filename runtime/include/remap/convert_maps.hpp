@@ -20,11 +20,8 @@
 namespace remap {
 
 // The values of one source parameter: channels of a map, or constants.
-struct SourceParameter {
+struct SourceParameter : ParameterValues {
   std::vector<ConstChannelView> channels;
-  std::vector<float> constants;            // linear; used if `channels` is empty
-  std::vector<float> factors;              // of the linear values: none, one, or one per channel
-  Transfer transfer = Transfer::kLinear;   // of the stored values
   float grey_tolerance = 0.0f;             // largest difference between copies of one value
   std::string name;                        // file or buffer, for messages
   std::vector<std::string> channel_names;  // one per channel, for messages
@@ -44,7 +41,15 @@ enum class BadTexels {
   kFail,   // the first invalid value ends the conversion
 };
 
-struct MapConversion {
+struct MapTreatment {
+  std::optional<RoughnessConvention> target_convention;  // of the results; by default that of the model
+  BadTexels bad_texels = BadTexels::kKeep;
+  bool dither = false;               // add noise of half a step to 8-bit integers, equal in every run
+  bool value_statistics = false;     // fill in ranges and histograms
+  bool metallic_statistics = false;  // fill in the reliability of metallic, which takes time
+};
+
+struct MapConversion : MapTreatment {
   std::size_t width = 0;
   std::size_t height = 0;
   // Every source of the converter, and optional ones. Colors have 1 or 3 channels or constants. Other
@@ -57,15 +62,9 @@ struct MapConversion {
   // Opacity. Texels with coverage 0 or less are converted like all others, but are left out of the
   // statistics.
   std::optional<ConstChannelView> coverage;
-  // The encoding of the roughness in the maps; by default that of the model.
-  std::optional<RoughnessConvention> source_convention;
-  std::optional<RoughnessConvention> target_convention;
-  std::optional<ChannelView> mask;  // receives 1 for texels outside the domain, else 0
-  BadTexels bad_texels = BadTexels::kKeep;
-  bool dither = false;               // add noise of half a step to 8-bit integers, equal in every run
-  bool value_statistics = false;     // fill in ranges and histograms
-  bool metallic_statistics = false;  // fill in the reliability of metallic, which takes time
-  std::size_t first_row = 0;         // position of row 0 in the whole map, for positions and dithering
+  std::optional<RoughnessConvention> source_convention;  // of the roughness; by default that of the model
+  std::optional<ChannelView> mask;                       // receives 1 for texels outside the domain, else 0
+  std::size_t first_row = 0;  // position of row 0 in the whole map, for positions and dithering
 };
 
 // Converts every texel. The results equal those of Converter::convert for each texel, for any number

@@ -1,5 +1,5 @@
-// A fit: the learned mapping from the parameters of one BRDF model to those of another, as plain data.
-// Written by remapc, stored as JSON (fit_json.hpp), evaluated by the interpreter, compiled by the emitter.
+// A fit: the mapping from the parameters of one BRDF model to those of another. remapc writes it as JSON
+// (fit_json.hpp), the interpreter evaluates it, and the emitter compiles it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
-// One end of a conversion: a model by name (`renderer/brdf`) and what its two parameters mean.
+// One end of a conversion: a model and the meaning of its two parameters.
 struct ModelSide {
   std::string model;                                            // e.g. "mitsuba/ward"
   RoughnessConvention roughness = RoughnessConvention::kAlpha;  // the model's own width parameter
@@ -28,9 +28,9 @@ struct ModelSide {
   bool operator==(const ModelSide&) const = default;
 };
 
-// Where the table has data. Outside, alpha is clamped and specular is extrapolated in proportion.
+// The range of the table's data. Outside, alpha is clamped and specular is extrapolated in proportion.
 struct Domain {
-  Range alpha;     // of the source, canonical width
+  Range alpha;     // of the source
   Range specular;  // of the source, linear, any channel
   bool operator==(const Domain&) const = default;
 };
@@ -43,8 +43,7 @@ struct ErrorFigures {
   bool operator==(const ErrorFigures&) const = default;
 };
 
-// How the figures were made: rows of the table that trained, that were held out, and that were left out by
-// status.
+// The rows of the table that trained, that were held out for the figures, and that were not used.
 struct Split {
   std::uint64_t seed = 0;
   double held_out_fraction = 0.0;
@@ -54,19 +53,18 @@ struct Split {
   bool operator==(const Split&) const = default;
 };
 
-// The table that was fitted: file name without folder, SHA-256 of its bytes, and its `# key: value` comments,
-// which hold the options of the sweep.
+// The table that was fitted.
 struct TableRecord {
-  std::string name;
-  std::string sha256;
-  std::map<std::string, std::string> comments;
+  std::string name;                             // of the file, without folder
+  std::string sha256;                           // of its bytes
+  std::map<std::string, std::string> comments;  // `# key: value`: the options of the sweep
   bool operator==(const TableRecord&) const = default;
 };
 
-// One line of the comparison that `--model auto` decided from (compiler/fit/comparison.hpp).
+// One row of the comparison by which `--model auto` decided (compiler/fit/comparison.hpp).
 struct Candidate {
   std::string name;                   // kind, or named form of it
-  std::size_t number_count = 0;       // numbers that it consists of: its simplicity
+  std::size_t number_count = 0;       // of its coefficients: its complexity
   ErrorFigures alpha, specular;       // of cross-validation, all folds
   double alpha_standard_error = 0.0;  // of alpha.rms over the folds
   double specular_standard_error = 0.0;
@@ -75,7 +73,7 @@ struct Candidate {
   double raw_edge_alpha_rms = 0.0;  // the same without the domain rule
   double raw_edge_specular_rms = 0.0;
   double chroma_shift = 0.0;  // largest change of chromaticity beyond the domain, without the domain rule
-  std::string verdict;        // `chosen`, or why it was not
+  std::string verdict;        // `chosen`, or the reason against it
   bool operator==(const Candidate&) const = default;
 };
 
@@ -87,7 +85,7 @@ struct SphereSimilarity {
   bool operator==(const SphereSimilarity&) const = default;
 };
 
-// How alike the two models can be at all, whatever the fit: over the rows of the table in the domain.
+// How well the two models can match, independent of the fit: over the rows of the table in the domain.
 struct ImageSimilarity {
   ErrorFigures image_error;  // difference of the pictures relative to the source's, as the match weighs them
   std::vector<SphereSimilarity> ssim;  // by rising alpha; empty where no spheres were compared
@@ -100,34 +98,32 @@ struct Fit {
   ModelSide target;
   Domain domain;
   MappingKind mapping;
-  std::map<std::string, std::string> method;  // how it was regressed: hyper-parameters, search, starts
-  std::vector<Candidate> candidates;          // what `auto` chose from; empty otherwise
-  ErrorFigures roughness_error;               // of the target's alpha
-  ErrorFigures specular_error;                // of the target's specular
-  std::optional<ImageSimilarity>
-      image_similarity;              // none where no pictures were compared: published formulas
-  std::vector<std::string> remarks;  // for the card, a line each: sources, errata, limits of the pair
+  std::map<std::string, std::string> method;        // of the regression: hyper-parameters, search, starts
+  std::vector<Candidate> candidates;                // of `auto`; else empty
+  ErrorFigures alpha_error;                         // of the target's alpha
+  ErrorFigures specular_error;                      // of the target's specular
+  std::optional<ImageSimilarity> image_similarity;  // none for published formulas, without pictures
+  std::vector<std::string> remarks;                 // lines of the card: sources, errata, limits of the pair
   Split split;
   TableRecord table;
   std::string tool_version;
-  // Whether the errors are known: formulas that were taken from elsewhere have been held against no rows.
-  bool has_errors() const { return roughness_error != ErrorFigures{} || specular_error != ErrorFigures{}; }
+  // Whether the errors are known. Formulas from publications were not compared with rows.
+  bool has_errors() const { return alpha_error != ErrorFigures{} || specular_error != ErrorFigures{}; }
   bool operator==(const Fit&) const = default;
 };
 
-// `mitsuba/ward` and `mitsuba/as` to `mitsuba_ward_to_mitsuba_as`: every character that an identifier cannot
-// hold becomes an underscore.
+// `mitsuba_ward_to_mitsuba_as` for `mitsuba/ward` and `mitsuba/as`: characters that an identifier cannot hold
+// become underscores.
 std::string converter_id(const std::string& source_model, const std::string& target_model);
 
-// Whether `id` can name a namespace and a file: a C++ identifier that is no keyword, without a leading or
+// Whether `id` can name a namespace and a file: a C++ identifier other than a keyword, without a leading or
 // doubled underscore.
 bool is_valid_id(const std::string& id);
 
-// Whether `name` can name a model: letters, digits and `_ - . /`, so that it can stand in file names,
-// messages and generated code as it is.
+// Whether `name` can name a model in file names, messages and generated code: letters, digits and `_ - . /`.
 bool is_valid_model(const std::string& name);
 
-// Whether `name` can name a specular parameter: an identifier that is no name of a width parameter.
+// Whether `name` can name a specular parameter: an identifier other than the name of a width parameter.
 bool is_valid_specular(const std::string& name);
 
 }  // namespace remap

@@ -1,8 +1,6 @@
-// The kinds of mapping that a fit can hold, as plain data: target alpha and target specular as functions of
-// source alpha and source specular, all in canonical coordinates (convention.hpp).
-//
-// Specular is mapped channel by channel. Where the target's alpha depends on specular, it is that of the
-// largest channel: the highlight that is seen.
+// The kinds of mapping that a fit can hold: target alpha and target specular as functions of source alpha
+// (convention.hpp) and source specular. Specular is mapped channel by channel. If target alpha depends on
+// specular, that of the largest channel is used, which is the visible highlight.
 #pragma once
 
 #include <array>
@@ -13,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "remap/named_values.hpp"
+
 namespace remap {
 
 // A curve over alpha (Sztrajman et al. 2019, section 7):
@@ -20,10 +20,10 @@ namespace remap {
 //   phi(rate, x) = (1 - exp(-rate x)) / rate, which is x where the rate is 0.
 //
 // This is the paper's c0 + c1 exp(-c2 alpha) + c3 exp(-c4 alpha^2) with c1 = -ramp / ramp_rate, c2 =
-// ramp_rate, c3 = -bump / bump_rate, c4 = bump_rate, c0 = start - c1 - c3, written so that slow exponentials
-// (c2 -> 0, where the published coefficients reach -512.13 + 512.75 exp(-0.00057 alpha)) stay a sum of
-// numbers of order one. `pole` is the c5 of the authors' scripts; it stays finite because a domain starts
-// above alpha 0 and the domain rule holds alpha there.
+// ramp_rate, c3 = -bump / bump_rate, c4 = bump_rate, c0 = start - c1 - c3. In this form, slow exponentials
+// (c2 -> 0, where the published coefficients reach -512.13 + 512.75 exp(-0.00057 alpha)) remain sums of
+// numbers of order one. `pole` is the c5 of the authors' scripts; its term is finite because a domain starts
+// above alpha 0 and the domain rule clamps alpha to it.
 struct AlphaCurve {
   double start = 0.0;
   double ramp = 0.0;
@@ -41,16 +41,16 @@ struct SpecularTerm {
   bool operator==(const SpecularTerm&) const = default;
 };
 
-// Kind `parametric`: alpha2 = sum over j, i of roughness[j][i] specular1^j alpha1^(i+1), specular2 = the sum
-// of the terms. The form of the paper has one row of four in `roughness` and one term of power 1.
+// Kind `parametric`: alpha2 = sum over j, i of alpha[j][i] specular1^j alpha1^(i+1), specular2 = the sum
+// of the terms. The form of the paper has one row of four in `alpha` and one term of power 1.
 struct Parametric {
-  std::vector<std::vector<double>> roughness;
+  std::vector<std::vector<double>> alpha;
   std::vector<SpecularTerm> specular;  // powers never fall; terms of one power add up
   bool operator==(const Parametric&) const = default;
 };
 
-// normalised = (t - offset) * scale, with t = value, or t = value / (value + pole), which gives a regressor
-// room near 0, where curves over alpha bend most.
+// normalised = (t - offset) * scale, with t = value, or t = value / (value + pole), which spreads values near
+// 0, where curves over alpha bend most.
 struct Scaling {
   double offset = 0.0;
   double scale = 1.0;  // not 0
@@ -58,21 +58,20 @@ struct Scaling {
   bool operator==(const Scaling&) const = default;
 };
 
-// A sum of Gaussians (radial basis functions), as support vector regression gives it (Chang and Lin 2011,
-// equation 10): normalised output = bias + sum of weights[i] exp(-gamma |x - vector i|^2), x the normalised
-// inputs.
+// A sum of Gaussians, the result of support vector regression (Chang and Lin 2011, equation 10): normalised
+// output = bias + sum of weights[i] exp(-gamma |x - vector i|^2), x the normalised inputs.
 struct KernelExpansion {
   std::vector<Scaling> inputs;  // 1: alpha; 2: alpha, specular
   Scaling output;
   double gamma = 1.0;  // > 0
   double bias = 0.0;
   std::vector<double> vectors;  // normalised, one row of inputs.size() after the other
-  std::vector<double> weights;  // one a vector
+  std::vector<double> weights;  // one per vector
   std::size_t count() const noexcept { return weights.size(); }
   bool operator==(const KernelExpansion&) const = default;
 };
 
-// Kind `svr`: one expansion an output.
+// Kind `svr`: one expansion per output.
 struct Svr {
   KernelExpansion alpha;
   KernelExpansion specular;
@@ -80,21 +79,25 @@ struct Svr {
 };
 
 enum class Activation { kRelu, kTanh, kSilu };
-std::string_view activation_name(Activation activation);
-std::optional<Activation> activation_from_name(std::string_view name);
-std::vector<std::string> activation_names();
+inline constexpr NamedValues<Activation, 3> kActivations = {
+    {{Activation::kRelu, "relu"}, {Activation::kTanh, "tanh"}, {Activation::kSilu, "silu"}}};
+inline std::string_view activation_name(Activation activation) { return name_of(kActivations, activation); }
+inline std::optional<Activation> activation_from_name(std::string_view name) {
+  return value_named(kActivations, name);
+}
+inline std::vector<std::string> activation_names() { return names_of(kActivations); }
 
 // One layer: outputs = weights inputs + biases.
 struct Layer {
   std::size_t input_count = 0;
-  std::vector<double> weights;  // one row of input_count an output, row after row
-  std::vector<double> biases;   // one an output
+  std::vector<double> weights;  // one row of input_count per output
+  std::vector<double> biases;   // one per output
   std::size_t output_count() const noexcept { return biases.size(); }
   bool operator==(const Layer&) const = default;
 };
 
-// A fully connected network: inputs normalised, `activation` after every layer but the last, outputs scaled
-// back. Any number of inputs and outputs.
+// A fully connected network of normalised inputs and outputs, with `activation` after every layer but the
+// last.
 struct Network {
   Activation activation = Activation::kTanh;
   std::vector<Scaling> inputs;
@@ -103,20 +106,20 @@ struct Network {
   bool operator==(const Network&) const = default;
 };
 
-// Kind `mlp`: one network an output, of alpha alone or of alpha and specular.
+// Kind `mlp`: one network per output, of alpha alone or of alpha and specular.
 struct Mlp {
   Network alpha;
   Network specular;
   bool operator==(const Mlp&) const = default;
 };
 
-// What one regression gives.
+// The result of one regression.
 using RegressedKind = std::variant<Parametric, Svr, Mlp>;
 
-// Kind `chain`: mappings one after another, the outputs of each being the inputs of the next. It has no rule
-// between its steps: its domain is where every step stays in its own (chain.hpp).
+// Kind `chain`: mappings applied in sequence. No domain rule applies between steps, because every step stays
+// in its own domain (chain.hpp).
 struct ChainStep {
-  std::string id;  // of the fit that it is taken from
+  std::string id;  // of the original fit
   RegressedKind mapping;
   bool operator==(const ChainStep&) const = default;
 };
@@ -125,28 +128,26 @@ struct Chain {
   bool operator==(const Chain&) const = default;
 };
 
-// The mapping itself. A new kind is a new alternative here; std::visit makes every consumer handle it.
+// A new kind is a new alternative here; std::visit makes every consumer handle it.
 using MappingKind = std::variant<Parametric, Svr, Mlp, Chain>;
 
-// A kind as one of the wider variant.
 MappingKind widened(const RegressedKind& mapping);
 
-// The word for the kind in JSON, on the command line and on model cards.
+// The name in JSON, on the command line and on model cards.
 std::string kind_name(const MappingKind& mapping);
 
-// Whether target alpha depends on specular.
 bool alpha_depends_on_specular(const MappingKind& mapping);
 
-// Whether target specular is a factor of alpha times specular: then every channel can be scaled by itself.
+// Whether target specular is a function of alpha times specular, so that channels scale independently.
 bool is_proportional(const MappingKind& mapping);
 
-// The two parameters of a texel of one channel, canonical.
+// The two parameters of a texel of one channel.
 struct MappedTexel {
   double alpha = 0.0;
   double specular = 0.0;
 };
 
-// How many numbers the mapping consists of; the measure of simplicity when kinds are compared.
+// The number of coefficients, a measure of complexity when kinds are compared.
 std::size_t number_count(const MappingKind& mapping);
 
 }  // namespace remap

@@ -3,19 +3,25 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <string_view>
+
+#include "remap/named_values.hpp"
 
 namespace remap {
 
 enum class PixelType { kUint8, kUint16, kUint32, kInt8, kInt16, kInt32, kHalf, kFloat, kDouble };
+// The names on the command line and in OpenImageIO.
+inline constexpr NamedValues<PixelType, 9> kPixelTypes = {{{PixelType::kUint8, "uint8"},
+                                                           {PixelType::kUint16, "uint16"},
+                                                           {PixelType::kUint32, "uint"},
+                                                           {PixelType::kInt8, "int8"},
+                                                           {PixelType::kInt16, "int16"},
+                                                           {PixelType::kInt32, "int"},
+                                                           {PixelType::kHalf, "half"},
+                                                           {PixelType::kFloat, "float"},
+                                                           {PixelType::kDouble, "double"}}};
 
 std::size_t byte_count(PixelType type) noexcept;
 bool is_integer(PixelType type) noexcept;
-
-// `uint8`, `half`, ...: the names on the command line and in OpenImageIO.
-std::string_view pixel_type_name(PixelType type) noexcept;
-std::optional<PixelType> pixel_type_from_name(std::string_view name) noexcept;
 
 // Reads `count` values of `type` at intervals of `stride` bytes from `first`, which need not be aligned.
 // Integers are divided by the largest of their type: 255 of uint8 becomes 1.

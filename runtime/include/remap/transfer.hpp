@@ -1,13 +1,12 @@
 // Decodes the numbers of a map for a converter: the transfer curve of a color, the encoding of a roughness.
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "remap/convention.hpp"
+#include "remap/named_values.hpp"
 
 namespace remap {
 
@@ -16,11 +15,20 @@ enum class Transfer {
   kLinear,
   kSrgb,  // IEC 61966-2-1, odd below 0 and extended by the same formula above 1
 };
+inline constexpr NamedValues<Transfer, 2> kTransfers = {
+    {{Transfer::kLinear, "linear"}, {Transfer::kSrgb, "srgb"}}};
 
-// `linear`, `srgb`.
-std::string_view transfer_name(Transfer transfer);
-std::optional<Transfer> transfer_from_name(std::string_view name);
-std::vector<std::string> transfer_names();
+// The linear values of a parameter, as far as a map does not hold them.
+struct ParameterValues {
+  std::vector<float> constants;           // one, or one each for red, green and blue; used without a map
+  std::vector<float> factors;             // of the linear values: none, one, or one per channel
+  Transfer transfer = Transfer::kLinear;  // of the stored values
+
+  // The factor of a channel.
+  float factor(std::size_t channel) const {
+    return factors.empty() ? 1.0f : factors[factors.size() == 1 ? 0 : channel];
+  }
+};
 
 // Converts stored values to linear ones and back, in place. NaN stays NaN.
 void to_linear(Transfer transfer, std::span<float> values) noexcept;

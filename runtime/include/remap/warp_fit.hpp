@@ -1,4 +1,4 @@
-// A fit of kind `warp`: a compiled appearance warp with what a person should know of it.
+// A fit of kind `warp`: a compiled appearance warp and its provenance.
 #pragma once
 
 #include <map>
@@ -10,11 +10,11 @@
 namespace remap {
 
 struct WarpMapFit {
-  std::string id;                            // as of every fit
-  std::string source_model, template_model;  // what texels hold before and after; `mitsuba/ggx`
+  std::string id;
+  std::string source_model, template_model;  // of the texels before and after, such as `mitsuba/ggx`
   CompiledWarp warp;
-  // RMS distance in appearance from the exact copy of template texels, in shares of the template's spread; -1
-  // where it is not known.
+  // RMS distance in appearance from the exact copy of template texels, as a share of the template's spread;
+  // -1 if unknown.
   double copy_rms_error = -1.0;
   std::map<std::string, std::string> method;  // how it was made
   std::vector<std::string> remarks;           // warnings of the fit, a line each
@@ -24,8 +24,7 @@ struct WarpMapFit {
 
 inline constexpr const char* kWarpKind = "warp";
 
-// In `method`, where the source of the warp was a diffuse map alone: its specular was taken as 0, its alpha
-// as 1.
+// The entry of `method` for a warp whose source was a diffuse map alone, with specular 0 and alpha 1.
 inline constexpr const char* kWarpSourceMaps = "source_maps";
 inline constexpr const char* kDiffuseAlone = "diffuse";
 inline bool is_of_diffuse_alone(const WarpMapFit& fit) {

@@ -1,9 +1,8 @@
-// Two ways to say what a material is made of, and what their parameters mean. The specular workflow has a
-// diffuse and a specular color; the metallic one a base color and how metallic it is (Sztrajman et al.
-// 2019, section 8). Both are layers over the same BRDF.
+// The two workflows in which a material is described, and the meaning of their parameters. The specular
+// workflow has a diffuse and a specular color, the metallic workflow a base color and metallic (Sztrajman et
+// al. 2019, section 8). Both are layers over the same BRDF.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -11,21 +10,23 @@
 
 #include "remap/convention.hpp"
 #include "remap/mapping.hpp"
+#include "remap/named_values.hpp"
 
 namespace remap {
 
-// What a diffuse color means.
+// The meaning of a diffuse color.
 enum class DiffuseConvention {
-  kPlain,   // reflectance of the diffuse lobe
-  kScaled,  // of the light that the specular lobe leaves: the lobe has it times 1 - max(specular) (glTF 2.0)
+  kPlain,   // the reflectance of the diffuse lobe
+  kScaled,  // times 1 - max(specular), the reflectance of the diffuse lobe (glTF 2.0)
 };
-std::string_view diffuse_convention_name(DiffuseConvention convention);
-std::optional<DiffuseConvention> diffuse_convention_from_name(std::string_view name);
-std::vector<std::string> diffuse_convention_names();
+inline constexpr NamedValues<DiffuseConvention, 2> kDiffuseConventions = {
+    {{DiffuseConvention::kPlain, "plain"}, {DiffuseConvention::kScaled, "scaled"}}};
+inline std::string_view diffuse_convention_name(DiffuseConvention convention) {
+  return name_of(kDiffuseConventions, convention);
+}
 
-// F0 of a dielectric in common use: glTF, Unreal, Disney; and the paper's.
-inline constexpr double kCommonDielectricF0 = 0.04;
-inline constexpr double kPaperDielectricF0 = 0.03;
+inline constexpr double kCommonDielectricF0 = 0.04;  // glTF, Unreal, Disney
+inline constexpr double kPaperDielectricF0 = 0.03;   // Sztrajman et al. 2019
 
 // Diffuse RGB, specular RGB (F0, linear, 0 to 1) and a width.
 struct SpecularWorkflow {
@@ -51,39 +52,40 @@ struct Equation2 {
   bool operator==(const Equation2&) const = default;
 };
 
-// From specular to metallic, which cannot say all that specular can.
+// From specular to metallic, which cannot represent all specular materials.
 //
-// The projection: the base color and metallic whose picture differs least, in closed form. `prior` times the
-// mean weight times metallic (1 - metallic) is added to the error, so that of two answers that look alike the
-// purer one is taken.
+// The projection: the base color and metallic with the least difference in pictures, in closed form. `prior`
+// times the mean weight times metallic (1 - metallic) is added to the error, so that of two similar solutions
+// the one nearer to metallic 0 or 1 is chosen.
 struct Projection {
   double prior = 0.0;  // >= 0
   bool operator==(const Projection&) const = default;
 };
-inline constexpr double kCleanPrior = 1e-6;  // of maps without noise, 8 bits or more
-inline constexpr double kNoisyPrior = 1e-5;  // of scans and JPEG
+inline constexpr double kCleanPrior = 1e-6;  // for maps without noise, 8 bits or more
+inline constexpr double kNoisyPrior = 1e-5;  // for scans and JPEG
 inline constexpr double kLargestPrior = 1.0;
 
-// Equation (3) of the paper: the inverse of equation (2) for each channel by itself. Metallic is the mean
-// over them.
+// Equation (3) of the paper: the inverse of equation (2) for each channel separately. Metallic is the mean
+// over the channels.
 enum class MetallicMean {
   kPlain,
   kAlbedo,  // weighted by albedo
 };
+inline constexpr NamedValues<MetallicMean, 2> kMetallicMeans = {
+    {{MetallicMean::kPlain, "plain"}, {MetallicMean::kAlbedo, "albedo"}}};
 struct Equation3 {
   MetallicMean mean = MetallicMean::kAlbedo;
   bool operator==(const Equation3&) const = default;
 };
-std::string_view metallic_mean_name(MetallicMean mean);
-std::optional<MetallicMean> metallic_mean_from_name(std::string_view name);
 
-// The solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017), for diffuse that is scaled.
+// The solver of KHR_materials_pbrSpecularGlossiness (Khronos Group 2017), for scaled diffuse.
 struct KhronosSolver {
   bool operator==(const KhronosSolver&) const = default;
 };
 
-// A network that has learned the way back (section 8 of the paper): of diffuse RGB and specular RGB, as the
-// parameters of the specular workflow are given, to base color RGB and metallic. Roughness takes no part.
+// A network that was trained on the inverse of equation (2) (section 8 of the paper): from diffuse RGB and
+// specular RGB, in the conventions of the specular workflow, to base color RGB and metallic, without
+// roughness.
 struct LearnedNetwork {
   Network network;  // 6 inputs, 4 outputs
   bool operator==(const LearnedNetwork&) const = default;
@@ -91,17 +93,17 @@ struct LearnedNetwork {
 
 using WorkflowFormula = std::variant<Equation2, Projection, Equation3, KhronosSolver, LearnedNetwork>;
 
-// Whether it was learned from a table; the others are closed forms.
+// Whether it was trained on a table; the others are closed forms.
 inline bool is_learned(const WorkflowFormula& formula) noexcept {
   return std::holds_alternative<LearnedNetwork>(formula);
 }
 
 // `equation-2`, `projection`, `equation-3`, `khronos`, `network`.
 std::string_view formula_name(const WorkflowFormula& formula);
-// `by equation (2)`, and so on, for cards.
+// A description for cards.
 std::string formula_text(const WorkflowFormula& formula);
 
-// A conversion of whole materials: both ends, and the formula, which says in which direction.
+// A conversion of whole materials. The formula determines the direction.
 struct WorkflowConversion {
   SpecularWorkflow specular;
   MetallicWorkflow metallic;
@@ -116,12 +118,12 @@ struct WorkflowConversion {
   bool operator==(const WorkflowConversion&) const = default;
 };
 
-// Throws kInput, opened by `place`, for a width that is neither roughness, glossiness nor alpha, an F0 out of
-// range, a negative or huge prior, Khronos' solver where diffuse is not scaled on both sides or F0 is 0, and
-// a network of other than 6 inputs and 4 outputs.
+// Throws kInput, beginning with `place`, for a width other than roughness, glossiness or alpha, for F0 or a
+// prior out of range, for Khronos' solver unless diffuse is scaled on both sides and F0 is above 0, and for a
+// network without 6 inputs and 4 outputs.
 void require_valid(const WorkflowConversion& conversion, const std::string& place);
 
-// A parameter of a material as converters take it: one row of texels a channel.
+// A parameter of a material, with one row of texels per channel.
 struct MaterialParameter {
   std::string name;
   int channel_count = 1;  // 1 or 3

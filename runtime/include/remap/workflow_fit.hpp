@@ -1,6 +1,5 @@
-// A conversion of whole materials: in closed form, or by a network learned from a table. It has other inputs
-// and outputs than a fit of width and specular (fit.hpp) and no domain but 0 to 1; so it is a type of its
-// own, and what takes one kind says which.
+// A conversion of whole materials, in closed form or by a trained network. It is a separate type from a fit
+// of alpha and specular (fit.hpp), because it has other inputs and outputs, and the domain [0, 1].
 #pragma once
 
 #include <map>
@@ -13,7 +12,7 @@
 
 namespace remap {
 
-// How a network was learned. Errors are those of the rows that were held out.
+// How a network was trained. Errors are those of the rows that were held out.
 struct NetworkTraining {
   std::map<std::string, std::string> method;  // shape, optimisers, starts
   ErrorFigures base_color;                    // over all channels, linear
@@ -23,12 +22,12 @@ struct NetworkTraining {
   bool operator==(const NetworkTraining&) const = default;
 };
 
-// Kind `analytic`, or `mlp` where the formula is a network.
+// Kind `analytic`, or `mlp` if the formula is a network.
 struct WorkflowFit {
-  std::string id;  // as of every fit
+  std::string id;
   WorkflowConversion conversion;
-  std::optional<NetworkTraining> training;  // of a network; else none
-  std::vector<std::string> remarks;         // for the card, a line each
+  std::optional<NetworkTraining> training;  // of a network
+  std::vector<std::string> remarks;         // lines of the card
   std::string tool_version;
   bool operator==(const WorkflowFit&) const = default;
 };

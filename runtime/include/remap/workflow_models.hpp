@@ -1,7 +1,6 @@
-// The workflows that people name, with what each takes its parameters for, and the BRDF that it stands on.
+// Workflows with a name, the conventions of their parameters, and their BRDF.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -11,10 +10,8 @@
 namespace remap {
 
 enum class WorkflowKind { kSpecular, kMetallic };
-// `specular`, `metallic`.
-std::string_view workflow_kind_name(WorkflowKind kind);
-std::optional<WorkflowKind> workflow_kind_from_name(std::string_view name);
-std::vector<std::string> workflow_kind_names();
+inline constexpr NamedValues<WorkflowKind, 2> kWorkflowKinds = {
+    {{WorkflowKind::kSpecular, "specular"}, {WorkflowKind::kMetallic, "metallic"}}};
 
 // One side of a conversion of whole materials.
 using WorkflowEnd = std::variant<SpecularWorkflow, MetallicWorkflow>;
@@ -30,28 +27,31 @@ inline RoughnessConvention width_of(const WorkflowEnd& end) noexcept {
 inline DiffuseConvention diffuse_of(const WorkflowEnd& end) noexcept {
   return std::visit([](const auto& workflow) { return workflow.diffuse; }, end);
 }
+inline std::string_view kind_name(const WorkflowEnd& end) noexcept {
+  return name_of(kWorkflowKinds, kind_of(end));
+}
 
-// A workflow under the name that it goes by.
+// A workflow with a name.
 struct WorkflowModel {
   WorkflowEnd end;
-  std::string brdf;                // of the graph of converters, which its width and specular are of
-  bool conventions_known = false;  // by its specification or its source; otherwise they are only common
-  std::string reason;              // where the conventions come from, for people
+  std::string brdf;                // model of its width and specular in the graph of converters
+  bool conventions_known = false;  // from its specification or source code; otherwise assumed
+  std::string reason;              // the source of the conventions
 };
 
 // `gltf`, `gltf-specgloss`, `cycles-5/principled`, `threejs/standard`, `usd-preview-surface`, `metallic`,
 // `specular`.
 const std::vector<WorkflowModel>& workflow_models();
-// Null where there is none of that name.
+// Null for an unknown name.
 const WorkflowModel* find_workflow_model(std::string_view name);
 
-// A layer over a BRDF model of the graph: `mitsuba/ward` as a specular or a metallic workflow. Its
-// conventions are the common ones.
+// A BRDF model of the graph, such as `mitsuba/ward`, as a specular or a metallic workflow with the common
+// conventions.
 WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, RoughnessConvention width);
 
-// Whether values that were written as those of `name` are materials of `end` over `brdf`: `specular` is a
-// layer over mitsuba/ggx with plain diffuse, and so is mitsuba/ggx by itself. What the maps of widths hold is
-// left to their names and to options.
+// Whether maps of the model `name` hold materials of `end` over `brdf`. For example `specular` and
+// mitsuba/ggx are both layers over mitsuba/ggx with plain diffuse. The encoding of the roughness is not
+// compared.
 bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const std::string& brdf);
 
 }  // namespace remap

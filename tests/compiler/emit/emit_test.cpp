@@ -57,7 +57,7 @@ TEST_CASE("emit: the description of a header has the values of the fit and no co
   const auto& header = std::get<ConverterHeader>(data.code);
   CHECK(std::get<remap::Lowered>(header.mapping.code) == lowered);
   CHECK(header.mapping.alpha_error == lowered.alpha.bound);
-  CHECK(header.alpha_rms_error >= fit.roughness_error.rms);
+  CHECK(header.alpha_rms_error >= fit.alpha_error.rms);
 }
 
 TEST_CASE("emit: the committed header is what its fit gives, read again or not") {
@@ -83,7 +83,7 @@ TEST_CASE("emit: the header names models, table, errors and licence, and defines
 
 TEST_CASE("emit: a coefficient that is not a finite float is refused") {
   remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as.json");
-  std::get<remap::Parametric>(fit.mapping).roughness[0][2] = 1e300;
+  std::get<remap::Parametric>(fit.mapping).alpha[0][2] = 1e300;
   CHECK_THROWS_WITH(emit_header(fit, {true, {}}), Catch::Contains("not finite"));
   CHECK_THROWS_AS(emit_header(fit), remap::Error);
 }

@@ -88,7 +88,7 @@ TEST_CASE(
     if (!is_measured(fit)) continue;
     INFO(fit.id);
     const double allowed = of_hub(fit) ? 1e-3 : 2e-3;
-    CHECK(fit.roughness_error.rms <= allowed);
+    CHECK(fit.alpha_error.rms <= allowed);
     CHECK(fit.split.held_out_rows >= (of_hub(fit) ? 20 : 15));
     const std::string bytes = remap::read_file(kFits / "tables" / fit.table.name);
     CHECK(sha256(bytes) == fit.table.sha256);

@@ -186,7 +186,7 @@ TEST_CASE("chained converter: stays within the proven bounds of the interpreted 
 TEST_CASE("chained converter: says what it is made of") {
   std::vector<Fit> fits = three_fits();
   for (Fit& fit : fits) {
-    fit.roughness_error.rms = 0.001;
+    fit.alpha_error.rms = 0.001;
     fit.specular_error.rms = 0.002;
     fit.image_similarity = ImageSimilarity{{0.05, 0.06, 0.07}, {}};
   }

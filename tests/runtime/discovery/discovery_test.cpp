@@ -6,7 +6,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "discovery/shown_path.hpp"
 #include "remap/error.hpp"
 #include "runtime/discovery/set_session.hpp"
 #include "support/shared_data.hpp"
@@ -139,21 +138,6 @@ TEST_CASE("find sets: a number before the word is a resolution, unless it distin
   CHECK(set_paths(apart.find()) == std::vector<std::string>{"wood_128", "wood_256", "wood_300"});
 }
 
-TEST_CASE("find sets: tiles that one map lacks") {
-  const SetSession session{"a_rough.1001.png", "a_rough.1002.png",  "a_rough.1011.png", "a_spec.1001.png",
-                           "a_spec.1011.png",  "a_normal.1001.png", "a_ao.png"};
-  const Discovery found = session.find();
-  REQUIRE(found.sets.size() == 1);
-  const FoundSet& set = found.sets[0];
-  REQUIRE(set.maps.size() == 2);
-  CHECK(set.maps[0].path == "a_rough.<UDIM>.png");
-  CHECK(set.maps[0].missing_tiles.empty());
-  CHECK(set.maps[1].missing_tiles == std::vector{1002});
-  REQUIRE(set.bystanders.size() == 2);
-  CHECK(set.bystanders[0].missing_tiles.empty());  // one image for all tiles
-  CHECK(set.bystanders[1].missing_tiles == std::vector{1002, 1011});
-}
-
 TEST_CASE("find sets: spaces, Unicode, newlines and bytes that are not text") {
   const SetSession session{
       "old wood rough 2K.png", "old wood spec 2K.png", "K\xc3\xb6nig\xe2\x99\x9a_rough.png",
@@ -257,27 +241,4 @@ TEST_CASE("find sets: five thousand files in a folder") {
   std::cout << "5000 files in a folder: sets found in " << taken.count() << " s\n";
   REQUIRE(found.sets.size() == 1000);
   for (const FoundSet& set : found.sets) REQUIRE((set.width && set.specular && set.bystanders.size() == 3));
-}
-
-TEST_CASE("output collisions: two sets that would write one file") {
-  const SetSession session{"a/x_rough.png", "b/x_rough.png", "c/x_Rough.png", "d/x_rough.png",
-                           "d/x_gloss.png"};
-  const Discovery found = session.find();
-  const auto flat = [](const FoundSet& set) {
-    std::vector<PlannedOutput> outputs;
-    for (const FoundMap& map : set.maps)
-      outputs.push_back({"out/./" + map.path.filename().string(), map.path});
-    return outputs;
-  };
-  const std::vector<OutputCollision> collisions = output_collisions(found.sets, flat);
-  REQUIRE(collisions.size() == 1);
-  CHECK(collisions[0].path == "out/x_rough.png");
-  CHECK(collisions[0].first_set == 0);
-  CHECK(collisions[0].first_source == "a/x_rough.png");
-  CHECK(collisions[0].second_set == 1);
-  CHECK(collisions[0].second_source == "b/x_rough.png");
-  const auto mirrored = [](const FoundSet& set) {
-    return std::vector<PlannedOutput>{{"out" / set.maps[0].path, set.maps[0].path}};
-  };
-  CHECK(output_collisions(found.sets, mirrored).empty());
 }

@@ -17,7 +17,7 @@ std::string reading_text(const std::string& name) {
   std::string text = readings.front().habit + ":";
   for (const ChannelMeaning& entry : readings.front().meaning) {
     text += " ";
-    if (entry.channels != Channels::kWhole) text += std::string(channels_name(entry.channels)) + "=";
+    if (entry.channels != Channels::kWhole) text += std::string(name_of(kChannels, entry.channels)) + "=";
     text += role_name(entry.role);
   }
   return text;

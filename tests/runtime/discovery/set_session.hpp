@@ -49,7 +49,7 @@ inline const FoundSet& only_set(const Discovery& discovery, const std::string& p
 inline std::string use_text(const FoundSet& set, const std::optional<MapUse>& use) {
   if (!use) return "-";
   std::string text(role_name(use->role));
-  if (use->channels != Channels::kWhole) text += " in " + std::string(channels_name(use->channels));
+  if (use->channels != Channels::kWhole) text += " in " + std::string(name_of(kChannels, use->channels));
   return text + " of " + set.maps[use->map].path.string();
 }
 

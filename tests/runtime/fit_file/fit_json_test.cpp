@@ -28,7 +28,7 @@ Fit sample_fit() {
   candidate.chroma_shift = 0.01;
   candidate.verdict = "no better, and more numbers";
   fit.candidates = {candidate};
-  fit.roughness_error = {1e-4, 2e-4, 3e-4};
+  fit.alpha_error = {1e-4, 2e-4, 3e-4};
   fit.specular_error = {4e-4, 5e-4, 6e-4};
   fit.split = {42, 0.2, 80, 20, {{"clamped", 3}}};
   fit.table = {"t.csv", "00ff", {{"objective", "natural"}}};

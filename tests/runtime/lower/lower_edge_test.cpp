@@ -192,7 +192,7 @@ TEST_CASE("lowering: what overflows is refused") {
   const double huge = 1e308;
   CHECK_FALSE(lower_or_refuse(one_gaussian(1.0, 0.5, huge), kWhole).has_value());
   Parametric form = line();
-  form.roughness = {{huge, huge, -huge}};
+  form.alpha = {{huge, huge, -huge}};
   CHECK_FALSE(lower_or_refuse(form, kWhole).has_value());
   CHECK_FALSE(lower_or_refuse(Mlp{kink(0.5, huge), kink(0.5, huge)}, kWhole).has_value());
 }

@@ -11,7 +11,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "lower/lowered_value.hpp"
 #include "lower/prove.hpp"
 #include "model/evaluate.hpp"
 #include "model/interpreter.hpp"

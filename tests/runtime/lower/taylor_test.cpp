@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "lower/mapped_function.hpp"
+#include "lower/prove.hpp"
 #include "support/build_speed.hpp"
 #include "support/exact_scalar.hpp"
 #include "support/random_models.hpp"

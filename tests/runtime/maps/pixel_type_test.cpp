@@ -118,6 +118,6 @@ TEST_CASE("pixel type: values are read at their stride, and other bytes are unch
 TEST_CASE("pixel type: every name is recognised") {
   for (const std::string name :
        {"uint8", "uint16", "uint", "int8", "int16", "int", "half", "float", "double"})
-    CHECK(pixel_type_name(pixel_type_from_name(name).value()) == name);
-  CHECK_FALSE(pixel_type_from_name("float16").has_value());
+    CHECK(name_of(kPixelTypes, value_named(kPixelTypes, name).value()) == name);
+  CHECK_FALSE(value_named(kPixelTypes, "float16").has_value());
 }

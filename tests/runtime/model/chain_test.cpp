@@ -8,7 +8,6 @@
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
 #include "model/inverse.hpp"
-#include "model/round_trip.hpp"
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 
@@ -24,7 +23,7 @@ Fit fit_of(const std::string& source, const std::string& target, Parametric form
   fit.id = converter_id(source, target);
   fit.domain = domain;
   fit.mapping = std::move(form);
-  fit.roughness_error = {1e-3, 2e-3, 3e-3};
+  fit.alpha_error = {1e-3, 2e-3, 3e-3};
   fit.specular_error = {2e-3, 4e-3, 6e-3};
   fit.image_similarity = ImageSimilarity{{0.1, 0.2, 0.3}, {}};
   return fit;
@@ -104,8 +103,8 @@ TEST_CASE("chain: errors of the steps are carried on, image errors add up") {
   const Fit a = fit_of("x/a", "x/b", straight(0.8, 0.0, 0.5)),
             b = fit_of("x/b", "x/c", straight(0.5, 0.0, 2.0));
   const Fit chain = compose({a, b});
-  CHECK(chain.roughness_error.rms == Approx(1e-3 * std::hypot(0.5, 1.0)).epsilon(1e-5));
-  CHECK(chain.roughness_error.max == Approx(3e-3 * 1.5).epsilon(1e-5));
+  CHECK(chain.alpha_error.rms == Approx(1e-3 * std::hypot(0.5, 1.0)).epsilon(1e-5));
+  CHECK(chain.alpha_error.max == Approx(3e-3 * 1.5).epsilon(1e-5));
   CHECK(chain.specular_error.rms == Approx(2e-3 * std::hypot(2.0, 1.0)).epsilon(1e-5));
   CHECK(chain.image_similarity->image_error.rms == Approx(0.2));
   Fit unknown = b;

@@ -100,7 +100,7 @@ TEST_CASE("interpreter: specular below 0 counts as 0, infinite channels stay and
 
 TEST_CASE("interpreter: target alpha is that of the largest channel") {
   Fit fit = ward_to_as();
-  std::get<Parametric>(fit.mapping).roughness.push_back({0.3});
+  std::get<Parametric>(fit.mapping).alpha.push_back({0.3});
   std::array<double, 3> out{};
   const double alpha = evaluate_texel(fit, 0.5, std::array{0.1, 0.4, 0.2}, out);
   CHECK(alpha == Approx(evaluate_mapping(fit.mapping, 0.5, 0.4).alpha));

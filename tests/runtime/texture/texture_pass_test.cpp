@@ -151,7 +151,7 @@ TEST_CASE("texture pass: whole materials do not depend on threads and bands, smo
   TargetChoice choice;
   choice.layout = Layout::kSeparate;
   choice.parameters = {Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic};
-  choice.measures = {{Parameter::kDoubts, "doubts.exr"}};
+  choice.diagnoses = {{ConvertedChannel{Parameter::kDoubts}, "doubts.exr"}};
   choice.force = true;
   std::optional<MapStatistics> first;
   for (const int threads : {1, 3})

@@ -30,12 +30,11 @@ TEST_CASE("parametric: recovers the coefficients that a table was made from") {
   const remap::Fit fit = fit_of(table_of(truth));
   const auto& found = std::get<Parametric>(fit.mapping);
   CHECK(fit.method.at("form") == "paper");
-  for (std::size_t i = 0; i < 4; ++i)
-    CHECK(found.roughness[0][i] == Approx(truth.roughness[0][i]).margin(1e-9));
+  for (std::size_t i = 0; i < 4; ++i) CHECK(found.alpha[0][i] == Approx(truth.alpha[0][i]).margin(1e-9));
   for (double alpha = 0.02; alpha <= 1.0; alpha += 0.01)
     CHECK(slope_at(fit, alpha) == Approx(remap::curve_value(truth.specular[0].factor, alpha)).epsilon(1e-6));
   CHECK(fit.specular_error.max < 1e-6);
-  CHECK(fit.roughness_error.max < 1e-9);
+  CHECK(fit.alpha_error.max < 1e-9);
 }
 
 TEST_CASE(
@@ -82,7 +81,7 @@ TEST_CASE("parametric: every form recovers the surface that a table was made fro
     INFO(form);
     const remap::Fit fit = fit_of(table_of(truth), 1, form);
     CHECK(fit.method.at("form") == (form == "paper+pole" ? "quartic/slope+pole" : form));
-    CHECK(fit.roughness_error.max < 1e-9);
+    CHECK(fit.alpha_error.max < 1e-9);
     // The penalty that keeps coefficients small is worth 1e-6 (specular_terms.cpp). Where a form has many
     // curves over the same alphas, they can replace each other.
     const bool many = truth.specular.size() > 2 || form == "quartic/double";
@@ -141,10 +140,10 @@ TEST_CASE("parametric: errors on unseen rows of the published table", "[needs][s
       options.regression.form = form;
       const remap::Fit fit = fit_table(table, bytes, options).fit;
       CHECK(fit.split.held_out_rows == 144);
-      mean.alpha += fit.roughness_error.rms / seeds;
+      mean.alpha += fit.alpha_error.rms / seeds;
       mean.specular += fit.specular_error.rms / seeds;
       for (std::size_t i = 0; i < 4; ++i)
-        mean.quartic[i] += std::get<Parametric>(fit.mapping).roughness[0][i] / seeds;
+        mean.quartic[i] += std::get<Parametric>(fit.mapping).alpha[0][i] / seeds;
     }
     std::cout << "published table, " << (form.empty() ? "chosen form" : form) << ", mean of " << seeds
               << " splits: alpha rms " << mean.alpha << ", specular rms " << mean.specular << "\n";
@@ -169,7 +168,7 @@ TEST_CASE("parametric: the committed table of `natural` is followed to 5e-4") {
   const Table table =
       read_table(std::filesystem::path(REMAP_SOURCE_DIR) / "fits/tables/mitsuba_ward_to_mitsuba_as.csv");
   const remap::Fit fit = fit_of(table, 1, "");
-  CHECK(fit.roughness_error.rms < 5e-4);
+  CHECK(fit.alpha_error.rms < 5e-4);
   CHECK(fit.specular_error.rms < 1e-4);
 }
 

@@ -1,4 +1,4 @@
-#include "fit_file/network_json.hpp"
+#include "fit_file/fit_fields.hpp"
 
 #include <cmath>
 
@@ -22,6 +22,38 @@ std::string outputs_text(std::size_t count) {
 
 }  // namespace
 
+Range read_range(const Field& field) {
+  const Range range{field.at(0, 2).number(), field.at(1, 2).number()};
+  field.require(range.min < range.max, "[min, max] with min < max");
+  return range;
+}
+
+ModelSide read_side(const Field& field) {
+  const RoughnessConvention convention =
+      field["roughness"].named(kConventions, "alpha, roughness, exponent, glossiness or squared");
+  const std::string specular = field["specular"].text();
+  field["specular"].require(is_valid_specular(specular), "an identifier that names no width");
+  return {read_model(field["model"]), convention, specular};
+}
+
+std::string read_id(const Field& field) {
+  const std::string id = field.text();
+  field.require(is_valid_id(id), "a C++ identifier without leading or doubled underscore");
+  return id;
+}
+
+std::string read_model(const Field& field) {
+  const std::string model = field.text();
+  field.require(is_valid_model(model), "letters, digits and _ - . /");
+  return model;
+}
+
+std::string read_tool_version(const Field& field) {
+  const std::string tool = field.text();
+  field.require(tool.starts_with("remapc "), "remapc and its version");
+  return tool.substr(7);
+}
+
 double finite(double value) {
   if (!std::isfinite(value))
     throw Error(ErrorKind::kNumeric, "fit: a number is not finite; a fit file holds finite numbers only");
@@ -34,10 +66,14 @@ Json numbers_json(const std::vector<double>& numbers) {
   return list;
 }
 
+Json scaling_json(const Scaling& scaling) {
+  return {
+      {"offset", finite(scaling.offset)}, {"scale", finite(scaling.scale)}, {"pole", finite(scaling.pole)}};
+}
+
 Json scalings_json(const std::vector<Scaling>& scalings) {
   Json list = Json::array();
-  for (const auto& [offset, scale, pole] : scalings)
-    list.push_back({{"offset", finite(offset)}, {"scale", finite(scale)}, {"pole", finite(pole)}});
+  for (const Scaling& scaling : scalings) list.push_back(scaling_json(scaling));
   return list;
 }
 
@@ -65,9 +101,7 @@ Json network_json(const Network& network) {
 
 Network read_network(const Field& field, std::size_t output_count) {
   Network network;
-  const auto activation = activation_from_name(field["activation"].text());
-  field["activation"].require(activation.has_value(), "relu, tanh or silu");
-  network.activation = *activation;
+  network.activation = field["activation"].named(kActivations, "relu, tanh or silu");
   network.inputs = field["inputs"].list(1, read_scaling);
   network.outputs = field["outputs"].list(1, read_output_scaling);
   field["outputs"].require(network.outputs.size() == output_count, outputs_text(output_count));
@@ -113,8 +147,7 @@ Json table_record_json(const TableRecord& table) {
 }
 
 TableRecord read_table_record(const Field& field) {
-  return {field["name"].text(), field["sha256"].text(),
-          field["comments"].dictionary<std::string>([](const Field& entry) { return entry.text(); })};
+  return {field["name"].text(), field["sha256"].text(), field["comments"].text_dictionary()};
 }
 
 }  // namespace remap
