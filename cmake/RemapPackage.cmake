@@ -1,5 +1,5 @@
-# What another CMake project sees of this one, be it installed or a subfolder: remap::headers, remap::remapc and
-# remap_add_converter().
+# What another CMake project gets from this one, installed or as a subfolder: remap::remap (the library),
+# remap::headers (the generated headers), remap::remapc, remap::texremap and remap_add_converter().
 include(RemapAddConverter)
 
 # Users write `#include <remap/ID.hpp>`; in this tree the folder has another name.
@@ -28,10 +28,13 @@ endif()
 
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/remap)
-install(TARGETS remap_headers ${tools} EXPORT remapTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS remap remap_headers ${tools} EXPORT remapTargets
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT remapTargets NAMESPACE remap:: DESTINATION ${package_folder})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/generated/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/remap
         FILES_MATCHING PATTERN "*.hpp" PATTERN "LICENSE")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/include/remap ${PROJECT_BINARY_DIR}/runtime/include/remap
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/remapConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/remapConfig.cmake INSTALL_DESTINATION ${package_folder})
 # Until version 1.0 a minor version may change names.

@@ -128,7 +128,9 @@ void add_build_command(remap::Command& app) {
   add_renderer_options(*command, options->renderers);
   command->footer(
       "An item is out of date where its entry in the manifest, its inputs or one of its files differ from "
-      "manifest.lock. An interrupted build continues where it stopped.\n\n"
+      "manifest.lock. --check compares converters.json with manifest.lock, too; `remapc emit --all --check` "
+      "makes headers and converters.json again and compares their text. An interrupted build continues "
+      "where it stopped.\n\n"
       "Example:\n  remapc build");
   command->callback([options] { run(*options); });
 }

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remapc {
 

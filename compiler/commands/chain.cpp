@@ -10,11 +10,11 @@
 #include "fit/fit_table.hpp"
 #include "fit/inverse_table.hpp"
 #include "fit/rows/split.hpp"
-#include "fit_file/fit_json.hpp"
 #include "lower/lower.hpp"
 #include "manifest/build.hpp"
 #include "manifest/fit_folder.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "system/files.hpp"
 
 namespace remapc {

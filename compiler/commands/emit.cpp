@@ -34,15 +34,7 @@ struct GeneratedFile {
 FitFolder chosen_fits(const EmitCommand& options) {
   if (options.all) return load_fit_folder(options.fit_folder);
   FitFolder chosen;
-  for (const std::string& name : options.fits) {
-    const remap::AnyFit fit = find_any_fit(name, options.fit_folder);
-    if (const auto* analytic = std::get_if<remap::WorkflowFit>(&fit))
-      chosen.analytic.push_back(*analytic);
-    else if (const auto* warp = std::get_if<remap::WarpMapFit>(&fit))
-      chosen.warps.push_back(*warp);
-    else
-      chosen.fits.push_back(std::get<remap::Fit>(fit));
-  }
+  for (const std::string& name : options.fits) chosen.add(find_any_fit(name, options.fit_folder));
   return chosen;
 }
 
@@ -53,22 +45,18 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
   code.lowering.specular_tolerance = 10.0 * options.tolerance;
   std::vector<GeneratedFile> files;
   std::vector<remap::ConverterData> converters;
+  const auto add_header = [&](const auto& fit, std::string text) {
+    files.push_back({options.output / (fit.id + ".hpp"), std::move(text)});
+  };
   for (const remap::Fit& fit : chosen.fits) {
-    const auto header = [&](const std::string& text) {
-      files.push_back({options.output / (fit.id + ".hpp"), text});
-    };
-    if (code.exact) {
-      header(emit_header(fit, code));
-      if (!options.all) continue;
-    }
+    if (code.exact) add_header(fit, emit_header(fit, code));
+    if (code.exact && !options.all) continue;
     const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain, code.lowering);
-    if (!code.exact) header(emit_lowered_header(fit, lowered));
+    if (!code.exact) add_header(fit, emit_lowered_header(fit, lowered));
     converters.push_back(remap::converter_data(fit, lowered));
   }
-  for (const remap::WorkflowFit& fit : chosen.analytic)
-    files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
-  for (const remap::WarpMapFit& fit : chosen.warps)
-    files.push_back({options.output / (fit.id + ".hpp"), emit_header(fit)});
+  for (const remap::WorkflowFit& fit : chosen.analytic) add_header(fit, emit_header(fit));
+  for (const remap::WarpMapFit& fit : chosen.warps) add_header(fit, emit_header(fit));
   if (options.all)
     files.push_back({options.output / kConverterListName, emit_converter_list(std::move(converters))});
   return files;
@@ -132,8 +120,10 @@ void add_emit_command(remap::Command& app) {
   command->add_option("-o,--output", options->output, "Folder for the headers")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->add_flag("--check", options->check,
-                    "Write nothing; exit code 1 if a header is missing or differs from its fit");
+  command->add_flag(
+      "--check", options->check,
+      "Write nothing; exit code 1 if a header, or with --all converters.json, is missing or differs "
+      "from what the fits give");
   command->option_group(remap::kRareOptions);
   remap::Option* lower =
       command

@@ -9,8 +9,8 @@
 #include "commands/commands.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/svr/svr_import.hpp"
-#include "fit_file/fit_json.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "system/files.hpp"
 #include "table/table.hpp"
 

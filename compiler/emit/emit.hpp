@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "converter_data/converter_data.hpp"
-#include "fit_file/any_fit.hpp"
 #include "lower/lower.hpp"
-#include "model/fit.hpp"
+#include "remap/any_fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remapc {
 
@@ -22,15 +22,12 @@ struct EmitOptions {
 // itself.
 std::string emit_header(const remap::Fit& fit, const EmitOptions& options = {});
 
-// The same from polynomials that fit.mapping was lowered to.
+// The same header from polynomials to which fit.mapping was lowered already.
 std::string emit_lowered_header(const remap::Fit& fit, const remap::Lowered& lowered);
 
-// The generated header of an analytic fit: materials in, materials out. Throws kInput for a conversion that
-// require_valid() refuses.
+// The generated headers of converters of whole materials; a warp has the specular workflow on both sides.
+// Throw kInput for what require_valid() refuses.
 std::string emit_header(const remap::WorkflowFit& fit);
-
-// The generated header of an appearance warp: the same contract, in the specular workflow on both sides.
-// Throws kInput for a warp that require_valid() refuses.
 std::string emit_header(const remap::WarpMapFit& fit);
 
 // `converters.json`: what texremap needs of these converters, in the order of their ids.

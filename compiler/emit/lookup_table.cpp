@@ -60,7 +60,7 @@ class Sampler {
   LookupTable sample() {
     lay_out();
     const std::size_t widths = table_.axes[0].positions.size();
-    // The way is one through the grid, then one between its points.
+    // Progress counts the widths of the grid, then the cells between them.
     double done = 0.0;
     const auto report = [&] {
       const std::lock_guard lock(mutex_);
@@ -141,18 +141,17 @@ class Sampler {
 
   // Errors of each column in the cells between width i and the next.
   std::vector<Errors> judge_cells(std::size_t i) const {
-    const std::size_t steps = has_two_axes() ? kStepsOfTwoAxes : kStepsOfOneAxis;
+    // One axis counts as one cell of specular with one step, at a specular of 1.
+    const bool two = has_two_axes();
+    const std::size_t steps = two ? kStepsOfTwoAxes : kStepsOfOneAxis, specular_steps = two ? steps : 1,
+                      specular_cells = two ? specular_count() - 1 : 1;
     const std::vector<double>& widths = table_.axes[0].positions;
     std::vector<Errors> errors(parts_.size());
     for (std::size_t step = 0; step < steps; ++step) {
       const double t = static_cast<double>(step) / static_cast<double>(steps);
       const double width = widths[i] + t * (widths[i + 1] - widths[i]);
-      if (!has_two_axes()) {
-        judge(width, 1.0, {i, 0, t, 0.0}, errors);
-        continue;
-      }
-      for (std::size_t j = 0; j + 1 < specular_count(); ++j)
-        for (std::size_t k = 0; k < steps; ++k) {
+      for (std::size_t j = 0; j < specular_cells; ++j)
+        for (std::size_t k = 0; k < specular_steps; ++k) {
           const double u = static_cast<double>(k) / static_cast<double>(steps);
           judge(width, specular_at(j) + u * (specular_at(j + 1) - specular_at(j)), {i, j, t, u}, errors);
         }
@@ -160,7 +159,7 @@ class Sampler {
     return errors;
   }
 
-  // Grid cell and place in it.
+  // A grid cell, and a place in it from 0 to 1.
   struct Place {
     std::size_t i, j;
     double t, u;

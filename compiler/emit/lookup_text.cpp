@@ -1,9 +1,12 @@
 // The file format of lookup tables.
+#include "emit/convention_text.hpp"
 #include "emit/lookup_table.hpp"
+#include "emit/text_template.hpp"
 #include "fit/rows/split.hpp"
-#include "model/convention.hpp"
+#include "remap/convention.hpp"
 #include "remap/version.hpp"
 #include "text/number_text.hpp"
+#include "text/report_text.hpp"
 
 namespace remapc {
 namespace {
@@ -12,101 +15,66 @@ using remap::number_text;
 
 constexpr int kFormatVersion = 1;
 
-// One text for each element, with commas between.
-template <typename List, typename Text>
-std::string joined(const List& list, const Text& text_of) {
-  std::string text;
-  for (const auto& element : list) text += (text.empty() ? "" : ",") + text_of(element);
-  return text;
+// Keys and values.
+using Head = std::vector<std::pair<std::string, std::string>>;
+
+void add_side(Head& head, const std::string& role, const remap::ModelSide& side) {
+  head.emplace_back(role, side.model);
+  head.emplace_back(role + "_roughness", convention_name(side.roughness));
+  head.emplace_back(role + "_specular", side.specular);
 }
-
-class Head {
- public:
-  void add(const std::string& key, const std::string& value) { text_ += "# " + key + ": " + value + "\n"; }
-  void add(const std::string& role, const remap::ModelSide& side) {
-    add(role, side.model);
-    add(role + "_roughness", std::string(convention_name(side.roughness)));
-    add(role + "_specular", side.specular);
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
 
 // What the widths of a table in alpha mean, where that is not the model's own parameter.
 void add_convention(Head& head, const std::string& column, remap::RoughnessConvention own) {
-  switch (own) {
-    case remap::RoughnessConvention::kAlpha:
-      break;
-    case remap::RoughnessConvention::kRoughness:
-      head.add(column, "roughness^2");
-      break;
-    case remap::RoughnessConvention::kExponent:
-      head.add(column, "sqrt(2 / (exponent + 2))");
-      break;
-    case remap::RoughnessConvention::kGlossiness:
-      head.add(column, "(1 - glossiness)^2");
-      break;
-    case remap::RoughnessConvention::kSquared:
-      head.add(column, "sqrt(squared)");
-      break;
-  }
-}
-
-std::string name_of(const LookupAxis& axis) { return axis.name; }
-std::string name_of(const LookupColumn& column) { return column.name; }
-
-bool has(const LookupTable& table, const std::string& name) {
-  for (const LookupAxis& axis : table.axes)
-    if (axis.name == name) return true;
-  for (const LookupColumn& column : table.columns)
-    if (column.name == name) return true;
-  return false;
+  if (own != remap::RoughnessConvention::kAlpha) head.emplace_back(column, convention_text(own).formula);
 }
 
 void add_reading(Head& head, const remap::Fit& fit, const LookupTable& table) {
   const bool two_axes = table.axes.size() == 2;
   const std::string specular = "target_" + fit.target.specular;
-  head.add("interpolation", two_axes ? "bilinear" : "linear");
-  if (two_axes) head.add("order", "the last axis varies fastest");
-  if (has(table, specular + "_factor"))
-    head.add("factor", fit.target.specular + " of the target = factor * " + fit.source.specular +
-                           " of the source, for each channel");
+  head.emplace_back("interpolation", two_axes ? "bilinear" : "linear");
+  if (two_axes) head.emplace_back("order", "the last axis varies fastest");
+  if (table.columns.back().name == specular + "_factor")
+    head.emplace_back("factor", fit.target.specular + " of the target = factor * " + fit.source.specular +
+                                    " of the source, for each channel");
   std::string outside = "hold " + table.axes[0].name + " at the end of its axis";
   if (two_axes)
     outside += "; where a channel is beyond the last " + table.axes[1].name +
                ", divide all channels by what brings the largest there, look up, multiply by it";
-  head.add("outside", outside);
-  if (has(table, "source_alpha")) add_convention(head, "source_alpha", fit.source.roughness);
-  if (has(table, "target_alpha")) add_convention(head, "target_alpha", fit.target.roughness);
+  head.emplace_back("outside", outside);
+  if (table.axes[0].name == "source_alpha") add_convention(head, "source_alpha", fit.source.roughness);
+  if (table.columns[0].name == "target_alpha") add_convention(head, "target_alpha", fit.target.roughness);
 }
 
 }  // namespace
 
 std::string lookup_text(const remap::Fit& fit, const LookupTable& table) {
-  const auto name = [](const auto& part) { return name_of(part); };
-  Head head;
-  head.add("format", "remap-lookup");
-  head.add("format_version", std::to_string(kFormatVersion));
-  head.add("tool", std::string("remapc ") + remap::kVersion);
-  head.add("id", fit.id);
-  head.add("kind", kind_name(fit.mapping));
-  head.add("source", fit.source);
-  head.add("target", fit.target);
-  if (!fit.table.sha256.empty()) head.add("fitted_table_sha256", fit.table.sha256);
-  head.add("axes", joined(table.axes, name));
-  head.add("size",
-           joined(table.axes, [](const LookupAxis& a) { return std::to_string(a.positions.size()); }));
-  head.add("domain_min", joined(table.axes, [](const auto& a) { return number_text(a.positions.front()); }));
-  head.add("domain_max", joined(table.axes, [](const auto& a) { return number_text(a.positions.back()); }));
-  head.add("columns", joined(table.columns, name));
+  const auto name = [](const auto& part) { return part.name; };
+  Head head = {{"format", "remap-lookup"},
+               {"format_version", std::to_string(kFormatVersion)},
+               {"tool", std::string("remapc ") + remap::kVersion},
+               {"id", fit.id},
+               {"kind", kind_name(fit.mapping)}};
+  add_side(head, "source", fit.source);
+  add_side(head, "target", fit.target);
+  if (!fit.table.sha256.empty()) head.emplace_back("fitted_table_sha256", fit.table.sha256);
+  head.emplace_back("axes", joined(table.axes, ",", name));
+  head.emplace_back("size", joined(table.axes, ",",
+                                   [](const LookupAxis& a) { return std::to_string(a.positions.size()); }));
+  head.emplace_back("domain_min",
+                    joined(table.axes, ",", [](const auto& a) { return number_text(a.positions.front()); }));
+  head.emplace_back("domain_max",
+                    joined(table.axes, ",", [](const auto& a) { return number_text(a.positions.back()); }));
+  head.emplace_back("columns", joined(table.columns, ",", name));
   add_reading(head, fit, table);
-  head.add("lookup_error_max", joined(table.columns, [](const auto& c) { return error_text(c.max_error); }));
-  head.add("lookup_error_rms", joined(table.columns, [](const auto& c) { return error_text(c.rms_error); }));
-  head.add("lookup_error_samples", std::to_string(table.judged_count));
+  head.emplace_back("lookup_error_max",
+                    joined(table.columns, ",", [](const auto& c) { return error_text(c.max_error); }));
+  head.emplace_back("lookup_error_rms",
+                    joined(table.columns, ",", [](const auto& c) { return error_text(c.rms_error); }));
+  head.emplace_back("lookup_error_samples", std::to_string(table.judged_count));
 
-  std::string text = head.text() + joined(table.axes, name) + "," + joined(table.columns, name) + "\n";
+  std::string text =
+      comment_lines(head) + joined(table.axes, ",", name) + "," + joined(table.columns, ",", name) + "\n";
   const std::size_t speculars = table.axes.size() == 2 ? table.axes[1].positions.size() : 1;
   for (std::size_t row = 0; row < table.columns[0].values.size(); ++row) {
     text += number_text(table.axes[0].positions[row / speculars]);

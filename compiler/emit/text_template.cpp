@@ -1,15 +1,42 @@
 #include "emit/text_template.hpp"
 
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
+
 namespace remapc {
 namespace {
+
+constexpr std::string_view kLoopMark = "REMAP_INDEPENDENT_LOOP";
+// Before a loop whose output rows may be exactly its input rows and overlap nothing else: compilers need not
+// ask which rows overlap.
+constexpr std::string_view kIndependentLoop = R"(#if defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#elif defined(__GNUC__)
+#pragma GCC ivdep
+#elif defined(_MSC_VER)
+#pragma loop(ivdep)
+#endif)";
+
+// `text` where each further line begins with `indentation`; empty lines stay empty.
+std::string indented(std::string_view text, const std::string& indentation) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    result += text[i];
+    if (text[i] == '\n' && i + 1 < text.size() && text[i + 1] != '\n') result += indentation;
+  }
+  return result;
+}
 
 // Fills the holes of one line; values of several lines continue at the indentation of the line.
 std::string fill_line(std::string_view line, const std::map<std::string, std::string>& values,
                       std::set<std::string>* used) {
   const std::string indentation(line.substr(0, line.find_first_not_of(' ')));
+  if (line.substr(indentation.size()) == kLoopMark)
+    return indentation + indented(kIndependentLoop, indentation) + "\n";
   std::string filled;
   bool vanishes = false;
   while (!line.empty()) {
@@ -25,12 +52,8 @@ std::string fill_line(std::string_view line, const std::map<std::string, std::st
     const bool alone = filled == indentation && end + 1 == line.size();
     vanishes = alone && value->second.empty();
     std::string_view text = value->second;
-    if (alone && text.ends_with('\n')) text.remove_suffix(1);  // the line brings its own end
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      filled += text[i];
-      const bool more = text[i] == '\n' && i + 1 < text.size() && text[i + 1] != '\n';
-      if (more) filled += indentation;
-    }
+    if (alone && text.ends_with('\n')) text.remove_suffix(1);  // the line adds its own end
+    filled += indented(text, indentation);
     line.remove_prefix(end + 1);
   }
   return vanishes ? "" : filled + "\n";
@@ -50,6 +73,29 @@ std::string fill_template(std::string_view text, const std::map<std::string, std
   for (const auto& [name, value] : values)
     if (!used.contains(name)) throw std::logic_error("template: no hole for @" + name + "@");
   return filled;
+}
+
+std::string code_files(std::initializer_list<std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text += "\n" + fill_template(code_file(name), {});
+  return text;
+}
+
+std::string literal(double value) { return remap::float_literal(static_cast<float>(value)); }
+
+std::string double_literal(double value) {
+  if (!std::isfinite(value)) throw remap::Error(remap::ErrorKind::kNumeric, "emit: a number is not finite");
+  const std::string text = remap::number_text(value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string table_code(const std::string& type, const std::string& name, std::size_t width,
+                       const std::vector<std::string>& numbers) {
+  std::string text = "inline constexpr " + type + " " + name + "[" + std::to_string(numbers.size() / width) +
+                     "][" + std::to_string(width) + "] = {\n";
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += (i % width == 0 ? "    {" : ", ") + numbers[i] + ((i + 1) % width == 0 ? "},\n" : "");
+  return text + "};\n";
 }
 
 }  // namespace remapc

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fit/regressors.hpp"
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 #include "table/table.hpp"
 #include "table/table_record.hpp"
 

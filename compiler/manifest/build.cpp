@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -10,13 +11,13 @@
 #include "fit/fit_table.hpp"
 #include "fit/inverse_table.hpp"
 #include "fit/network/material_network.hpp"
-#include "fit_file/fit_json.hpp"
 #include "lower/lower.hpp"
 #include "manifest/fit_folder.hpp"
 #include "manifest/lock.hpp"
 #include "manifest/report.hpp"
 #include "model/chain.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "sweep/material_sample.hpp"
 #include "system/files.hpp"
 #include "system/parallel.hpp"
@@ -30,13 +31,9 @@ namespace fs = std::filesystem;
 using remap::Error;
 using remap::ErrorKind;
 
-// Whether the file of converters has one for each fit of the folder.
-bool lists(const fs::path& path, const FitFolder& folder) {
-  if (!fs::is_regular_file(path)) return false;
-  const auto listed = remap::converters_from_json(remap::read_file(path), path.string());
-  return std::equal(
-      listed.begin(), listed.end(), folder.fits.begin(), folder.fits.end(),
-      [](const remap::ConverterData& data, const remap::Fit& fit) { return data.id == fit.id; });
+// Whether the file of converters is as the last build left it, and so are the fits that it is made from.
+bool has_converters(const BuildFolders& folders, const Lock& lock) {
+  return !lock.converters.empty() && lock.converters == converters_hash(folders, lock);
 }
 
 class Builder {
@@ -51,6 +48,7 @@ class Builder {
         lock_(execution.force ? Lock{} : last_lock_) {}
 
   BuildResult run() {
+    load_converters();
     forget_vanished();
     std::vector<const ManifestItem*> waiting;
     for (const ManifestItem& item : manifest_.items) waiting.push_back(&item);
@@ -127,6 +125,7 @@ class Builder {
     const std::lock_guard lock(mutex_);
     lock_.items[item.id] = record;
     if (!fresh.header) {
+      lock_.converters.clear();  // an interrupted build leaves a file without this item
       save_lock(folders_.fits, lock_);
       built_.push_back({item.id, !fresh.table && has_table(item), !fresh.fit, true,
                         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
@@ -154,7 +153,7 @@ class Builder {
     }
   }
 
-  void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record) const {
+  void make(const ManifestItem& item, const Freshness& fresh, LockedItem* record) {
     const ItemPaths paths = paths_of(folders_, item.id);
     if (has_table(item) && !fresh.table) {
       const auto* network = std::get_if<NetworkItem>(&item.kind);
@@ -176,10 +175,15 @@ class Builder {
     record->header = sha256(text);
   }
 
-  static std::string header_of(const remap::Fit& fit, LockedItem* record) {
+  std::string header_of(const remap::Fit& fit, LockedItem* record) {
     const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
     record->alpha_bound = lowered.alpha.bound;
     record->specular_bound = lowered.specular.bound;
+    remap::ConverterData data = remap::converter_data(fit, lowered);
+    {
+      const std::lock_guard lock(mutex_);
+      converters_[fit.id] = std::move(data);
+    }
     return emit_lowered_header(fit, lowered);
   }
   static std::string header_of(const remap::WorkflowFit& fit, LockedItem*) { return emit_header(fit); }
@@ -272,16 +276,29 @@ class Builder {
     return composed_fit(steps, id);
   }
 
-  void write_converters(const FitFolder& folder) const {
+  // Converters of the last build, so that only fits that are made anew have to be lowered.
+  void load_converters() {
+    if (!has_converters(folders_, lock_)) return;
+    const fs::path path = folders_.generated / kConverterListName;
+    for (remap::ConverterData& data : remap::converters_from_json(remap::read_file(path), path.string()))
+      converters_[data.id] = std::move(data);
+  }
+
+  void write_converters(const FitFolder& folder) {
     // Warps are made from textures and strokes, so no item of a manifest is one.
     for (const remap::WarpMapFit& fit : folder.warps)
       write_changed(paths_of(folders_, fit.id).header, emit_header(fit));
-    const fs::path path = folders_.generated / kConverterListName;
-    if (built_.empty() && lists(path, folder)) return;
-    std::vector<remap::ConverterData> converters;
-    for (const remap::Fit& fit : folder.fits)
-      converters.push_back(remap::converter_data(fit, remap::lower(fit.mapping, fit.domain)));
-    write_changed(path, emit_converter_list(std::move(converters)));
+    if (built_.empty() && has_converters(folders_, lock_)) return;
+    std::vector<remap::ConverterData> converters(folder.fits.size());
+    remap::run_parallel(folder.fits.size(), execution_.jobs, [&](std::size_t i) {
+      const remap::Fit& fit = folder.fits[i];
+      const auto known = converters_.find(fit.id);
+      converters[i] = known != converters_.end()
+                          ? known->second
+                          : remap::converter_data(fit, remap::lower(fit.mapping, fit.domain));
+    });
+    write_changed(folders_.generated / kConverterListName, emit_converter_list(std::move(converters)));
+    lock_.converters = converters_hash(folders_, lock_);
   }
 
   // The report takes a second to compute, so it is written only if it changed.
@@ -303,6 +320,7 @@ class Builder {
   Lock lock_;
   std::mutex mutex_;
   std::size_t done_ = 0;
+  std::map<std::string, remap::ConverterData> converters_;  // those known to be current, by id
   std::vector<BuiltItem> built_;
   std::vector<std::string> pruned_;
 };
@@ -338,8 +356,9 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
   if (!has_report(folders, lock))
     reasons.push_back((folders.fits / kReportName).string() + ": out of date with the fits of the folder");
   const FitFolder folder = load_fit_folder(folders.fits);
-  if (const fs::path list = folders.generated / kConverterListName; !lists(list, folder))
-    reasons.push_back(list.string() + ": does not list the converters of these fits");
+  if (!has_converters(folders, lock))
+    reasons.push_back((folders.generated / kConverterListName).string() +
+                      ": was removed or changed after the last build, or its fits were");
   for (const remap::WarpMapFit& fit : folder.warps) {
     const fs::path header = paths_of(folders, fit.id).header;
     if (!fs::exists(header) || remap::read_file(header) != emit_header(fit))

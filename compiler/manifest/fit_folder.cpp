@@ -2,15 +2,24 @@
 
 #include <algorithm>
 
-#include "fit_file/fit_json.hpp"
 #include "manifest/manifest.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remapc {
 
 using remap::Error;
 using remap::ErrorKind;
+
+void FitFolder::add(remap::AnyFit fit) {
+  if (auto* workflow = std::get_if<remap::WorkflowFit>(&fit))
+    analytic.push_back(std::move(*workflow));
+  else if (auto* warp = std::get_if<remap::WarpMapFit>(&fit))
+    warps.push_back(std::move(*warp));
+  else
+    fits.push_back(std::move(std::get<remap::Fit>(fit)));
+}
 
 FitFolder load_fit_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder))
@@ -22,12 +31,7 @@ FitFolder load_fit_folder(const std::filesystem::path& folder) {
     if (entry.path().stem() != fit_id(fit))
       throw Error(ErrorKind::kInput,
                   entry.path().string() + ": holds the fit " + fit_id(fit) + " (rename the file after it)");
-    if (auto* analytic = std::get_if<remap::WorkflowFit>(&fit))
-      loaded.analytic.push_back(std::move(*analytic));
-    else if (auto* warp = std::get_if<remap::WarpMapFit>(&fit))
-      loaded.warps.push_back(std::move(*warp));
-    else
-      loaded.fits.push_back(std::move(std::get<remap::Fit>(fit)));
+    loaded.add(std::move(fit));
   }
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
   std::sort(loaded.fits.begin(), loaded.fits.end(), by_id);

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "fit_file/any_fit.hpp"
+#include "remap/any_fit.hpp"
 
 namespace remapc {
 
@@ -13,6 +13,8 @@ struct FitFolder {
   std::vector<remap::Fit> fits;  // converters of width and specular
   std::vector<remap::WorkflowFit> analytic;
   std::vector<remap::WarpMapFit> warps;
+
+  void add(remap::AnyFit fit);
 };
 
 // Loads every `*.json` of `folder` except its manifest. Throws kInput for a folder that cannot be read, a

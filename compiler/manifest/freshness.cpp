@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "emit/emit.hpp"
 #include "manifest/report.hpp"
 #include "remap/version.hpp"
 #include "system/files.hpp"
@@ -71,6 +72,11 @@ std::string report_hash(const BuildFolders& folders, const Lock& lock) {
 bool has_report(const BuildFolders& folders, const Lock& lock) {
   return lock.report == report_hash(folders, lock) && fs::exists(folders.fits / kReportName) &&
          fs::exists(folders.fits / kFiguresName) && fs::exists(folders.fits / kPlotName);
+}
+
+std::string converters_hash(const BuildFolders& folders, const Lock& lock) {
+  const std::string file = file_sha256(folders.generated / kConverterListName);
+  return file.empty() ? file : sha256(report_hash(folders, lock) + "\n" + file);
 }
 
 std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders,

@@ -25,6 +25,7 @@ Lock load_lock(const std::filesystem::path& fit_folder) {
     Lock lock;
     lock.items = root["items"].dictionary<LockedItem>(read_item);
     if (root.json().contains("report")) lock.report = root["report"].text();
+    if (root.json().contains("converters")) lock.converters = root["converters"].text();
     return lock;
   } catch (const remap::Error& error) {
     if (error.kind() != remap::ErrorKind::kInput) throw;
@@ -41,8 +42,11 @@ void save_lock(const std::filesystem::path& fit_folder, const Lock& lock) {
                  {"header", item.header},
                  {"alpha_bound", item.alpha_bound},
                  {"specular_bound", item.specular_bound}};
-  const nlohmann::ordered_json json = {
-      {"format", "remap-lock"}, {"version", kLockVersion}, {"report", lock.report}, {"items", items}};
+  const nlohmann::ordered_json json = {{"format", "remap-lock"},
+                                       {"version", kLockVersion},
+                                       {"report", lock.report},
+                                       {"converters", lock.converters},
+                                       {"items", items}};
   remap::write_file(fit_folder / kLockName, json.dump(1) + "\n");
 }
 

@@ -24,6 +24,7 @@ struct LockedItem {
 struct Lock {
   std::map<std::string, LockedItem> items;  // by id
   std::string report;                       // of the inputs of the report: every fit of the folder
+  std::string converters;                   // of the same inputs and of the file of converters
   bool operator==(const Lock&) const = default;
 };
 

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "fit_file/any_fit.hpp"
+#include "remap/any_fit.hpp"
 
 namespace remapc {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remapc {
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remapc {
 

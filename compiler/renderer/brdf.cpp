@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/convention.hpp"
+#include "remap/convention.hpp"
 #include "renderer/fresnel.hpp"
 
 namespace remapc {

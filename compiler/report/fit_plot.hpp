@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 #include "table/table.hpp"
 
 namespace remapc {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "remap/compiled_warp.hpp"
 #include "renderer/image.hpp"
-#include "warp/compiled_warp.hpp"
 
 namespace remapc {
 

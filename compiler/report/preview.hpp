@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 #include "renderer/renderer.hpp"
 #include "renderer/shape.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 #include "report/environment.hpp"
 
 namespace remapc {

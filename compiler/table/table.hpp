@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remapc {
 

@@ -1,4 +1,4 @@
-#include "convert/chained_converter.hpp"
+#include "remap/chained_converter.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,30 +15,30 @@ namespace {
 constexpr std::size_t kBlock = 512;
 constexpr std::size_t kMostChannels = 3;
 
-using Row = std::array<float, kBlock>;
+// The rows of width and specular that a step writes for the next.
+class Block {
+ public:
+  MaterialRows<float> rows(std::size_t channels) {
+    MaterialRows<float> rows;
+    rows[Parameter::kWidth] = {{values_[0].data()}, 1};
+    rows[Parameter::kSpecular] = {{values_[1].data(), values_[2].data(), values_[3].data()}, channels};
+    return rows;
+  }
 
-// A block between two steps.
-struct Between {
-  Row roughness;
-  std::array<Row, kMostChannels> specular;
+ private:
+  std::array<std::array<float, kBlock>, 1 + kMostChannels> values_;
 };
 
-struct ReadRows {
-  const float* roughness = nullptr;
-  std::array<const float*, kMostChannels> specular{};
-};
-struct WrittenRows {
-  float* roughness = nullptr;
-  std::array<float*, kMostChannels> specular{};
-};
-
-WrittenRows written(Between& between) {
-  return {between.roughness.data(),
-          {between.specular[0].data(), between.specular[1].data(), between.specular[2].data()}};
-}
-
-ReadRows read(const WrittenRows& rows) {
-  return {rows.roughness, {rows.specular[0], rows.specular[1], rows.specular[2]}};
+// The rows of width and specular of `rows`, from texel `start` on.
+template <typename To, typename From>
+MaterialRows<To> from_texel(const MaterialRows<From>& rows, std::size_t start) {
+  MaterialRows<To> moved;
+  for (const Parameter parameter : {Parameter::kWidth, Parameter::kSpecular}) {
+    moved[parameter].count = rows[parameter].count;
+    for (std::size_t c = 0; c < rows[parameter].count; ++c)
+      moved[parameter].row[c] = rows[parameter].row[c] + start;
+  }
+  return moved;
 }
 
 void require_joined(const std::vector<const Converter*>& steps) {
@@ -88,23 +88,13 @@ class ChainedConverter final : public Converter {
   explicit ChainedConverter(std::vector<const Converter*> steps)
       : Converter(chained_info(steps)), steps_(std::move(steps)) {}
 
-  std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out,
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
                       std::uint8_t* outside) const override {
-    if (specular.empty() || specular.size() > kMostChannels)
-      throw Error(ErrorKind::kUsage, "converter: got " + std::to_string(specular.size()) +
-                                         " specular channels (1 to 3 are supported)");
     std::size_t outside_count = 0;
     std::array<std::uint8_t, kBlock> flags;
     for (std::size_t start = 0; start < count; start += kBlock) {
-      ReadRows from{roughness + start, {}};
-      WrittenRows to{roughness_out + start, {}};
-      for (std::size_t c = 0; c < specular.size(); ++c) {
-        from.specular[c] = specular[c] + start;
-        to.specular[c] = specular_out[c] + start;
-      }
       const std::size_t size = std::min(kBlock, count - start);
-      convert_block(size, specular.size(), from, to, flags.data());
+      convert_block(size, from_texel<const float>(in, start), from_texel<float>(out, start), flags.data());
       for (std::size_t i = 0; i < size; ++i) outside_count += flags[i];
       if (outside != nullptr) std::copy_n(flags.begin(), size, outside + start);
     }
@@ -118,21 +108,18 @@ class ChainedConverter final : public Converter {
  private:
   // A texel is out of domain where it is for any step: `outside` gets their flags together. Steps write to
   // two copies by turns, as what a step is given must stay while it runs.
-  void convert_block(std::size_t count, std::size_t channels, const ReadRows& given,
-                     const WrittenRows& result, std::uint8_t* outside) const {
-    std::array<Between, 2> between;
+  void convert_block(std::size_t count, MaterialRows<const float> in, const MaterialRows<float>& result,
+                     std::uint8_t* outside) const {
+    std::array<Block, 2> between;
     std::array<std::uint8_t, kBlock> of_step;
-    ReadRows from = given;
     std::fill_n(outside, count, std::uint8_t{0});
     for (std::size_t k = 0; k < steps_.size(); ++k) {
-      const WrittenRows to = k + 1 == steps_.size() ? result : written(between[k % 2]);
-      const std::size_t outside_count =
-          steps_[k]->convert(count, from.roughness, {from.specular.data(), channels}, to.roughness,
-                             {to.specular.data(), channels}, of_step.data());
-      if (outside_count > 0)
+      const MaterialRows<float> out =
+          k + 1 == steps_.size() ? result : between[k % 2].rows(in[Parameter::kSpecular].count);
+      if (steps_[k]->convert(count, in, out, of_step.data()) > 0)
         for (std::size_t i = 0; i < count; ++i)
           outside[i] = static_cast<std::uint8_t>(outside[i] | of_step[i]);
-      from = read(to);
+      in = from_texel<const float>(out, 0);
     }
   }
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "convert/chained_converter.hpp"
+#include "remap/chained_converter.hpp"
 
 namespace remap {
 namespace {

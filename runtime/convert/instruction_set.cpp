@@ -1,4 +1,4 @@
-#include "convert/instruction_set.hpp"
+#include "remap/instruction_set.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "convert/instruction_set.hpp"
 #include "lower/lowered.hpp"
-#include "model/convention.hpp"
+#include "remap/convention.hpp"
+#include "remap/instruction_set.hpp"
 
 namespace remap {
 

@@ -1,10 +1,11 @@
-#include "convert/path.hpp"
+#include "remap/path.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "convert/shipped_converters.hpp"
+#include "convert/path_search.hpp"
 #include "remap/error.hpp"
+#include "remap/shipped_converters.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remap {
@@ -51,7 +52,7 @@ std::vector<std::string> path_models(const ConverterPath& path) {
 }
 
 ConverterGraph::ConverterGraph(std::vector<const Converter*> converters, Detours detours)
-    : converters_(std::move(converters)) {
+    : converters_(std::move(converters)), graph_(std::make_shared<DirectedGraph>()) {
   std::sort(converters_.begin(), converters_.end(),
             [](const Converter* a, const Converter* b) { return a->info().id < b->info().id; });
   for (const Converter* converter : converters_) {
@@ -59,22 +60,22 @@ ConverterGraph::ConverterGraph(std::vector<const Converter*> converters, Detours
     models_.push_back(converter->info().target.model);
   }
   models_ = unique_names(std::move(models_));
-  graph_.node_count = models_.size();
+  graph_->node_count = models_.size();
   for (const Converter* converter : converters_) {
     const ConverterInfo& info = converter->info();
-    graph_.edges.push_back({node(info.source.model), node(info.target.model),
+    graph_->edges.push_back({node(info.source.model), node(info.target.model),
                             std::llround(expected_error(info) * kUnitsOfError)});
   }
-  graph_.detours = detours == Detours::kAllowed;
+  graph_->detours = detours == Detours::kAllowed;
   if (detours == Detours::kRefused) hold_against_measured();
 }
 
 void ConverterGraph::hold_against_measured() {
   for (std::size_t i = 0; i < converters_.size(); ++i) {
     if (converters_[i]->info().image_rms_error) continue;
-    DirectedEdge& edge = graph_.edges[i];
+    DirectedEdge& edge = graph_->edges[i];
     for (std::size_t j = 0; j < converters_.size(); ++j) {
-      const DirectedEdge& other = graph_.edges[j];
+      const DirectedEdge& other = graph_->edges[j];
       if (converters_[j]->info().image_rms_error && other.from == edge.from && other.to == edge.to)
         edge.cost = std::max(edge.cost, other.cost + 1);
     }
@@ -89,7 +90,7 @@ std::size_t ConverterGraph::node(const std::string& model) const {
 std::vector<std::string> ConverterGraph::names_connected(const std::string& model, bool forwards) const {
   std::vector<std::string> names;
   if (!holds(models_, model)) return names;
-  const std::vector<bool> met = connected(graph_, node(model), forwards);
+  const std::vector<bool> met = connected(*graph_, node(model), forwards);
   for (std::size_t i = 0; i < models_.size(); ++i)
     if (met[i] && models_[i] != model) names.push_back(models_[i]);
   return names;
@@ -108,7 +109,7 @@ ConverterPath ConverterGraph::path_of(const std::vector<std::size_t>& edges) con
   std::int64_t error = 0;
   for (const std::size_t edge : edges) {
     path.steps.push_back(converters_[edge]);
-    error += graph_.edges[edge].cost;
+    error += graph_->edges[edge].cost;
   }
   path.expected_error = static_cast<double>(error) / kUnitsOfError;
   return path;
@@ -117,7 +118,7 @@ ConverterPath ConverterGraph::path_of(const std::vector<std::size_t>& edges) con
 std::vector<ConverterPath> ConverterGraph::find_paths(const PathRequest& request, std::size_t count) const {
   const std::vector<std::size_t> nodes = waypoints(request);
   std::vector<ConverterPath> paths;
-  for (const std::vector<std::size_t>& edges : least_paths(graph_, nodes, count))
+  for (const std::vector<std::size_t>& edges : least_paths(*graph_, nodes, count))
     paths.push_back(path_of(edges));
   if (paths.empty()) refuse(nodes);
   return paths;
@@ -153,7 +154,7 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
   std::vector<std::string> walk = {models_[waypoints.front()]};
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
     const std::string &from = models_[waypoints[i]], &to = models_[waypoints[i + 1]];
-    const auto legs = least_paths(graph_, {waypoints[i], waypoints[i + 1]}, 1);
+    const auto legs = least_paths(*graph_, {waypoints[i], waypoints[i + 1]}, 1);
     if (legs.empty()) {
       const std::vector<std::string> reached = reachable_from(from), reaching_it = reaching(to);
       throw Error(ErrorKind::kUsage,
@@ -163,7 +164,7 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
                       "; " + to + " is reached from " +
                       (reaching_it.empty() ? "nothing" : joined(reaching_it, ", ")) + ")");
     }
-    for (const std::size_t edge : legs.front()) walk.push_back(models_[graph_.edges[edge].to]);
+    for (const std::size_t edge : legs.front()) walk.push_back(models_[graph_->edges[edge].to]);
   }
   std::string twice;
   for (std::size_t i = 0; i < walk.size() && twice.empty(); ++i)

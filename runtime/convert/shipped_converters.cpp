@@ -1,13 +1,14 @@
-#include "convert/shipped_converters.hpp"
+#include "remap/shipped_converters.hpp"
 
 #include <algorithm>
 #include <array>
 #include <variant>
 
+#include "convert/data_converter.hpp"
 #include "convert/shipped_text.hpp"
-#include "fit_file/fit_json.hpp"
 #include "lower/lower.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "system/files.hpp"
 
 namespace remap {
@@ -62,6 +63,11 @@ std::vector<ConverterData> load_data() {
   return data;
 }
 
+const std::vector<ConverterData>& shipped_data() {
+  static const std::vector<ConverterData> data = load_data();
+  return data;
+}
+
 ConverterVector make_converters(InstructionSet set) {
   ConverterVector made;
   for (const ConverterData& data : shipped_data()) made.push_back(make_converter(data, set));
@@ -76,11 +82,6 @@ void use_converters(const fs::path& path) {
                                        ": does not exist (name a file of converters, a fit or a folder "
                                        "of fits)");
   chosen_path() = path;
-}
-
-const std::vector<ConverterData>& shipped_data() {
-  static const std::vector<ConverterData> data = load_data();
-  return data;
 }
 
 const ConverterVector& shipped_converters(InstructionSet set) {

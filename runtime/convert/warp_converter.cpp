@@ -1,13 +1,13 @@
-// Materials by a compiled warp: diffuse, specular and alpha of the source to those of the template.
+#include "remap/warp_converter.hpp"
+
 #include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
 
-#include "convert/material_converter.hpp"
 #include "convert/warp_kernel.hpp"
 #include "convert/workflow_kernel.hpp"
-#include "warp/warp_fit.hpp"
+#include "remap/workflow_converter.hpp"
 
 namespace remap {
 namespace {
@@ -32,10 +32,10 @@ void set_color(const ParameterRows<const float>& rows, std::size_t start, const 
   for (std::size_t c = 0; c < 3; ++c) color[c] = rows.row[rows.count == 1 ? 0 : c] + start;
 }
 
-class WarpConverter final : public MaterialConverter {
+class WarpConverter final : public Converter {
  public:
   WarpConverter(const WarpMapFit& fit, const WorkflowEnd& source, InstructionSet set)
-      : MaterialConverter(info_of(fit, set), parameters_of(source), parameters_of(SpecularWorkflow{})),
+      : Converter(info_of(fit, set), parameters_of(source), parameters_of(SpecularWorkflow{})),
         warp_(packed(fit.warp)),
         kernel_(warp_kernel(set)),
         workflows_(workflow_kernels(set)) {
@@ -47,10 +47,6 @@ class WarpConverter final : public MaterialConverter {
     // The width goes by as it is; alpha, as what neither end changes.
     to_specular_->specular.width = to_specular_->metallic.width = RoughnessConvention::kAlpha;
     require_valid(*to_specular_, fit.id);
-  }
-
-  std::size_t target_channels(Parameter parameter, std::size_t) const override {
-    return is_color(parameter) ? 3 : 1;
   }
 
   std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
@@ -114,8 +110,8 @@ class WarpConverter final : public MaterialConverter {
 
 }  // namespace
 
-std::unique_ptr<MaterialConverter> make_warp_converter(const WarpMapFit& fit, const WorkflowEnd& source,
-                                                       InstructionSet set) {
+std::unique_ptr<Converter> make_warp_converter(const WarpMapFit& fit, const WorkflowEnd& source,
+                                               InstructionSet set) {
   require_valid(fit.warp, fit.id);
   return std::make_unique<WarpConverter>(fit, source, set);
 }

@@ -1,12 +1,11 @@
-// Materials of one workflow to materials of another: equation (2), a converter of width and specular, and the
-// way to metallic, on blocks of texels that stay in the cache.
+#include "remap/workflow_converter.hpp"
+
 #include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "convert/material_converter.hpp"
 #include "convert/workflow_kernel.hpp"
 #include "remap/error.hpp"
 
@@ -104,14 +103,10 @@ bool tells_alpha(RoughnessConvention width) {
          width == RoughnessConvention::kGlossiness;
 }
 
-class WorkflowConverter final : public MaterialConverter {
+class WorkflowConverter final : public Converter {
  public:
   WorkflowConverter(const WorkflowStages& stages, InstructionSet set);
 
-  bool can_diagnose() const noexcept override { return to_metallic_.has_value(); }
-  std::size_t target_channels(Parameter parameter, std::size_t) const override {
-    return is_color(parameter) ? 3 : 1;
-  }
   std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
                       std::uint8_t* outside) const override;
 
@@ -136,7 +131,7 @@ class WorkflowConverter final : public MaterialConverter {
 };
 
 WorkflowConverter::WorkflowConverter(const WorkflowStages& stages, InstructionSet set)
-    : MaterialConverter(info_of(stages, set), parameters_of(stages.source), targets_of(stages.target)),
+    : Converter(info_of(stages, set), parameters_of(stages.source), targets_of(stages.target)),
       stages_(stages),
       kernels_(workflow_kernels(set)),
       width_(tells_alpha(info().target.roughness) ? info().target.roughness : RoughnessConvention::kAlpha) {
@@ -275,7 +270,13 @@ void WorkflowConverter::write_metallic(std::size_t count, std::size_t start, con
 
 }  // namespace
 
-std::unique_ptr<MaterialConverter> make_workflow_converter(const WorkflowStages& stages, InstructionSet set) {
+std::vector<Parameter> parameters_of(const WorkflowEnd& end) {
+  if (kind_of(end) == WorkflowKind::kSpecular)
+    return {Parameter::kWidth, Parameter::kSpecular, Parameter::kDiffuse};
+  return {Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic};
+}
+
+std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages, InstructionSet set) {
   return std::make_unique<WorkflowConverter>(stages, set);
 }
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cstddef>
 
-#include "convert/instruction_set.hpp"
-#include "workflow/workflow.hpp"
+#include "remap/instruction_set.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lower/lowered.hpp"
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remap {
 

@@ -12,7 +12,7 @@
 #include "discovery/folder_walk.hpp"
 #include "discovery/naming.hpp"
 #include "discovery/tiles.hpp"
-#include "model/convention.hpp"
+#include "remap/convention.hpp"
 
 namespace remap {
 

@@ -1,8 +1,8 @@
 // Fields that fit files and manifests share.
 #pragma once
 
-#include "fit_file/any_fit.hpp"
-#include "model/fit.hpp"
+#include "remap/any_fit.hpp"
+#include "remap/fit.hpp"
 #include "text/json_field.hpp"
 
 namespace remap {

@@ -1,5 +1,3 @@
-#include "fit_file/fit_json.hpp"
-
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -7,6 +5,7 @@
 #include "fit_file/fit_fields.hpp"
 #include "fit_file/network_json.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "system/files.hpp"
 #include "text/json_field.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 #include "text/json_field.hpp"
 
 namespace remap {

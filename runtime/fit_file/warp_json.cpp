@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "fit_file/fit_fields.hpp"
-#include "fit_file/fit_json.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "text/base64.hpp"
 #include "text/number_text.hpp"
 

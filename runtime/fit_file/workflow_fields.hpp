@@ -3,7 +3,7 @@
 
 #include "fit_file/fit_fields.hpp"
 #include "fit_file/network_json.hpp"
-#include "workflow/workflow_fit.hpp"
+#include "remap/workflow_fit.hpp"
 
 namespace remap {
 

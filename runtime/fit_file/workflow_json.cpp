@@ -1,9 +1,9 @@
 // Analytic fits as JSON.
 #include <cmath>
 
-#include "fit_file/fit_json.hpp"
 #include "fit_file/workflow_fields.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "system/files.hpp"
 
 namespace remap {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remap {
 

@@ -1,4 +1,4 @@
-#include "model/convention.hpp"
+#include "remap/convention.hpp"
 
 #include <cmath>
 

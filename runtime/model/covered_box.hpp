@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remap {
 

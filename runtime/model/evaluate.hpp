@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "model/mapping.hpp"
+#include "remap/mapping.hpp"
 
 namespace remap {
 

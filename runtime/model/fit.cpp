@@ -1,4 +1,4 @@
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 #include <algorithm>
 #include <array>

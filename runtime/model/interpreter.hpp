@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remap {
 

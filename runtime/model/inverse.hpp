@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remap {
 

@@ -1,4 +1,4 @@
-#include "model/mapping.hpp"
+#include "remap/mapping.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // There and back again: what two converters leave of a texel.
 #pragma once
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remap {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "convert/instruction_set.hpp"
+#include "remap/instruction_set.hpp"
 #include "texremap/convert_options.hpp"
 #include "texremap/workflow_choice.hpp"
 #include "texture/target_plan.hpp"

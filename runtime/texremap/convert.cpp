@@ -10,9 +10,10 @@
 
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
-#include "convert/chained_converter.hpp"
-#include "fit_file/fit_json.hpp"
+#include "remap/chained_converter.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
+#include "remap/warp_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/conversion_request.hpp"
 #include "texremap/convert_options.hpp"
@@ -55,9 +56,9 @@ void choose_brdf(const ConvertOptions& options, const GivenFit& fit, Instruction
                  ChosenConverter& chosen) {
   const WorkflowChoice& workflow = chosen.workflow;
   if (fit) {
-    chosen.owned = converter_of_fit(options, workflow,
-                                    require_width_and_specular(*fit, ErrorKind::kInput, options.fit), set);
-    chosen.path = {{chosen.owned.get()}, expected_error(chosen.owned->info())};
+    chosen.owned_brdf = converter_of_fit(
+        options, workflow, require_width_and_specular(*fit, ErrorKind::kInput, options.fit), set);
+    chosen.path = {{chosen.owned_brdf.get()}, expected_error(chosen.owned_brdf->info())};
   } else {
     if (options.from.empty() || options.to.empty())
       throw Error(ErrorKind::kUsage,
@@ -65,9 +66,9 @@ void choose_brdf(const ConvertOptions& options, const GivenFit& fit, Instruction
     if (workflow.is_material() && workflow.source_brdf == workflow.target_brdf && options.via.empty()) return;
     chosen.path =
         shipped_graph(set).find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
-    if (chosen.path.steps.size() > 1) chosen.owned = make_chained_converter(chosen.path.steps);
+    if (chosen.path.steps.size() > 1) chosen.owned_brdf = make_chained_converter(chosen.path.steps);
   }
-  chosen.brdf = chosen.owned ? chosen.owned.get() : chosen.path.steps.front();
+  chosen.brdf = chosen.owned_brdf ? chosen.owned_brdf.get() : chosen.path.steps.front();
   if (!chosen.brdf->self_test())
     throw Error(ErrorKind::kNumeric, chosen.brdf->info().id + ": self-test failed (results would be wrong)");
 }
@@ -82,8 +83,7 @@ ChosenConverter choose_converter(const ConvertOptions& options, const GivenFit& 
     return chosen;
   }
   choose_brdf(options, fit, set, chosen);
-  chosen.material = chosen.workflow.is_material() ? make_workflow_converter(stages_of(chosen), set)
-                                                  : make_material_converter(*chosen.brdf);
+  if (chosen.workflow.is_material()) chosen.material = make_workflow_converter(stages_of(chosen), set);
   return chosen;
 }
 
@@ -121,16 +121,16 @@ void convert_values(const ConvertOptions& options, const ChosenConverter& chosen
   const RoughnessConvention width = maps.target_convention.value_or(info.target.roughness);
   const auto specular = maps.sources.find(Parameter::kSpecular);
   ConvertedValues values;
-  for (const Parameter parameter : chosen.material->targets()) {
+  for (const Parameter parameter : chosen.converter().targets()) {
     if (parameter == Parameter::kDoubts) continue;
-    const std::size_t channels = chosen.material->target_channels(
+    const std::size_t channels = chosen.converter().target_channels(
         parameter, specular == maps.sources.end() ? 3 : specular->second.constants.size());
     values.values.push_back(
         {name_of_target(chosen, parameter, width), std::vector<float>(channels), !is_color(parameter)});
     for (float& value : values.values.back().channels)
       maps.targets[parameter].channels.push_back(float_channel(&value, 1));
   }
-  values.in_domain = convert_maps(*chosen.material, maps).out_of_domain_count == 0;
+  values.in_domain = convert_maps(chosen.converter(), maps).out_of_domain_count == 0;
   if (!values.in_domain)
     warn(options, "the values are outside the domain (" + domain_text(chosen.domain()) + ")");
   print_values(chosen, values, options.json);

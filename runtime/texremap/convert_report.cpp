@@ -175,14 +175,14 @@ Json counts_json(const MapStatistics& counts) {
 Json job_json(const ChosenConverter& chosen, const JobReport& report) {
   const MapStatistics& counts = report.statistics;
   Json json, values;
-  std::vector<Parameter> named = chosen.material->targets();
+  std::vector<Parameter> named = chosen.converter().targets();
   for (const Parameter parameter : named)
     if (parameter != Parameter::kDoubts) json[plain_name(parameter)] = file_json(report, parameter);
   json["mask"] = mask_json(report);
   json["copies"] = paths_json(report.copies);
   json["specular_color_space"] = transfer_name(report.specular_transfer);
   json.update(counts_json(counts));
-  for (const Parameter parameter : chosen.material->sources())
+  for (const Parameter parameter : chosen.converter().sources())
     if (std::find(named.begin(), named.end(), parameter) == named.end()) named.push_back(parameter);
   const auto of = [](const auto& all, Parameter parameter) {
     const auto found = all.find(parameter);

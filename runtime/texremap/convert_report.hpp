@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "command_line/resource_use.hpp"
-#include "convert/path.hpp"
+#include "remap/path.hpp"
 #include "texremap/conversion_jobs.hpp"
 #include "texture/material_survey.hpp"
 #include "texture/texture_pass.hpp"
@@ -19,13 +19,15 @@ namespace remap {
 // The converter of a run, and the workflows around it. It is compiled in, made from a fit, or chained from
 // the steps of a path.
 struct ChosenConverter {
-  std::unique_ptr<Converter> owned;
-  const Converter* brdf = nullptr;  // roughness and specular; null where both ends share a BRDF
-  ConverterPath path;               // the steps of `brdf`
+  std::unique_ptr<Converter> owned_brdf;  // unless `brdf` is a shipped one
+  const Converter* brdf = nullptr;        // of width and specular; null if both ends share a BRDF
+  ConverterPath path;                     // the steps of `brdf`
   WorkflowChoice workflow;
-  std::unique_ptr<MaterialConverter> material;  // the whole conversion
+  std::unique_ptr<Converter> material;  // of whole materials; null if width and specular are all
 
-  const ConverterInfo& info() const noexcept { return material->info(); }
+  // The whole conversion.
+  const Converter& converter() const noexcept { return material ? *material : *brdf; }
+  const ConverterInfo& info() const noexcept { return converter().info(); }
   // The converter whose domain limits the conversion.
   const ConverterInfo& domain() const noexcept { return brdf != nullptr ? brdf->info() : info(); }
 };

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "convert/path.hpp"
+#include "remap/path.hpp"
 
 namespace remap {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "command_line/command.hpp"
-#include "convert/shipped_converters.hpp"
+#include "remap/shipped_converters.hpp"
 
 namespace remap {
 

@@ -148,7 +148,7 @@ class JobRunner {
   void run(const ConversionJob& job, const std::function<void(double)>& progress, JobReport& report) const;
 
  private:
-  std::unique_ptr<MaterialConverter> survey(TextureSet& set, JobReport& report) const;
+  std::unique_ptr<Converter> survey(TextureSet& set, JobReport& report) const;
   void note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) const;
 
   const ChosenConverter& chosen_;
@@ -159,7 +159,7 @@ class JobRunner {
 
 // Samples the maps of a workflow and notes warnings. Returns a converter for this set alone if its dielectric
 // F0 is to be estimated from the maps.
-std::unique_ptr<MaterialConverter> JobRunner::survey(TextureSet& set, JobReport& report) const {
+std::unique_ptr<Converter> JobRunner::survey(TextureSet& set, JobReport& report) const {
   const WorkflowChoice& workflow = chosen_.workflow;
   if (!workflow.is_material()) return nullptr;
   const MaterialSample sample = sample_materials(set);
@@ -225,7 +225,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   }
   if (options_.dry_run) return;
 
-  const std::unique_ptr<MaterialConverter> own = survey(set, report);
+  const std::unique_ptr<Converter> own = survey(set, report);
   std::vector<TargetMap> targets = open_targets(set, plan, choice);
   note_doubts(set, targets, report);
   PassOptions pass = pass_;
@@ -235,7 +235,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
     pass.target_convention =
         chosen_.workflow.is_material() ? width_of(*chosen_.workflow.target) : job.request.convention;
   pass.progress = progress;
-  report.statistics = run_texture_pass(set, targets, own ? *own : *chosen_.material, pass);
+  report.statistics = run_texture_pass(set, targets, own ? *own : chosen_.converter(), pass);
   for (const PlannedCopy& copy : plan.copies) copy_whole_file(copy.source, copy.path);
   report.bytes_read = size_of(report.inputs);
   for (const JobReport::Result& result : report.results) report.bytes_written += size_of({result.path});

@@ -5,13 +5,13 @@
 #include <string>
 
 #include "command_line/command.hpp"
-#include "convert/path.hpp"
-#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
+#include "remap/path.hpp"
+#include "remap/shipped_converters.hpp"
+#include "remap/workflow_models.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
 #include "texremap/converters_option.hpp"
-#include "workflow/workflow_models.hpp"
 
 namespace remap {
 namespace {

@@ -1,6 +1,6 @@
 // `texremap path`: explains which converters `convert` uses from one model to another, with their errors and
 // the reason for the choice.
-#include "convert/path.hpp"
+#include "remap/path.hpp"
 
 #include <iostream>
 #include <memory>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "command_line/command.hpp"
-#include "convert/chained_converter.hpp"
+#include "remap/chained_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
 #include "texremap/converters_option.hpp"

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "convert/path.hpp"
-#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
+#include "remap/path.hpp"
+#include "remap/shipped_converters.hpp"
 #include "text/number_text.hpp"
 
 namespace remap {

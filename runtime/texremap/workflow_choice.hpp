@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "convert/material_converter.hpp"
+#include "remap/warp_fit.hpp"
+#include "remap/workflow_converter.hpp"
 #include "texremap/convert_options.hpp"
 #include "texture/texture_set.hpp"
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "texture/pixel_type.hpp"
-#include "texture/transfer.hpp"
+#include "remap/pixel_type.hpp"
+#include "remap/transfer.hpp"
 
 namespace remap {
 

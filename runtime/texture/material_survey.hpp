@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "convert/material_converter.hpp"
+#include "remap/workflow_converter.hpp"
 #include "texture/texture_set.hpp"
 #include "workflow/diagnosis.hpp"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "maps/channel_rows.hpp"
+#include "maps/metallic_field.hpp"
 #include "remap/error.hpp"
-#include "texture/channel_rows.hpp"
-#include "texture/metallic_field.hpp"
 
 namespace remap {
 namespace {
@@ -101,7 +101,7 @@ std::vector<Round> rounds_of(const TextureSet& set, std::vector<TargetMap>& targ
 // One mip level of a round.
 class Pass {
  public:
-  Pass(TextureSet& set, const Round& round, const MaterialConverter& converter, const PassOptions& options);
+  Pass(TextureSet& set, const Round& round, const Converter& converter, const PassOptions& options);
   // Called after each band with the number of finished rows.
   using Progress = std::function<void(int)>;
   // Finds the metallic around each texel, for smooth_metallic. Call it before run().
@@ -129,7 +129,7 @@ class Pass {
   const Round& round_;
   int width_;
   int height_;
-  const MaterialConverter& converter_;
+  const Converter& converter_;
   const PassOptions& options_;
   std::launch launch_;
   std::vector<int> in_place_;  // index of a map for each target, or -1
@@ -139,8 +139,7 @@ class Pass {
   std::vector<float> around_band_;
 };
 
-Pass::Pass(TextureSet& set, const Round& round, const MaterialConverter& converter,
-           const PassOptions& options)
+Pass::Pass(TextureSet& set, const Round& round, const Converter& converter, const PassOptions& options)
     : set_(set),
       round_(round),
       width_(set.maps[round.maps.front()].layout().width),
@@ -401,11 +400,6 @@ bool is_converted(const TargetChannel& channel) noexcept {
 
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
                                const PassOptions& options) {
-  return run_texture_pass(set, targets, *make_material_converter(converter), options);
-}
-
-MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
-                               const MaterialConverter& converter, const PassOptions& options) {
   const std::vector<Round> rounds = rounds_of(set, targets);
   MapStatistics statistics;
   for (std::size_t i = 0; i < rounds.size(); ++i) {

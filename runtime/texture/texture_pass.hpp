@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "convert/material_converter.hpp"
-#include "texture/convert_maps.hpp"
+#include "remap/convert_maps.hpp"
+#include "remap/converter.hpp"
 #include "texture/image_io.hpp"
 #include "texture/texture_set.hpp"
 
@@ -82,12 +82,9 @@ struct PassOptions {
 
 // Converts `set` into `targets` and gives the finished files their names. Each mip level is converted by
 // itself, so that a renderer filters the same parameters as in the source. The values equal
-// MaterialConverter::convert for each texel, rounded to the pixel type of the file, for any thread count and
+// Converter::convert for each texel, rounded to the pixel type of the file, for any thread count and
 // band size. Throws the errors of the files and of convert_maps, and kInterrupted if cancelled. After an
 // exception no file has appeared, except that after a failed rename the files renamed before it remain.
-MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
-                               const MaterialConverter& converter, const PassOptions& options);
-// The same for roughness and specular alone.
 MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets, const Converter& converter,
                                const PassOptions& options);
 

@@ -10,10 +10,10 @@
 #include <variant>
 #include <vector>
 
-#include "convert/material_rows.hpp"
-#include "model/convention.hpp"
+#include "remap/convention.hpp"
+#include "remap/material_rows.hpp"
+#include "remap/transfer.hpp"
 #include "texture/image_io.hpp"
-#include "texture/transfer.hpp"
 
 namespace remap {
 

@@ -1,4 +1,4 @@
-#include "warp/compiled_warp.hpp"
+#include "remap/compiled_warp.hpp"
 
 #include <algorithm>
 #include <cmath>

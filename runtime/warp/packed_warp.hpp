@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "warp/compiled_warp.hpp"
+#include "remap/compiled_warp.hpp"
 
 namespace remap {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-#include "workflow/workflow.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
 

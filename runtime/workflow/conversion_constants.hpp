@@ -1,7 +1,7 @@
 // A conversion as the constants of its formulas; for those who run them.
 #pragma once
 
-#include "workflow/workflow.hpp"
+#include "remap/workflow.hpp"
 #include "workflow/workflow_code.hpp"
 
 namespace remap {

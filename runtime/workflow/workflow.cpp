@@ -1,4 +1,4 @@
-#include "workflow/workflow.hpp"
+#include "remap/workflow.hpp"
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // The formulas of workflow conversions: the very text that generated headers hold
-// (compiler/emit/workflow_header.cpp), so that both give the same bits; and, for this program alone, those of
+// (compiler/emit/workflow_code.cpp), so that both give the same bits; and, for this program alone, those of
 // the diagnosis.
 #pragma once
 

@@ -1,4 +1,4 @@
-#include "workflow/workflow_models.hpp"
+#include "remap/workflow_models.hpp"
 
 #include <array>
 

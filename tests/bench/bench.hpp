@@ -1,4 +1,4 @@
-// The benchmarks by probed_model: each registers its runs, and after them makes its tables of their medians.
+// The benchmarks by subject: each registers its runs, and after them makes its tables of their medians.
 #pragma once
 
 #include <array>
@@ -30,6 +30,9 @@ Row pass_row(const Medians& medians, const std::string& what, const std::string&
 void add_passes();
 Section pass_section(const Medians& medians, const std::string& code, const std::string& title);
 Section other_pass_section(const Medians& medians);
+
+void add_converters();
+Section converter_section(const Medians& medians);
 
 void add_chains();
 Section chain_section(const Medians& medians);

@@ -4,7 +4,7 @@
 
 #include "bench/bench.hpp"
 #include "bench/builds.hpp"
-#include "convert/chained_converter.hpp"
+#include "remap/chained_converter.hpp"
 
 namespace remap_bench {
 namespace {
@@ -17,19 +17,19 @@ class Step final : public remap::Converter {
  public:
   Step(Pass pass, int number) : Converter(info(number)), pass_(pass) {}
 
-  std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out,
-                      std::uint8_t*) const override {
-    if (specular.size() == 3)
-      return pass_(count, roughness, {specular[0], specular[1], specular[2]}, roughness_out,
-                   {specular_out[0], specular_out[1], specular_out[2]});
+  std::size_t convert(std::size_t count, const remap::MaterialRows<const float>& in,
+                      const remap::MaterialRows<float>& out, std::uint8_t*) const override {
+    const auto& specular = in[remap::Parameter::kSpecular];
+    const auto& specular_out = out[remap::Parameter::kSpecular].row;
+    const float* const width = in[remap::Parameter::kWidth].row[0];
+    float* const width_out = out[remap::Parameter::kWidth].row[0];
+    if (specular.count == 3) return pass_(count, width, specular.row, width_out, specular_out);
     // The pass takes three channels only: a chain asks for one where it looks for its domain.
-    const std::vector<float> grey(specular[0], specular[0] + count);
+    const std::vector<float> grey(specular.row[0], specular.row[0] + count);
     std::vector<float> green(count), blue(count);
-    return pass_(count, roughness, {grey.data(), grey.data(), grey.data()}, roughness_out,
+    return pass_(count, width, {grey.data(), grey.data(), grey.data()}, width_out,
                  {specular_out[0], green.data(), blue.data()});
   }
-  bool self_test() const override { return true; }
 
  private:
   static remap::ConverterInfo info(int number) {

@@ -10,9 +10,10 @@
 #include "bench/sweep_table.hpp"
 #include "emit/emit.hpp"
 #include "emit/mapping_code.hpp"
+#include "emit/text_template.hpp"
 #include "fit/fit_table.hpp"
-#include "fit_file/fit_json.hpp"
 #include "model/chain.hpp"
+#include "remap/fit_file.hpp"
 #include "support/shared_data.hpp"
 #include "system/files.hpp"
 
@@ -139,7 +140,7 @@ remap::Network random_network(remap::Activation activation) {
 
 // `network_<activation>.hpp`: the kernel of a network, with what the layout of a header has around it.
 void write_network(const std::filesystem::path& folder, remap::Activation activation) {
-  const remap::Network network = random_network(activation);
+  const remap::Network network = remapc::folded(random_network(activation));
   const std::string name = "network_" + std::string(remap::activation_name(activation));
   remap::write_file(folder / (name + ".hpp"),
                     "#include <cstddef>\n#include <cstdint>\n#include <cstring>\n\nnamespace remap::" + name +

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
 
   add_passes();
+  add_converters();
   add_chains();
   add_rivals();
   add_networks();
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
       pass_section(medians, "parametric", "Lowered parametric pass (the paper's form)"),
       pass_section(medians, "fused",
                    "Three converters as one pass (remapc chain: ward, ward-balanced, beckmann, as)"),
+      converter_section(medians),
       chain_section(medians),
       rival_section(medians),
       network_section(medians),

@@ -6,8 +6,8 @@
 
 #include "bench/bench.hpp"
 #include "bench/builds.hpp"
-#include "fit_file/fit_json.hpp"
 #include "model/interpreter.hpp"
+#include "remap/fit_file.hpp"
 
 #ifdef REMAP_BENCH_OPENCOLORIO
 #include <OpenColorIO/OpenColorIO.h>

@@ -127,6 +127,44 @@ TEST_CASE("remapc build: makes the items of the manifest, and none twice", "[slo
                                  "mitsuba_ward_to_mitsuba_ward_duer"});
 }
 
+TEST_CASE("remapc build: converters.json that is not of the last build is made again") {
+  const Session session;
+  auto items = quick_manifest();
+  items["chains"] = items["sweeps"] = nlohmann::json::array();
+  session.write("fits/manifest.json", items.dump());
+  session.write("t.csv", made_table(14, 4));
+  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);  // of no item of the manifest
+  const std::string list = session.path("generated/converters.json"), id = "a_b_to_mitsuba_ward";
+  const auto is_current = [&] {
+    return session
+               .remapc({"emit", "--all", "--check", "--fits", session.path("fits"), "-o",
+                        session.path("generated")})
+               .output.find("converters.json") == std::string::npos;
+  };
+  CHECK(built_ids(session.remapc(build_of(session))) == std::vector<std::string>{id});
+  const std::string text = read_file(list);
+  CHECK(text.find("mitsuba_ward_to_mitsuba_as") != std::string::npos);
+  CHECK(is_current());
+
+  // What was changed by hand is made again.
+  append(list, "\n");
+  const ProcessResult check = session.remapc(build_of(session, {"--check"}));
+  CHECK(check.exit_code == 1);
+  CHECK(check.output.find("converters.json: was removed or changed") != std::string::npos);
+  CHECK(built_ids(session.remapc(build_of(session))).empty());
+  CHECK(read_file(list) == text);
+
+  // A converter that is made again as it was leaves the file as it is; one with another recipe does not.
+  std::filesystem::remove(session.path("generated/" + id + ".hpp"));
+  CHECK(built_ids(session.remapc(build_of(session))) == std::vector<std::string>{id});
+  CHECK(read_file(list) == text);
+  items["published"][0]["slope"]["c0"] = 0.6;
+  session.write("fits/manifest.json", items.dump());
+  CHECK(built_ids(session.remapc(build_of(session))) == std::vector<std::string>{id});
+  CHECK(read_file(list) != text);
+  CHECK(is_current());
+}
+
 TEST_CASE("remapc build: a table that was changed after its fit is reported") {
   const Session session;
   session.write(

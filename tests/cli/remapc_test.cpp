@@ -9,7 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/remapc_session.hpp"
-#include "fit_file/fit_json.hpp"
+#include "remap/fit_file.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "convert/shipped_converters.hpp"
+#include "remap/shipped_converters.hpp"
 #include "support/shared_data.hpp"
 
 using namespace remap;

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "convert/path.hpp"
-#include "convert/shipped_converters.hpp"
+#include "remap/path.hpp"
+#include "remap/shipped_converters.hpp"
 #include "support/skip.hpp"
 #include "text/number_text.hpp"
 

@@ -10,8 +10,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/converter.hpp"
-#include "convert/shipped_converters.hpp"
+#include "remap/converter.hpp"
+#include "remap/shipped_converters.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "convert/shipped_converters.hpp"
-#include "fit_file/fit_json.hpp"
+#include "remap/fit_file.hpp"
+#include "remap/shipped_converters.hpp"
 #include "support/example_fit.hpp"
 
 using namespace remap;
@@ -247,6 +247,39 @@ TEST_CASE("texremap: --fit evaluates that fit, and its models must agree", "[slo
   disagreeing.insert(disagreeing.end(), {"--force", "--from", "mitsuba/ward"});
   check_failure(session.texremap(disagreeing), 2,
                 "source model is example/a, but --from asks for mitsuba/ward");
+}
+
+TEST_CASE("texremap: --converters replaces the shipped converters by those of a fit, a folder or a list") {
+  const Session session;
+  const Fit fit = example_fit();
+  std::filesystem::create_directory(session.path("fits"));
+  write_file(session.path("fits/fit.json"), fit_to_json(fit));
+  write_file(session.path("fits/manifest.json"), "{}");  // is not a fit, as in a folder of remapc
+  const auto list = [&](const std::string& path) {
+    const ProcessResult result = session.texremap({"list", "--converters", path, "--json"});
+    require_success(result);
+    return result.output;
+  };
+  const std::string of_fit = list(session.path("fits/fit.json"));
+  CHECK_THAT(of_fit, Catch::Contains(fit.id));
+  CHECK_THAT(of_fit, !Catch::Contains("mitsuba_ward_to_mitsuba_as"));
+  CHECK(list(session.path("fits")) == of_fit);
+  CHECK(list(REMAP_SOURCE_DIR "/generated/converters.json") == session.texremap({"list", "--json"}).output);
+
+  const std::vector<std::string> numbers = {"convert", "--from",         fit.source.model,
+                                            "--to",    fit.target.model, "--roughness",
+                                            "0.25",    "--specular",     "0.3"};
+  check_failure(session.texremap(numbers), 2, fit.source.model);
+  std::vector<std::string> words = numbers;
+  words.insert(words.end(), {"--converters", session.path("fits")});
+  const ProcessResult converted = session.texremap(words);
+  require_success(converted);
+  words = numbers;
+  words.insert(words.end(), {"--fit", session.path("fits/fit.json")});
+  CHECK(session.texremap(words).output == converted.output);
+
+  check_failure(session.texremap({"list", "--converters", session.path("nothing")}), 1, "does not exist");
+  check_failure(session.texremap({"list", "--converters", session.path("")}), 1, "holds no converter");
 }
 
 TEST_CASE("texremap: --fit that cannot be lowered is interpreted, with a warning") {

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "convert/material_rows.hpp"
-#include "convert/shipped_converters.hpp"
+#include "remap/material_rows.hpp"
+#include "remap/shipped_converters.hpp"
 #include "support/skip.hpp"
 #include "workflow/conversion.hpp"
 #include "workflow/diagnosis.hpp"

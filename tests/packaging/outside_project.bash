@@ -1,5 +1,5 @@
-# A project outside of the tree finds the installed package, uses a shipped header and one emitted at build time,
-# and emits again when its fit changes.
+# A project outside of the tree finds the installed package, uses a shipped header, the library, and a header emitted
+# at build time, and emits again when its fit changes.
 source "$(dirname "$0")/check.bash"
 build=$3
 compiler=$4
@@ -12,7 +12,7 @@ trap 'rm -rf "$project"' EXIT
 cp -r "$source_folder/examples/outside_project/." "$project"
 
 expect_exit 0 cmake --install "$build" --prefix "$prefix"
-for file in bin/remapc bin/texremap include/remap/$id.hpp include/remap/LICENSE; do
+for file in bin/remapc bin/texremap include/remap/$id.hpp include/remap/LICENSE include/remap/version.hpp; do
   [[ -f $prefix/$file ]] || fail "$file: is not installed"
 done
 ! grep -rlF -e "$source_folder" -e "$build" "$prefix"/lib* "$prefix/include" ||
@@ -43,6 +43,17 @@ expect_exit 0 cmake --build "$project/build"
 [[ -f $project/build/remap_generated/remap/$id.hpp ]] || fail "the header was not emitted in the binary folder"
 expect_close "$(second_row shipped)" "$shipped"
 expect_close "$(second_row own_fit)" "$shipped"
+expect_exit 0 "$project/build/convert_buffers"
+expect_output "65536 texels, "
+
+# Each public header can be included by itself, and needs nothing that is not installed.
+for header in "$prefix"/include/remap/*.hpp; do
+  [[ $header == *_to_*.hpp ]] || echo "#include \"$header\""
+done >"$work/headers.txt"
+(($(wc -l <"$work/headers.txt") > 15)) || fail "public headers are not installed"
+while read -r include; do
+  expect_exit 0 "$compiler" -std=c++20 -fsyntax-only -I "$prefix/include" -x c++ - <<<"$include"
+done <"$work/headers.txt"
 
 sed -i '0,/"start"/s|"start": [-+0-9.e]*|"start": 0.01|' "$project/$id.json"
 [[ $(own_fit) != "$shipped" ]] || fail "the fit was to be changed"

@@ -12,8 +12,8 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
-#include "fit_file/fit_json.hpp"
 #include "model/interpreter.hpp"
+#include "remap/fit_file.hpp"
 #include "support/campaign.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"

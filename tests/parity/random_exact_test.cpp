@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
-#include "emit/mapping_code.hpp"
+#include "emit/header_data.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "support/build_speed.hpp"
@@ -66,10 +66,9 @@ std::vector<Header> exact_headers(const std::string& kind) {
   std::vector<Header> headers;
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(campaign_length(200)); ++seed) {
     const Fit fit = random_fit(kind, seed);
-    const remapc::MappingCode code =
-        std::visit([&](const auto& mapping) { return remapc::exact_code(mapping, fit.domain); }, fit.mapping);
-    headers.push_back({fit, remapc::emit_header(fit, {.exact = true, .lowering = {}}), code.alpha_error,
-                       code.specular_error, std::nullopt});
+    const remapc::MappingData mapping = remapc::exact_mapping(fit.mapping, fit.domain);
+    headers.push_back({fit, remapc::emit_header(fit, {.exact = true, .lowering = {}}), mapping.alpha_error,
+                       mapping.specular_error, std::nullopt});
   }
   return headers;
 }

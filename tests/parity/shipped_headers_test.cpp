@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/shipped_converters.hpp"
+#include "remap/shipped_converters.hpp"
 #include "runtime/convert/texel_rows.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
@@ -37,13 +37,15 @@ class HeaderConverter final : public Converter {
  public:
   HeaderConverter(const ConverterInfo& info, const Entry& entry) : Converter(info), entry_(entry) {}
 
-  std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out,
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
                       std::uint8_t*) const override {
-    if (specular.size() == 1)
-      return entry_.grey(count, roughness, {specular[0]}, roughness_out, {specular_out[0]});
-    return entry_.rgb(count, roughness, {specular[0], specular[1], specular[2]}, roughness_out,
-                      {specular_out[0], specular_out[1], specular_out[2]});
+    const auto& specular = in[Parameter::kSpecular];
+    const auto& specular_out = out[Parameter::kSpecular].row;
+    const float* const width = in[Parameter::kWidth].row[0];
+    float* const width_out = out[Parameter::kWidth].row[0];
+    if (specular.count == 1)
+      return entry_.grey(count, width, {specular.row[0]}, width_out, {specular_out[0]});
+    return entry_.rgb(count, width, specular.row, width_out, specular_out);
   }
   bool self_test() const override { return entry_.self_test(); }
 
@@ -69,8 +71,8 @@ std::string batch_source(const std::vector<std::string>& ids) {
 // Compiles the headers of all shipped converters; the entries stay as long as the program.
 std::map<std::string, Entry> compiled_headers(const std::filesystem::path& folder) {
   std::vector<std::vector<std::string>> batches(kBatches);
-  const auto& all = shipped_data();
-  for (std::size_t i = 0; i < all.size(); ++i) batches[i % kBatches].push_back(all[i].id);
+  const auto& all = shipped_converters();
+  for (std::size_t i = 0; i < all.size(); ++i) batches[i % kBatches].push_back(all[i]->info().id);
   std::vector<int> results(kBatches, -1);
   const auto library = [&](std::size_t b) { return folder / ("batch_" + std::to_string(b) + ".so"); };
   run_parallel(kBatches, 2, [&](std::size_t b) {
@@ -98,7 +100,7 @@ std::map<std::string, Entry> compiled_headers(const std::filesystem::path& folde
 TEST_CASE("shipped headers: bit for bit what texremap gives of the same converters as data", "[slow]") {
   const TemporaryFolder folder;
   const std::map<std::string, Entry> headers = compiled_headers(folder.path());
-  REQUIRE(headers.size() == shipped_data().size());
+  REQUIRE(headers.size() == shipped_converters().size());
   for (const InstructionSet set : instruction_sets())
     for (const auto& converter : shipped_converters(set)) {
       const ConverterInfo& info = converter->info();

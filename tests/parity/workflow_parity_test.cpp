@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
-#include "fit_file/fit_json.hpp"
+#include "remap/fit_file.hpp"
 #include "runtime/workflow/materials.hpp"
 #include "support/campaign.hpp"
 #include "support/skip.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remap {
 

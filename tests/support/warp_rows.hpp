@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "warp/compiled_warp.hpp"
+#include "remap/compiled_warp.hpp"
 
 namespace remap {
 

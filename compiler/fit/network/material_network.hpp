@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fit/rows/regression.hpp"
+#include "remap/workflow_fit.hpp"
 #include "table/material_table.hpp"
-#include "workflow/workflow_fit.hpp"
 
 namespace remapc {
 

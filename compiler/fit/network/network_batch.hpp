@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "model/mapping.hpp"
+#include "remap/mapping.hpp"
 
 namespace remapc {
 

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "fit/network/samples.hpp"
-#include "model/mapping.hpp"
+#include "remap/mapping.hpp"
 
 namespace remapc {
 

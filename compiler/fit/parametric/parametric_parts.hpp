@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fit/parametric/parametric_form.hpp"
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 #include "table/table.hpp"
 
 namespace remapc {

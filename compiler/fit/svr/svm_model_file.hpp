@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "model/mapping.hpp"
+#include "remap/mapping.hpp"
 
 namespace remapc {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fit/svr/svr_options.hpp"
-#include "model/mapping.hpp"
+#include "remap/mapping.hpp"
 
 namespace remapc {
 

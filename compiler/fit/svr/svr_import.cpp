@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/svr/svm_model_file.hpp"
-#include "fit_file/fit_json.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "remap/version.hpp"
 #include "system/files.hpp"
 

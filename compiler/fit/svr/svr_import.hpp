@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "model/fit.hpp"
+#include "remap/fit.hpp"
 
 namespace remapc {
 

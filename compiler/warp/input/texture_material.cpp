@@ -1,9 +1,9 @@
 #include "warp/input/texture_material.hpp"
 
-#include "convert/material_converter.hpp"
 #include "discovery/discovery.hpp"
+#include "remap/convert_maps.hpp"
 #include "remap/error.hpp"
-#include "texture/convert_maps.hpp"
+#include "remap/material_rows.hpp"
 #include "texture/texture_set.hpp"
 #include "warp/input/image_texels.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "warp/compiled_warp.hpp"
+#include "remap/compiled_warp.hpp"
 #include "warp/space/features.hpp"
 
 namespace remapc {

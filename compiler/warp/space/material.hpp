@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "remap/compiled_warp.hpp"
 #include "renderer/brdf.hpp"
-#include "warp/compiled_warp.hpp"
 
 namespace remapc {
 

@@ -5,10 +5,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "emit/header_data.hpp"
 #include "emit/text_template.hpp"
-#include "fit_file/fit_json.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "support/random_warp.hpp"
 #include "system/files.hpp"
 
@@ -25,6 +26,38 @@ TEST_CASE("template: a hole without value and a value without hole are bugs") {
   CHECK_THROWS_AS(fill_template("@x@\n", {}), std::logic_error);
   CHECK_THROWS_AS(fill_template("x\n", {{"x", "1"}}), std::logic_error);
   CHECK_THROWS_AS(fill_template("@x\n", {{"x", "1"}}), std::logic_error);
+}
+
+TEST_CASE("template: the mark of an independent loop becomes pragmas at its indentation") {
+  const std::string text = fill_template("{\n  REMAP_INDEPENDENT_LOOP\n  for (;;);\n}\n", {});
+  CHECK(text.starts_with("{\n  #if defined(__clang__)\n  #pragma clang loop vectorize(assume_safety)\n"));
+  CHECK(text.ends_with("\n  #endif\n  for (;;);\n}\n"));
+}
+
+TEST_CASE("template: a file of code that does not exist is a bug") {
+  CHECK(code_file("frame").find("#ifndef @guard@") != std::string::npos);
+  CHECK_THROWS_AS(code_file("frames"), std::logic_error);
+}
+
+TEST_CASE("emit: the description of a header has the values of the fit and no code") {
+  const remap::Fit fit =
+      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
+  const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
+  const HeaderData data = describe(fit, lowered);
+  CHECK(data.source.parameters[0].name == "exponent");
+  CHECK(data.target.parameters[1].name == fit.target.specular);
+  REQUIRE(data.golden.size() > 8);
+  for (const GoldenValues& texel : data.golden) {
+    const double in = static_cast<double>(texel.in[1]);
+    double out = 0.0;
+    const double width = remap::evaluate_texel(fit, static_cast<double>(texel.in[0]), {&in, 1}, {&out, 1});
+    CHECK(texel.out[0] == static_cast<float>(width));
+    CHECK(texel.out[1] == static_cast<float>(out));
+  }
+  const auto& header = std::get<ConverterHeader>(data.code);
+  CHECK(std::get<remap::Lowered>(header.mapping.code) == lowered);
+  CHECK(header.mapping.alpha_error == lowered.alpha.bound);
+  CHECK(header.alpha_rms_error >= fit.roughness_error.rms);
 }
 
 TEST_CASE("emit: the committed header is what its fit gives, read again or not") {

@@ -9,8 +9,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "fit_file/fit_json.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "study/warp_sets.hpp"
 #include "support/random_warp.hpp"
 #include "warp/copy_error.hpp"

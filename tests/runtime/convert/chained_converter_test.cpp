@@ -1,10 +1,11 @@
 // Chains of converters against their steps one after another, and against the interpreter.
-#include "convert/chained_converter.hpp"
+#include "remap/chained_converter.hpp"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
+#include "convert/data_converter.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
@@ -22,23 +23,25 @@ class InTurn final : public Converter {
  public:
   explicit InTurn(Steps steps) : Converter(steps.front()->info()), steps_(std::move(steps)) {}
 
-  std::size_t convert(std::size_t count, const float* roughness, std::span<const float* const> specular,
-                      float* roughness_out, std::span<float* const> specular_out,
-                      std::uint8_t* flags) const override {
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& rows,
+                      const MaterialRows<float>& out, std::uint8_t* flags) const override {
     std::vector<bool> outside(count, false);
-    std::vector<const float*> in(specular.begin(), specular.end());
-    const float* width = roughness;
+    const std::size_t channels = rows[Parameter::kSpecular].count;
+    const auto& specular_out = out[Parameter::kSpecular].row;
+    const auto& specular = rows[Parameter::kSpecular].row;
+    std::vector<const float*> in(specular.begin(), specular.begin() + channels);
+    const float* width = rows[Parameter::kWidth].row[0];
     for (const Converter* step : steps_) {
       for (std::size_t i = 0; i < count; ++i)
         if (counts(*step, width[i], in, i)) outside[i] = true;
-      step->convert(count, width, in, roughness_out, specular_out);
-      width = roughness_out;
-      in.assign(specular_out.begin(), specular_out.end());
+      float* const width_out = out[Parameter::kWidth].row[0];
+      step->convert(count, width, in, width_out, {specular_out.data(), channels});
+      width = width_out;
+      in.assign(specular_out.begin(), specular_out.begin() + channels);
     }
     if (flags != nullptr) std::copy(outside.begin(), outside.end(), flags);
     return static_cast<std::size_t>(std::count(outside.begin(), outside.end(), true));
   }
-  bool self_test() const override { return true; }
 
  private:
   static bool counts(const Converter& step, float width, const std::vector<const float*>& rows,

@@ -1,15 +1,15 @@
 // Converters behind their interface: the compiled ones against their fits' domain, the interpreted one
 // against the interpreter.
-#include "convert/converter.hpp"
+#include "remap/converter.hpp"
 
 #include <array>
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "convert/shipped_converters.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
+#include "remap/shipped_converters.hpp"
 #include "runtime/convert/texel_rows.hpp"
 #include "support/example_fit.hpp"
 

@@ -1,5 +1,5 @@
 // Which instruction sets there are, and how a person names one.
-#include "convert/instruction_set.hpp"
+#include "remap/instruction_set.hpp"
 
 #include <catch2/catch.hpp>
 

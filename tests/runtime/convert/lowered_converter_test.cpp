@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/converter.hpp"
+#include "convert/data_converter.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"

@@ -1,5 +1,5 @@
 // Paths through graphs of converters that only say what they are: against every path there is, and refusals.
-#include "convert/path.hpp"
+#include "remap/path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
+#include "remap/shipped_converters.hpp"
 
 using namespace remap;
 using Names = std::vector<std::string>;
@@ -18,11 +18,10 @@ namespace {
 class NamedConverter final : public Converter {
  public:
   explicit NamedConverter(ConverterInfo info) : Converter(std::move(info)) {}
-  std::size_t convert(std::size_t, const float*, std::span<const float* const>, float*,
-                      std::span<float* const>, std::uint8_t*) const override {
+  std::size_t convert(std::size_t, const MaterialRows<const float>&, const MaterialRows<float>&,
+                      std::uint8_t*) const override {
     throw std::logic_error("a path was run");
   }
-  bool self_test() const override { return true; }
 };
 
 // Converters without fit errors: what is expected of each is its image error.

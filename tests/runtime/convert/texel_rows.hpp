@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "convert/converter.hpp"
+#include "remap/converter.hpp"
 
 namespace remap {
 

@@ -1,4 +1,6 @@
 // The pass of a compiled warp against the same warp in double precision, one texel at a time.
+#include "remap/warp_converter.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -8,7 +10,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/material_converter.hpp"
 #include "convert/warp_kernel.hpp"
 #include "support/random_warp.hpp"
 #include "support/warp_rows.hpp"

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
-#include "fit_file/fit_json.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 
 using namespace remapc;
 

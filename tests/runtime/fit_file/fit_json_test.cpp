@@ -1,11 +1,10 @@
 // Fit files: exact round trip, and every complaint with its place.
-#include "fit_file/fit_json.hpp"
-
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "support/replaced.hpp"
 
 using namespace remap;

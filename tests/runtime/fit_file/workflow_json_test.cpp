@@ -1,8 +1,8 @@
 // Analytic fits as files: round trips, and complaints that say where and what.
 #include <catch2/catch.hpp>
 
-#include "fit_file/fit_json.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "support/replaced.hpp"
 
 using namespace remap;

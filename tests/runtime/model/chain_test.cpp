@@ -5,12 +5,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "fit_file/fit_json.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
 #include "model/inverse.hpp"
 #include "model/round_trip.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 
 using namespace remap;
 

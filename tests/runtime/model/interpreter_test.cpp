@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/convention.hpp"
+#include "remap/convention.hpp"
 
 using namespace remap;
 

@@ -7,8 +7,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/shipped_converters.hpp"
 #include "remap/error.hpp"
+#include "remap/shipped_converters.hpp"
+#include "remap/workflow_converter.hpp"
 #include "support/example_fit.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"

@@ -1,5 +1,5 @@
 // Checks of compiled warps.
-#include "warp/compiled_warp.hpp"
+#include "remap/compiled_warp.hpp"
 
 #include <limits>
 

@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "fit_file/fit_json.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "runtime/workflow/materials.hpp"
 
 using namespace remapc;

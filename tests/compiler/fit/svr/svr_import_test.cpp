@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/svr/svm_model_file.hpp"
-#include "fit_file/fit_json.hpp"
 #include "model/evaluate.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
+#include "remap/fit_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
 

@@ -1,0 +1,110 @@
+// The description of a converter of width and specular.
+#include <algorithm>
+#include <array>
+
+#include "converter_data/converter_data.hpp"
+#include "emit/convention_text.hpp"
+#include "emit/header_data.hpp"
+#include "model/interpreter.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::Fit;
+using remap::number_text;
+
+// Refuses names of variables of the template: with such a parameter the header would not compile.
+void require_free_name(const std::string& name) {
+  constexpr std::array<std::string_view, 13> kTaken = {"count",  "start",  "size",  "i",   "in",
+                                                       "out",    "from",   "to",    "row", "widths",
+                                                       "detail", "golden", "passed"};
+  if (std::find(kTaken.begin(), kTaken.end(), name) == kTaken.end()) return;
+  throw remap::Error(remap::ErrorKind::kInput, "emit: the specular parameter " + name +
+                                                   " has the name of a variable of the header (rename it)");
+}
+
+std::string error_text(const std::string& name, const remap::ErrorFigures& figures) {
+  return name + " rms " + two_digits(figures.rms) + ", 99 % " + two_digits(figures.p99) + ", max " +
+         two_digits(figures.max);
+}
+
+std::string range_text(const std::string& name, const remap::Range& range) {
+  return name + " " + number_text(range.min) + " to " + number_text(range.max);
+}
+
+std::string provenance(const Fit& fit, const std::string& description) {
+  const auto comment = [&](const std::string& key) {
+    const auto found = fit.table.comments.find(key);
+    return found == fit.table.comments.end() ? std::string() : found->second;
+  };
+  std::string text;
+  for (const std::string& remark : fit.remarks) text += remark + "\n";
+  if (!fit.table.name.empty()) text += "Table " + fit.table.name + ", sha256 " + fit.table.sha256 + ";\n";
+  if (!comment("objective").empty())
+    text += "objective " + comment("objective") + " (lights " + comment("lights") + ", weighting " +
+            comment("weighting") + "), " + comment("resolution") + " pixels squared, by " +
+            comment("renderer") + ".\n";
+  text += "Fit: " + kind_name(fit.mapping);
+  if (fit.split.trained_rows + fit.split.held_out_rows != 0)
+    text += ", seed " + std::to_string(fit.split.seed) + ", " + std::to_string(fit.split.trained_rows) +
+            " rows trained, " + std::to_string(fit.split.held_out_rows) + " held out";
+  text += ".\n";
+  if (fit.has_errors())
+    text += std::string("Error ") +
+            (fit.split.held_out_rows != 0 ? "on the rows held out: " : "of its steps together: ") +
+            error_text("alpha", fit.roughness_error) + ";\n" +
+            error_text(fit.target.specular, fit.specular_error) + ".\n";
+  else
+    text += "Its error is not known.\n";
+  return text + description + "\nCovers " + range_text("alpha", fit.domain.alpha) + ", " +
+         range_text(fit.source.specular, fit.domain.specular) + ".";
+}
+
+HeaderEnd end_of(const remap::ModelSide& side) {
+  require_free_name(side.specular);
+  return {
+      side.model,
+      {{std::string(convention_name(side.roughness)), 1, convention_text(side.roughness).meaning},
+       {side.specular, 1,
+        side.specular == "f0" ? "reflectance at normal incidence, linear" : "specular reflectance, linear"}}};
+}
+
+HeaderData described(const Fit& fit, MappingData mapping) {
+  HeaderData data;
+  data.id = fit.id;
+  data.title = fit.source.model + " to " + fit.target.model +
+               ": which parameters of the second give the same picture as those of the first.";
+  data.provenance = provenance(fit, mapping.description);
+  data.source = end_of(fit.source);
+  data.target = end_of(fit.target);
+  for (const remap::GoldenTexel& g : golden_texels(fit, mapping.alpha_error, mapping.specular_error))
+    data.golden.push_back(
+        {{g.width, g.specular}, {g.width_out, g.specular_out}, {g.width_within, g.specular_within}});
+  ConverterHeader header;
+  header.mapping = std::move(mapping);
+  header.source = fit.source.roughness;
+  header.target = fit.target.roughness;
+  header.width = own_roughness_range(fit);
+  header.specular = specular_range(fit);
+  header.alpha_by_specular = alpha_depends_on_specular(fit.mapping);
+  if (fit.has_errors()) {
+    header.alpha_rms_error = remap::rounded_up(fit.roughness_error.rms, 2);
+    header.specular_rms_error = remap::rounded_up(fit.specular_error.rms, 2);
+  }
+  if (fit.image_similarity)
+    header.image_rms_error = remap::rounded_up(fit.image_similarity->image_error.rms, 2);
+  data.code = std::move(header);
+  return data;
+}
+
+}  // namespace
+
+HeaderData describe(const Fit& fit, const remap::Lowered& lowered) {
+  return described(fit, lowered_mapping(lowered));
+}
+
+HeaderData describe_exact(const Fit& fit) { return described(fit, exact_mapping(fit.mapping, fit.domain)); }
+
+}  // namespace remapc

@@ -1,0 +1,168 @@
+// The descriptions of converters of whole materials: workflows and warps.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "emit/header_data.hpp"
+#include "text/report_text.hpp"
+#include "workflow/conversion.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::WarpTexel;
+using remap::WorkflowConversion;
+
+HeaderEnd end_of(const std::string& model, const std::string& workflow, std::string_view diffuse,
+                 std::vector<remap::MaterialParameter> parameters) {
+  for (remap::MaterialParameter& parameter : parameters) parameter.meaning += ", 0 to 1";
+  return {model, std::move(parameters), workflow, std::string(diffuse)};
+}
+
+std::string title_of(const HeaderEnd& source, const HeaderEnd& target) {
+  return "Materials of " + source.model + " (" + source.workflow + " workflow) as materials of " +
+         target.model + " (" + target.workflow + " workflow).";
+}
+
+// Metallic materials over the range: dielectrics, metals, blends, dark and bright.
+std::vector<remap::MetallicMaterial> golden_materials() {
+  return {{{0.5f, 0.25f, 0.125f}, 0.0f, 0.5f},           {{1.0f, 0.75f, 0.375f}, 1.0f, 0.25f},
+          {{0.75f, 0.5f, 0.25f}, 0.5f, 0.75f},           {{0.25f, 0.5f, 0.875f}, 0.25f, 0.375f},
+          {{0.875f, 0.125f, 0.5f}, 0.75f, 1.0f},         {{0.125f, 0.125f, 0.125f}, 0.0f, 0.125f},
+          {{0.9375f, 0.9375f, 0.9375f}, 0.125f, 0.625f}, {{0.5f, 0.5f, 0.5f}, 1.0f, 0.0f}};
+}
+
+std::vector<float> values_of(const remap::MetallicMaterial& material) {
+  const auto& [color, metallic, width] = material;
+  return {color[0], color[1], color[2], metallic, width};
+}
+std::vector<float> values_of(const remap::SpecularMaterial& material) {
+  const auto& [diffuse, specular, width] = material;
+  return {diffuse[0], diffuse[1], diffuse[2], specular[0], specular[1], specular[2], width};
+}
+
+GoldenValues golden_values(const WorkflowConversion& conversion, const remap::MetallicMaterial& metallic) {
+  WorkflowConversion forward = conversion;
+  forward.formula = remap::Equation2{};
+  remap::SpecularMaterial specular = to_specular(forward, metallic);
+  if (!conversion.is_to_metallic()) return {values_of(metallic), values_of(specular), {}};
+  // A metallic material cannot represent this one: its last channel is darker.
+  if (metallic.metallic == 0.5f) specular.specular[2] *= 0.5f;
+  return {values_of(specular), values_of(to_metallic(conversion, specular)), {}};
+}
+
+std::string training_lines(const remap::NetworkTraining& training) {
+  const auto text = [](const remap::ErrorFigures& figures) {
+    return "rms " + two_digits(figures.rms) + ", max " + two_digits(figures.max);
+  };
+  return "Table " + training.table.name + ", sha256 " + training.table.sha256 + "; seed " +
+         std::to_string(training.split.seed) + ".\nError on unseen rows: base color " +
+         text(training.base_color) + "; metallic " + text(training.metallic) + ".\n";
+}
+
+std::string provenance(const remap::WorkflowFit& fit) {
+  std::string text = "By " + formula_text(fit.conversion.formula) + ".\n";
+  if (fit.training) text += training_lines(*fit.training);
+  for (const std::string& remark : fit.remarks) text += remark + "\n";
+  text.pop_back();
+  return text;
+}
+
+// Texels over the whole range, the same on every machine: fractions of multiples of irrational numbers.
+WarpTexel candidate(std::size_t number) {
+  constexpr std::array<double, remap::kWarpParameters> kSteps = {0.7548777, 0.5698403, 0.4301597, 0.8191725,
+                                                                 0.6710436, 0.5497005, 0.4503046};
+  WarpTexel texel;
+  for (std::size_t p = 0; p < texel.size(); ++p) {
+    const double place = static_cast<double>(number + 1) * kSteps[p];
+    texel[p] = static_cast<float>(std::floor((place - std::floor(place)) * 1024.0) / 1024.0);
+  }
+  return texel;
+}
+
+// The distance of a texel, in nodes, to where the nearest node changes. Blended tables have no such
+// places: 1.
+double distance_to_tie(const remap::CompiledWarp& warp, const WarpTexel& texel) {
+  double distance = 1.0;
+  if (!std::holds_alternative<remap::CopiedNodes>(warp.table.entries)) return distance;
+  const auto position = node_position_of(warp, texel);
+  for (std::size_t k = 0; k < warp.coordinates.dimension; ++k)
+    distance = std::min(distance, std::fabs(position[k] - std::floor(position[k]) - 0.5));
+  return distance;
+}
+
+std::vector<GoldenValues> golden_values(const remap::CompiledWarp& warp) {
+  constexpr std::size_t kTexels = 8, kCandidates = 512;
+  std::vector<GoldenValues> golden;
+  for (std::size_t i = 0; i < kCandidates && golden.size() < kTexels; ++i) {
+    const WarpTexel texel = candidate(i);
+    if (distance_to_tie(warp, texel) < 0.01) continue;
+    const WarpTexel result = evaluate_warp(warp, texel);
+    golden.push_back({{texel.begin(), texel.end()}, {result.begin(), result.end()}, {}});
+  }
+  return golden;
+}
+
+// Text of a file as one line of a comment: characters that could end the line become spaces.
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == '\\') c = ' ';
+  return text + "\n";
+}
+
+std::string provenance(const remap::WarpMapFit& fit) {
+  const bool copied = std::holds_alternative<remap::CopiedNodes>(fit.warp.table.entries);
+  std::string text = std::string("By an appearance warp (An et al. 2011): reflectances of a template, ") +
+                     (copied ? "copied" : "blended between\nnodes of a table") + ".\n";
+  for (const auto& [key, value] : fit.method) text += one_line(key + ": " + value);
+  if (fit.copy_rms_error >= 0.0)
+    text += "From an exact copy of template texels: " + percent(fit.copy_rms_error) +
+            " of the template's spread (RMS).\n";
+  for (const std::string& remark : fit.remarks) text += one_line(remark);
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+HeaderData describe(const remap::WorkflowFit& fit) {
+  WorkflowConversion conversion = fit.conversion;
+  require_valid(conversion, fit.id);
+  HeaderData data;
+  data.id = fit.id;
+  const bool to_metallic = conversion.is_to_metallic();
+  data.source =
+      end_of(conversion.specular.model, "specular", diffuse_convention_name(conversion.specular.diffuse),
+             to_metallic ? source_parameters(conversion) : target_parameters(conversion));
+  data.target =
+      end_of(conversion.metallic.model, "metallic", diffuse_convention_name(conversion.metallic.diffuse),
+             to_metallic ? target_parameters(conversion) : source_parameters(conversion));
+  if (!to_metallic) std::swap(data.source, data.target);
+  data.title = title_of(data.source, data.target);
+  data.provenance = provenance(fit);
+  for (const remap::MetallicMaterial& material : golden_materials())
+    data.golden.push_back(golden_values(conversion, material));
+  if (auto* learned = std::get_if<remap::LearnedNetwork>(&conversion.formula))
+    learned->network = folded(learned->network);
+  data.code = std::move(conversion);
+  return data;
+}
+
+HeaderData describe(const remap::WarpMapFit& fit) {
+  require_valid(fit.warp, fit.id);
+  const std::vector<remap::MaterialParameter> parameters = {
+      {"diffuse", 3, "diffuse reflectance"},
+      {"specular", 3, "specular reflectance at normal incidence, or scale"},
+      {"alpha", 1, "microfacet width"}};
+  HeaderData data;
+  data.id = fit.id;
+  data.source = end_of(fit.source_model, "specular", "plain", parameters);
+  data.target = end_of(fit.template_model, "specular", "plain", parameters);
+  data.title = title_of(data.source, data.target);
+  data.provenance = provenance(fit);
+  data.golden = golden_values(fit.warp);
+  data.code = WarpHeader{packed(fit.warp), fit.warp.table.entries, fit.copy_rms_error};
+  return data;
+}
+
+}  // namespace remapc

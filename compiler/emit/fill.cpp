@@ -1,0 +1,170 @@
+// The text of a header: templates/frame.in around the interface of its kind, templates/converter.in for width
+// and specular, templates/material.in for whole materials.
+#include "emit/convention_text.hpp"
+#include "emit/mapping_code.hpp"
+#include "emit/text_template.hpp"
+#include "remap/version.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::MaterialParameter;
+using Parameters = std::vector<MaterialParameter>;
+
+std::string numbers(const std::vector<float>& values) {
+  return "{" + joined(values, ", ", remap::float_literal) + "}";
+}
+
+std::string type_of(const MaterialParameter& parameter, const std::string& one) {
+  return parameter.channel_count == 3 ? "std::array<" + one + ", 3> " : one + " ";
+}
+
+std::string members(const Parameters& parameters) {
+  return joined(parameters, "\n", [](const MaterialParameter& parameter) {
+    return type_of(parameter, "float") + parameter.name + ";  // " + parameter.meaning;
+  });
+}
+
+std::string row_members(const Parameters& parameters, const std::string& type) {
+  return joined(parameters, "\n", [&](const MaterialParameter& parameter) {
+    return type_of(parameter, type) + parameter.name + ";";
+  });
+}
+
+// `prefix` and the member of each channel: &in.diffuse[0], &in.diffuse[1], ...
+std::string channels(const Parameters& parameters, const std::string& prefix) {
+  return joined(parameters, ", ", [&](const MaterialParameter& parameter) {
+    const std::string text = prefix + parameter.name;
+    return parameter.channel_count == 1 ? text : text + "[0], " + text + "[1], " + text + "[2]";
+  });
+}
+
+std::string channel_count(const Parameters& parameters) {
+  int count = 0;
+  for (const MaterialParameter& parameter : parameters) count += parameter.channel_count;
+  return std::to_string(count);
+}
+
+// One row for each channel, with the values of all texels.
+std::string golden_rows(const std::vector<GoldenValues>& golden, std::vector<float> GoldenValues::*part) {
+  std::string text;
+  for (std::size_t channel = 0; channel < (golden[0].*part).size(); ++channel) {
+    std::vector<float> row;
+    for (const GoldenValues& texel : golden) row.push_back((texel.*part)[channel]);
+    text += numbers(row) + ",\n";
+  }
+  return text;
+}
+
+bool takes_roots(const ConverterHeader& header) {
+  const auto has_root = [](std::string_view expression) {
+    return expression.find("std::sqrt") != std::string_view::npos;
+  };
+  return has_root(convention_text(header.source).to_alpha) ||
+         has_root(convention_text(header.target).from_alpha);
+}
+
+// What a header has of its own within the frame.
+struct Body {
+  std::vector<std::string> includes;
+  std::string text;
+};
+
+Body body_of(const HeaderData& data, const ConverterHeader& header) {
+  const Parameters &in = data.source.parameters, &out = data.target.parameters;
+  const MappingCode code =
+      std::visit([](const auto& mapping) { return mapping_code(mapping); }, header.mapping.code);
+  const auto golden = [](const GoldenValues& texel) {
+    return "{" + numbers(texel.in) + ", " + numbers(texel.out) + ", " + numbers(texel.within) + "},\n";
+  };
+  Body body;
+  body.includes = {"array", "cstddef", "cstdint", "cstring", "type_traits", "utility"};
+  if (takes_roots(header)) body.includes.insert(body.includes.begin(), "cmath");
+  body.text = fill_template(code_file("converter"), {{"source", data.source.model},
+                                                     {"target", data.target.model},
+                                                     {"in_roughness", in[0].name},
+                                                     {"in_specular", in[1].name},
+                                                     {"out_roughness", out[0].name},
+                                                     {"out_specular", out[1].name},
+                                                     {"input_members", members(in)},
+                                                     {"output_members", members(out)},
+                                                     {"alpha_rms", literal(header.alpha_rms_error)},
+                                                     {"specular_rms", literal(header.specular_rms_error)},
+                                                     {"image_rms", literal(header.image_rms_error)},
+                                                     {"roughness_min", literal(header.width.min)},
+                                                     {"roughness_max", literal(header.width.max)},
+                                                     {"specular_min", literal(header.specular.min)},
+                                                     {"specular_max", literal(header.specular.max)},
+                                                     {"block_size", std::to_string(code.block)},
+                                                     {"mapping", code.functions},
+                                                     {"block", block_code(header, in[1].name, code)},
+                                                     {"golden_count", std::to_string(data.golden.size())},
+                                                     {"golden", joined(data.golden, "", golden)}});
+  return body;
+}
+
+template <typename Material>  // a conversion of workflows, or a warp
+Body body_of(const HeaderData& data, const Material& material) {
+  const Parameters &in = data.source.parameters, &out = data.target.parameters;
+  const MaterialCode code = material_code(material);
+  return {
+      {"array", "cmath", "cstddef", "cstdint", "cstring", "utility"},
+      fill_template(code_file("material"), {{"formula", code.formula},
+                                            {"source", data.source.model},
+                                            {"target", data.target.model},
+                                            {"source_workflow", data.source.workflow},
+                                            {"target_workflow", data.target.workflow},
+                                            {"source_diffuse", data.source.diffuse},
+                                            {"target_diffuse", data.target.diffuse},
+                                            {"source_width", in.back().name},
+                                            {"target_width", out.back().name},
+                                            {"constants", code.constants},
+                                            {"input_members", members(in)},
+                                            {"output_members", members(out)},
+                                            {"input_rows", row_members(in, "const float*")},
+                                            {"output_rows", row_members(out, "float*")},
+                                            {"input_count", channel_count(in)},
+                                            {"output_count", channel_count(out)},
+                                            {"functions", code.functions},
+                                            {"block", code.block},
+                                            {"call", code.call},
+                                            {"in_flat", channels(in, "in.")},
+                                            {"out_flat", channels(out, "out.")},
+                                            {"in_addresses", channels(in, "&in.")},
+                                            {"out_addresses", channels(out, "&out.")},
+                                            {"within", code.within},
+                                            {"golden_count", std::to_string(data.golden.size())},
+                                            {"golden_in", golden_rows(data.golden, &GoldenValues::in)},
+                                            {"golden_out", golden_rows(data.golden, &GoldenValues::out)}})};
+}
+
+// `REMAP_GENERATED_A_TO_B_HPP`.
+std::string guard_of(const std::string& id) {
+  std::string upper = id;
+  for (char& c : upper)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return "REMAP_GENERATED_" + upper + "_HPP";
+}
+
+std::string comment_lines(const std::string& text) {
+  std::string lines = "// ";
+  for (const char c : text) lines += c == '\n' ? std::string("\n// ") : std::string(1, c);
+  return lines;
+}
+
+}  // namespace
+
+std::string fill(const HeaderData& data) {
+  const Body body = std::visit([&](const auto& code) { return body_of(data, code); }, data.code);
+  const auto include = [](const std::string& name) { return "#include <" + name + ">\n"; };
+  return fill_template(code_file("frame"), {{"version", remap::kVersion},
+                                            {"id", data.id},
+                                            {"title", data.title},
+                                            {"provenance", comment_lines(data.provenance)},
+                                            {"guard", guard_of(data.id)},
+                                            {"includes", joined(body.includes, "", include)},
+                                            {"body", body.text}});
+}
+
+}  // namespace remapc

@@ -1,0 +1,133 @@
+// Appearance warps as C++: the pass of runtime/warp/code with the numbers of the warp.
+#include <array>
+#include <span>
+#include <type_traits>
+
+#include "emit/mapping_code.hpp"
+#include "emit/text_template.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::PackedWarp;
+
+// `a,b,c`, `a_line` numbers on each line; without spaces, since tables have a quarter of a million numbers.
+template <typename Numbers>
+std::string list_text(const Numbers& numbers, std::size_t a_line) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i > 0) text += i % a_line == 0 ? ",\n" : ",";
+    if constexpr (std::is_same_v<typename Numbers::value_type, float>)
+      text += remap::float_literal(numbers[i]);
+    else
+      text += std::to_string(numbers[i]);
+  }
+  return text;
+}
+
+template <typename Number>
+std::string array_text(const std::string& type, const std::string& name, const std::vector<Number>& numbers,
+                       std::size_t a_line) {
+  return "inline constexpr " + type + " " + name + "[] = {\n" + list_text(numbers, a_line) + "};\n";
+}
+
+// The file of code and the numbers of one kind of coordinates or of table.
+struct Part {
+  std::string_view file;
+  std::string numbers;
+};
+
+std::string width_text(const PackedWarp& warp) {
+  const std::array numbers = {warp.least_alpha, warp.largest_alpha, warp.width_start, warp.width_scale};
+  return "{" + list_text(numbers, 4) + "}";
+}
+
+Part part_of(const PackedWarp& warp, const remap::PackedSeparable& terms) {
+  return {"separable", array_text("float", "kDiffuse", terms.diffuse, 4) +
+                           array_text("float", "kWidthNodes", terms.width_nodes, 16) +
+                           "inline constexpr SeparableView<kDimension> kCoordinates{kDiffuse, kWidthNodes, " +
+                           std::to_string(terms.last_width) + ", " + width_text(warp) + "};\n"};
+}
+
+Part part_of(const PackedWarp& warp, const remap::PackedQuadratic& terms) {
+  return {"quadratic", array_text("float", "kWeights", terms.weights, 8) +
+                           "inline constexpr QuadraticView<kDimension> kCoordinates{kWeights, " +
+                           width_text(warp) + "};\n"};
+}
+
+std::string grid_text(const PackedWarp& warp) {
+  const auto used = [&](const auto& numbers) {
+    return list_text(std::span(numbers).first(warp.dimension), 3);
+  };
+  return "{" + std::to_string(warp.nodes) + ", {" + used(warp.low) + "}, {" + used(warp.scale) + "}}";
+}
+
+constexpr std::string_view kBlendedTable = R"(inline constexpr std::size_t kNodes = @count@;
+inline constexpr float kLeast[] = {@least@};
+inline constexpr float kLargest[] = {@largest@};
+@codes@
+
+// The codes as the pass reads them, decoded when they are first asked for.
+struct DecodedTable {
+  DecodedTable() noexcept { decode_entries(kCodes, kNodes, kLeast, kLargest, entries); }
+  float entries[kNodes * kEntryLanes];
+};
+inline BlendedView<kDimension> table() noexcept {
+  static const DecodedTable decoded;
+  return {@grid@, decoded.entries};
+}
+)";
+
+Part part_of(const PackedWarp& warp, const remap::BlendedNodes& entries) {
+  const std::size_t count = entries.codes.size() / remap::kWarpParameters;
+  return {"blended",
+          fill_template(kBlendedTable, {{"count", std::to_string(count)},
+                                        {"least", list_text(entries.least, 7)},
+                                        {"largest", list_text(entries.largest, 7)},
+                                        {"codes", array_text("std::uint8_t", "kCodes", entries.codes, 32)},
+                                        {"grid", grid_text(warp)}})};
+}
+
+constexpr std::string_view kCopiedTable = R"(@palette@
+@indices@
+
+inline CopiedView<kDimension> table() noexcept {
+  return {@grid@, kIndices, kPalette};
+}
+)";
+
+Part part_of(const PackedWarp& warp, const remap::CopiedNodes& entries) {
+  const std::vector<float>& palette = std::get<remap::PackedCopied>(warp.table).palette;
+  return {"copied", fill_template(kCopiedTable,
+                                  {{"palette", array_text("float", "kPalette", palette, 7)},
+                                   {"indices", array_text("std::uint16_t", "kIndices", entries.indices, 20)},
+                                   {"grid", grid_text(warp)}})};
+}
+
+}  // namespace
+
+MaterialCode material_code(const WarpHeader& header) {
+  const PackedWarp& warp = header.warp;
+  const auto part = [&](const auto& kind) { return part_of(warp, kind); };
+  const Part coordinates = std::visit(part, warp.coordinates), table = std::visit(part, header.entries);
+  const std::string dimension = std::to_string(warp.dimension);
+  MaterialCode code;
+  code.formula = remap::kWarpKind;
+  code.constants =
+      "inline constexpr const char* kTemplateModel = kTargetModel;\n"
+      "// RMS distance in appearance from the exact copy of template texels; shares of the template's "
+      "spread, "
+      "-1 where unknown.\n"
+      "inline constexpr double kCopyRmsError = " +
+      double_literal(header.copy_rms_error) + ";\n";
+  code.functions = code_files({"floats", "rows", "appearance", coordinates.file, table.file, "warp_block"}) +
+                   "\ninline constexpr std::size_t kDimension = " + dimension + ";\n" + coordinates.numbers +
+                   table.numbers;
+  code.block = "kWarpBlock";
+  code.call = "warp_block<" + dimension + ">(detail::kCoordinates, detail::table(), from, to)";
+  code.within = "1e-4f";
+  return code;
+}
+
+}  // namespace remapc

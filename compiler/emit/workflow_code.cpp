@@ -1,0 +1,78 @@
+// Conversions between workflows as C++: the text of runtime/workflow/code with the conventions of both ends.
+#include "emit/mapping_code.hpp"
+#include "emit/text_template.hpp"
+#include "text/number_text.hpp"
+#include "workflow/conversion_constants.hpp"
+
+namespace remapc {
+namespace {
+
+// The code of each formula.
+struct CodeOf {
+  MaterialCode operator()(const remap::Equation2&) const {
+    // Compilers may fuse products; towards metallic the difference grows.
+    return code(code_files({"metallic_to_specular"}), "kSpecularBlock", "metallic_to_specular", "", "4e-6f");
+  }
+  MaterialCode operator()(const remap::Projection& projection) const {
+    return to_metallic("projection", "project", literal(projection.prior) + ", ");
+  }
+  MaterialCode operator()(const remap::Equation3& equation) const {
+    const bool by_albedo = equation.mean == remap::MetallicMean::kAlbedo;
+    return to_metallic("equation_3", "solve_equation_3", by_albedo ? "true, " : "false, ");
+  }
+  MaterialCode operator()(const remap::KhronosSolver&) const {
+    return to_metallic("khronos", "solve_khronos", "");
+  }
+  MaterialCode operator()(const remap::LearnedNetwork& learned) const {
+    const remap::Network& network = learned.network;
+    return code("\ninline constexpr std::size_t kBlock = " + std::to_string(network_block(network)) + ";\n" +
+                    network_helpers(network.activation) + network_function("material_network", network) +
+                    code_files({"learned"}),
+                "kBlock", "by_network", "");
+  }
+
+ private:
+  static MaterialCode code(const std::string& functions, const std::string& block,
+                           const std::string& function, const std::string& argument,
+                           const std::string& within = "1e-4f") {
+    MaterialCode code;
+    code.functions = code_files({"floats", "conventions", "rows", "width"}) + functions;
+    code.block = block;
+    code.call = function + "(detail::kConventions, " + argument + "from, to)";
+    code.within = within;
+    return code;
+  }
+  static MaterialCode to_metallic(std::string_view file, const std::string& function,
+                                  const std::string& argument) {
+    return code(code_files({"specular_texels", file}), "kMetallicBlock", function, argument);
+  }
+};
+
+std::string enumerator(remap::workflow_code::WidthParameter width) {
+  switch (width) {
+    case remap::workflow_code::WidthParameter::kAlpha:
+      return "WidthParameter::kAlpha";
+    case remap::workflow_code::WidthParameter::kGlossiness:
+      return "WidthParameter::kGlossiness";
+    case remap::workflow_code::WidthParameter::kRoughness:
+      break;
+  }
+  return "WidthParameter::kRoughness";
+}
+
+}  // namespace
+
+MaterialCode material_code(const remap::WorkflowConversion& conversion) {
+  const remap::workflow_code::Conventions use = conventions_of(conversion);
+  MaterialCode code = std::visit(CodeOf{}, conversion.formula);
+  code.formula = formula_name(conversion.formula);
+  code.constants = "inline constexpr float kDielectricF0 = " + remap::float_literal(use.dielectric_f0) +
+                   ";  // of the metallic workflow";
+  code.functions += "\ninline constexpr Conventions kConventions{" + remap::float_literal(use.dielectric_f0) +
+                    ", " + remap::float_literal(use.diffuse_of_albedo) + ", " +
+                    (use.diffuse_is_scaled ? "true" : "false") + ", " + enumerator(use.width_in) + ", " +
+                    enumerator(use.width_out) + "};\n";
+  return code;
+}
+
+}  // namespace remapc

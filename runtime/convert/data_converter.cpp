@@ -1,0 +1,145 @@
+#include "convert/data_converter.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "convert/lowered_kernel.hpp"
+#include "lower/lower.hpp"
+#include "model/interpreter.hpp"
+#include "remap/error.hpp"
+#include "text/number_text.hpp"
+
+namespace remap {
+namespace {
+
+void require_evaluable(const ConverterData& data) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(ErrorKind::kNumeric, data.id + ": " + what);
+  };
+  for (const PiecewisePolynomial* polynomial : {&data.alpha_polynomial, &data.specular_polynomial})
+    if (polynomial->degrees.size() > kMostPowers)
+      refuse("the degree in specular is " + std::to_string(polynomial->degrees.size() - 1) + " (at most " +
+             std::to_string(kMostPowers - 1) + " is supported)");
+  if (!(data.specular.min >= 0.0 && data.specular.max > 0.0 && data.roughness.min >= 0.0))
+    refuse("the domain is empty or negative (specular must reach above 0, roughness must not be negative)");
+}
+
+Range decimal(const Range& range) {
+  return {decimal_value(static_cast<float>(range.min)), decimal_value(static_cast<float>(range.max))};
+}
+
+ConverterInfo info_of(const ConverterData& data, InstructionSet set) {
+  return {data.id,
+          data.source,
+          data.target,
+          decimal(data.roughness),
+          decimal(data.specular),
+          data.roughness_rms_error,
+          data.specular_rms_error,
+          data.image_rms_error,
+          set,
+          {}};
+}
+
+bool is_close(float value, float expected, float within) { return std::fabs(value - expected) <= within; }
+
+class DataConverter final : public Converter {
+ public:
+  DataConverter(const ConverterData& data, InstructionSet set)
+      : Converter(info_of(data, set)),
+        alpha_(data.alpha_polynomial),
+        specular_(data.specular_polynomial),
+        golden_(data.golden),
+        kernel_(lowered_kernel(set)) {
+    const std::vector<int>& degrees = data.specular_polynomial.degrees;
+    pass_ = {data.source.roughness,
+             data.target.roughness,
+             static_cast<float>(data.roughness.min),
+             static_cast<float>(data.roughness.max),
+             static_cast<float>(data.specular.min),
+             static_cast<float>(data.specular.max),
+             static_cast<float>(1.0 / data.specular.max),
+             degrees.size() == 2 && degrees[0] < 0 && data.alpha_polynomial.degrees.size() == 1,
+             alpha_.rows(),
+             specular_.rows()};
+  }
+
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
+                      std::uint8_t* outside) const override {
+    const auto& specular = in[Parameter::kSpecular];
+    return kernel_(pass_, {count, specular.count, in[Parameter::kWidth].row[0], specular.row,
+                           out[Parameter::kWidth].row[0], out[Parameter::kSpecular].row, outside});
+  }
+
+  bool self_test() const override { return gives_golden_texels() && agrees_with_baseline(); }
+
+ private:
+  bool gives_golden_texels() const {
+    for (const GoldenTexel& golden : golden_) {
+      float width = 0.0f, mapped = 0.0f;
+      const std::array<const float*, 1> in = {&golden.specular};
+      const std::array<float*, 1> out = {&mapped};
+      Converter::convert(1, &golden.width, in, &width, out, nullptr);
+      if (!is_close(width, golden.width_out, golden.width_within) ||
+          !is_close(mapped, golden.specular_out, golden.specular_within))
+        return false;
+    }
+    return true;
+  }
+
+  // On rows that are longer than a block and reach beyond the domain, grey and RGB.
+  bool agrees_with_baseline() const {
+    constexpr std::size_t kCount = 301;
+    using Row = std::array<float, kCount>;
+    Row roughness, specular;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const float share = static_cast<float>(i) / (kCount - 1), other = static_cast<float>(i % 17) / 16.0f;
+      roughness[i] =
+          pass_.roughness_min + (1.2f * share - 0.1f) * (pass_.roughness_max - pass_.roughness_min);
+      specular[i] = pass_.specular_max * 1.2f * other;
+    }
+    const auto run = [&](LoweredKernel kernel, std::size_t channels) {
+      std::array<Row, 4> results{};
+      const float* in = specular.data();
+      kernel(pass_, {kCount,
+                     channels,
+                     roughness.data(),
+                     {in, in, in},
+                     results[0].data(),
+                     {results[1].data(), results[2].data(), results[3].data()},
+                     nullptr});
+      return results;
+    };
+    for (const std::size_t channels : {1u, 3u}) {
+      const auto found = run(kernel_, channels),
+                 expected = run(lowered_kernel(InstructionSet::kBaseline), channels);
+      if (std::memcmp(&found, &expected, sizeof found) != 0) return false;
+    }
+    return true;
+  }
+
+  OwnedPolynomialRows alpha_, specular_;
+  std::vector<GoldenTexel> golden_;
+  LoweredPass pass_;  // points into the two polynomials
+  LoweredKernel kernel_;
+};
+
+}  // namespace
+
+std::unique_ptr<Converter> make_converter(const ConverterData& data, InstructionSet set) {
+  require_evaluable(data);
+  return std::make_unique<DataConverter>(data, set);
+}
+
+std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, InstructionSet set) {
+  return make_lowered_converter(fit, lower(fit.mapping, fit.domain), set);
+}
+
+std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, const Lowered& lowered,
+                                                  InstructionSet set) {
+  return make_converter(converter_data(fit, lowered), set);
+}
+
+}  // namespace remap

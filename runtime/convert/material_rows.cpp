@@ -1,0 +1,46 @@
+#include "remap/material_rows.hpp"
+
+#include <algorithm>
+
+#include "text/named_values.hpp"
+
+namespace remap {
+namespace {
+
+constexpr NamedValues<Parameter, kParameterCount> kParameters = {
+    {{Parameter::kWidth, "width"},
+     {Parameter::kSpecular, "specular"},
+     {Parameter::kDiffuse, "diffuse"},
+     {Parameter::kBaseColor, "base_color"},
+     {Parameter::kMetallic, "metallic"},
+     {Parameter::kMetalMask, "metal_mask"},
+     {Parameter::kNearbyMetallic, "nearby_metallic"},
+     {Parameter::kResidual, "residual"},
+     {Parameter::kMetallicWidth, "metallic_width"},
+     {Parameter::kDoubts, "doubts"}}};
+
+}  // namespace
+
+std::string_view parameter_name(Parameter parameter) { return name_of(kParameters, parameter); }
+
+bool is_measure(Parameter parameter) {
+  return parameter == Parameter::kResidual || parameter == Parameter::kMetallicWidth ||
+         parameter == Parameter::kDoubts;
+}
+
+std::string plain_name(Parameter parameter) {
+  return parameter == Parameter::kWidth ? "roughness" : std::string(parameter_name(parameter));
+}
+
+std::string parameter_option(Parameter parameter) {
+  std::string option = "--" + plain_name(parameter);
+  std::replace(option.begin(), option.end(), '_', '-');
+  return option;
+}
+
+bool is_color(Parameter parameter) {
+  return parameter == Parameter::kSpecular || parameter == Parameter::kDiffuse ||
+         parameter == Parameter::kBaseColor;
+}
+
+}  // namespace remap

@@ -1,0 +1,133 @@
+// A fit: the learned mapping from the parameters of one BRDF model to those of another, as plain data.
+// Written by remapc, stored as JSON (fit_json.hpp), evaluated by the interpreter, compiled by the emitter.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "remap/convention.hpp"
+#include "remap/mapping.hpp"
+
+namespace remap {
+
+struct Range {
+  double min = 0.0;
+  double max = 0.0;
+  bool contains(double value) const noexcept { return value >= min && value <= max; }
+  bool operator==(const Range&) const = default;
+};
+
+// One end of a conversion: a model by name (`renderer/brdf`) and what its two parameters mean.
+struct ModelSide {
+  std::string model;                                            // e.g. "mitsuba/ward"
+  RoughnessConvention roughness = RoughnessConvention::kAlpha;  // the model's own width parameter
+  std::string specular = "specular";                            // "specular" (plain scale) or "f0"
+  bool operator==(const ModelSide&) const = default;
+};
+
+// Where the table has data. Outside, alpha is clamped and specular is extrapolated in proportion.
+struct Domain {
+  Range alpha;     // of the source, canonical width
+  Range specular;  // of the source, linear, any channel
+  bool operator==(const Domain&) const = default;
+};
+
+// Absolute errors of one output over the held-out rows.
+struct ErrorFigures {
+  double rms = 0.0;
+  double p99 = 0.0;  // 99th percentile
+  double max = 0.0;
+  bool operator==(const ErrorFigures&) const = default;
+};
+
+// How the figures were made: rows of the table that trained, that were held out, and that were left out by
+// status.
+struct Split {
+  std::uint64_t seed = 0;
+  double held_out_fraction = 0.0;
+  std::int64_t trained_rows = 0;
+  std::int64_t held_out_rows = 0;
+  std::map<std::string, std::int64_t> left_out;  // status -> rows
+  bool operator==(const Split&) const = default;
+};
+
+// The table that was fitted: file name without folder, SHA-256 of its bytes, and its `# key: value` comments,
+// which hold the options of the sweep.
+struct TableRecord {
+  std::string name;
+  std::string sha256;
+  std::map<std::string, std::string> comments;
+  bool operator==(const TableRecord&) const = default;
+};
+
+// One line of the comparison that `--model auto` decided from (compiler/fit/comparison.hpp).
+struct Candidate {
+  std::string name;                   // kind, or named form of it
+  std::size_t number_count = 0;       // numbers that it consists of: its simplicity
+  ErrorFigures alpha, specular;       // of cross-validation, all folds
+  double alpha_standard_error = 0.0;  // of alpha.rms over the folds
+  double specular_standard_error = 0.0;
+  double edge_alpha_rms = 0.0;  // on the outermost rows, fitted without them, with the domain rule
+  double edge_specular_rms = 0.0;
+  double raw_edge_alpha_rms = 0.0;  // the same without the domain rule
+  double raw_edge_specular_rms = 0.0;
+  double chroma_shift = 0.0;  // largest change of chromaticity beyond the domain, without the domain rule
+  std::string verdict;        // `chosen`, or why it was not
+  bool operator==(const Candidate&) const = default;
+};
+
+// The structural similarity (Wang et al. 2004) of two spheres side by side, source and target at the best
+// parameters, at one source width.
+struct SphereSimilarity {
+  double alpha = 0.0;
+  double ssim = 0.0;
+  bool operator==(const SphereSimilarity&) const = default;
+};
+
+// How alike the two models can be at all, whatever the fit: over the rows of the table in the domain.
+struct ImageSimilarity {
+  ErrorFigures image_error;  // difference of the pictures relative to the source's, as the match weighs them
+  std::vector<SphereSimilarity> ssim;  // by rising alpha; empty where no spheres were compared
+  bool operator==(const ImageSimilarity&) const = default;
+};
+
+struct Fit {
+  std::string id;  // `<source>_to_<target>`, a C++ identifier
+  ModelSide source;
+  ModelSide target;
+  Domain domain;
+  MappingKind mapping;
+  std::map<std::string, std::string> method;  // how it was regressed: hyper-parameters, search, starts
+  std::vector<Candidate> candidates;          // what `auto` chose from; empty otherwise
+  ErrorFigures roughness_error;               // of the target's alpha
+  ErrorFigures specular_error;                // of the target's specular
+  std::optional<ImageSimilarity>
+      image_similarity;              // none where no pictures were compared: published formulas
+  std::vector<std::string> remarks;  // for the card, a line each: sources, errata, limits of the pair
+  Split split;
+  TableRecord table;
+  std::string tool_version;
+  // Whether the errors are known: formulas that were taken from elsewhere have been held against no rows.
+  bool has_errors() const { return roughness_error != ErrorFigures{} || specular_error != ErrorFigures{}; }
+  bool operator==(const Fit&) const = default;
+};
+
+// `mitsuba/ward` and `mitsuba/as` to `mitsuba_ward_to_mitsuba_as`: every character that an identifier cannot
+// hold becomes an underscore.
+std::string converter_id(const std::string& source_model, const std::string& target_model);
+
+// Whether `id` can name a namespace and a file: a C++ identifier that is no keyword, without a leading or
+// doubled underscore.
+bool is_valid_id(const std::string& id);
+
+// Whether `name` can name a model: letters, digits and `_ - . /`, so that it can stand in file names,
+// messages and generated code as it is.
+bool is_valid_model(const std::string& name);
+
+// Whether `name` can name a specular parameter: an identifier that is no name of a width parameter.
+bool is_valid_specular(const std::string& name);
+
+}  // namespace remap

@@ -1,0 +1,424 @@
+#include "remap/convert_maps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <future>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "maps/channel_rows.hpp"
+#include "remap/error.hpp"
+#include "remap/map_statistics.hpp"
+#include "text/number_text.hpp"
+
+namespace remap {
+namespace {
+
+constexpr std::size_t kMaxChannels = 3;
+
+bool is_ordinary(float value, float highest) { return value >= 0.0f && value <= highest; }
+constexpr float kLargest = std::numeric_limits<float>::max();
+
+// Uniform noise in [-1/2, 1/2), a function of the position alone (finalizer of MurmurHash3, A. Appleby,
+// public domain).
+float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
+  std::uint64_t bits = (static_cast<std::uint64_t>(y) << 32 | x) + 0x9e3779b97f4a7c15u * (channel + 1);
+  bits = (bits ^ bits >> 33) * 0xff51afd7ed558ccdu;
+  bits = (bits ^ bits >> 33) * 0xc4ceb9fe1a85ec53u;
+  bits ^= bits >> 33;
+  return static_cast<float>(bits >> 40) * 0x1p-24f - 0.5f;
+}
+
+// The rows of a segment: a row for each channel of each parameter.
+class SegmentRows {
+ public:
+  // Makes the rows of a parameter and keeps existing rows.
+  void make(Parameter parameter, std::size_t count) {
+    std::vector<FloatRow>& rows = rows_[static_cast<std::size_t>(parameter)];
+    if (rows.size() < count) rows.resize(count);
+    counts_[static_cast<std::size_t>(parameter)] = count;
+  }
+  std::size_t count(Parameter parameter) const { return counts_[static_cast<std::size_t>(parameter)]; }
+  float* row(Parameter parameter, std::size_t channel) {
+    return rows_[static_cast<std::size_t>(parameter)][channel].data();
+  }
+  // All rows, from texel `begin` on.
+  template <typename Float>
+  MaterialRows<Float> all(std::size_t begin = 0) {
+    MaterialRows<Float> material;
+    for (std::size_t p = 0; p < kParameterCount; ++p) {
+      ParameterRows<Float>& rows = material[static_cast<Parameter>(p)];
+      rows.count = counts_[p];
+      for (std::size_t c = 0; c < rows.count; ++c) rows.row[c] = rows_[p][c].data() + begin;
+    }
+    return material;
+  }
+
+ private:
+  std::array<std::vector<FloatRow>, kParameterCount> rows_;
+  std::array<std::size_t, kParameterCount> counts_{};
+};
+
+// The parameters of one segment as rows of floats.
+struct Scratch {
+  SegmentRows source, target;
+  std::array<std::uint8_t, kSegment> outside;  // what a mask is written from
+  FloatRow first, other;                       // copies of one value; what is stored
+  FloatRow coverage;
+};
+
+class Conversion {
+ public:
+  Conversion(const Converter& converter, const MapConversion& maps);
+  MapStatistics convert_rows(std::size_t begin, std::size_t end) const;
+
+ private:
+  void require_fitting() const;
+  const TargetParameter* wanted(Parameter parameter) const;
+  bool is_made(Parameter parameter) const;
+  float highest(Parameter parameter) const;
+  void load_channel(const SourceParameter& parameter, std::size_t channel, const Segment& segment,
+                    float* values) const;
+  void require_grey(Parameter parameter, const Segment& segment, Scratch& scratch) const;
+  void load_sources(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
+  void meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
+  [[noreturn]] void fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const;
+  void clamp_bad(std::size_t count, Scratch& scratch) const;
+  void write_mask(const Segment& segment, Scratch& scratch) const;
+  std::size_t store_parameter(const TargetParameter& parameter, std::size_t channel, const Segment& segment,
+                              const float* values, FloatRow& stored) const;
+  void store_targets(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
+  ParameterStatistics value_statistics(std::size_t count, const float* values, Scratch& scratch) const;
+  bool is_covered(const Scratch& scratch, std::size_t texel) const {
+    return !maps_.coverage || scratch.coverage[texel] > 0.0f;
+  }
+  void convert_segment(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
+
+  const Converter& converter_;
+  const MapConversion& maps_;
+  std::vector<Parameter> sources_;  // of the converter, as far as the maps have them
+};
+
+std::size_t channel_count(const SourceParameter& parameter) {
+  return parameter.channels.empty() ? parameter.constants.size() : parameter.channels.size();
+}
+
+Conversion::Conversion(const Converter& converter, const MapConversion& maps)
+    : converter_(converter), maps_(maps), sources_(converter.sources()) {
+  for (const Parameter beside : {Parameter::kMetalMask, Parameter::kNearbyMetallic})
+    if (maps.sources.count(beside) > 0) sources_.push_back(beside);
+  require_fitting();
+}
+
+void Conversion::require_fitting() const {
+  const auto fail = [](const std::string& what) { throw Error(ErrorKind::kUsage, "convert_maps: " + what); };
+  for (const Parameter parameter : sources_) {
+    const auto found = maps_.sources.find(parameter);
+    const std::size_t count = found == maps_.sources.end() ? 0 : channel_count(found->second);
+    const std::string name = plain_name(parameter);
+    if (!is_color(parameter) && (count == 0 || (found->second.channels.empty() && count > 1)))
+      fail(name + " has no channel (give one channel or one constant)");
+    if (is_color(parameter) && count != 1 && count != kMaxChannels)
+      fail(name + " has " + std::to_string(count) + " channels (give 1 or 3)");
+    const std::size_t factors = found->second.factors.size();
+    if (factors > 1 && (!is_color(parameter) || factors != count))
+      fail(name + " has more factors than channels (give one, or one per channel)");
+  }
+  const auto specular = maps_.sources.find(Parameter::kSpecular);
+  const std::size_t channels = specular == maps_.sources.end() ? 3 : channel_count(specular->second);
+  for (const auto& [parameter, target] : maps_.targets) {
+    const std::size_t written = target.channels.size(),
+                      given = converter_.target_channels(parameter, channels);
+    if (written == 0) continue;
+    if (!converter_.has_target(parameter)) fail("the converter does not make " + plain_name(parameter));
+    if (is_color(parameter) && written != given && !(given == 1 && written == kMaxChannels))
+      fail("target " + plain_name(parameter) + " has " + std::to_string(written) +
+           " channels, but the converter makes " + std::to_string(given));
+  }
+}
+
+const TargetParameter* Conversion::wanted(Parameter parameter) const {
+  const auto found = maps_.targets.find(parameter);
+  return found == maps_.targets.end() || found->second.channels.empty() ? nullptr : &found->second;
+}
+
+// Measures are computed only for maps and statistics that hold them.
+bool Conversion::is_made(Parameter parameter) const {
+  const bool counts = maps_.metallic_statistics && parameter != Parameter::kMetallicWidth;
+  return !is_measure(parameter) || counts || wanted(parameter) != nullptr;
+}
+
+// The largest valid value. Roughness and specular alone have no limit.
+float Conversion::highest(Parameter parameter) const {
+  return !converter_.is_of_brdf() && parameter != Parameter::kWidth ? 1.0f : kLargest;
+}
+
+void Conversion::load_channel(const SourceParameter& parameter, std::size_t channel, const Segment& segment,
+                              float* values) const {
+  if (parameter.channels.empty()) {
+    std::fill_n(values, segment.count, parameter.constants[channel]);
+  } else {
+    load(parameter.channels[channel], segment, values);
+    to_linear(parameter.transfer, {values, segment.count});
+  }
+  if (parameter.factors.empty()) return;
+  const float factor = parameter.factors[parameter.factors.size() == 1 ? 0 : channel];
+  if (factor == 1.0f) return;
+  for (std::size_t i = 0; i < segment.count; ++i) values[i] *= factor;
+}
+
+void Conversion::require_grey(Parameter parameter, const Segment& segment, Scratch& scratch) const {
+  const SourceParameter& source = maps_.sources.at(parameter);
+  const auto& channels = source.channels;
+  if (channels.size() < 2) return;
+  FloatRow& first = scratch.first;
+  load(channels[0], segment, first.data());
+  for (std::size_t c = 1; c < channels.size(); ++c) {
+    load(channels[c], segment, scratch.other.data());
+    if (std::memcmp(scratch.other.data(), first.data(), segment.count * sizeof(float)) == 0) continue;
+    const auto differs = [&](std::size_t i) {
+      return std::memcmp(&scratch.other[i], &first[i], sizeof(float)) != 0 &&
+             !(std::fabs(scratch.other[i] - first[i]) <= source.grey_tolerance);
+    };
+    std::size_t i = 0;
+    while (i < segment.count && !differs(i)) ++i;
+    if (i == segment.count) continue;
+    const auto name = [&](std::size_t channel) {
+      return channel < source.channel_names.size() ? source.channel_names[channel]
+                                                   : "channel " + std::to_string(channel);
+    };
+    throw Error(ErrorKind::kInput, source.name + ": texel (" + std::to_string(segment.x + i) + ", " +
+                                       std::to_string(maps_.first_row + segment.y) +
+                                       ") is not grey: " + name(0) + " is " +
+                                       number_text(static_cast<double>(first[i])) + " and " + name(c) +
+                                       " is " + number_text(static_cast<double>(scratch.other[i])) +
+                                       " (choose one channel with FILE:CHANNEL)");
+  }
+}
+
+ParameterStatistics Conversion::value_statistics(std::size_t count, const float* values,
+                                                 Scratch& scratch) const {
+  if (!maps_.coverage) return statistics_of({values, count});
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (is_covered(scratch, i)) scratch.other[covered++] = values[i];
+  return statistics_of({scratch.other.data(), covered});
+}
+
+void Conversion::load_sources(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
+  for (const Parameter parameter : sources_) {
+    const SourceParameter& source = maps_.sources.at(parameter);
+    const std::size_t count = is_color(parameter) ? channel_count(source) : 1;
+    if (!is_color(parameter)) require_grey(parameter, segment, scratch);
+    scratch.source.make(parameter, count);
+    for (std::size_t c = 0; c < count; ++c) {
+      float* const row = scratch.source.row(parameter, c);
+      load_channel(source, c, segment, row);
+      if (maps_.value_statistics)
+        statistics.sources[parameter] += value_statistics(segment.count, row, scratch);
+    }
+  }
+}
+
+void Conversion::fail_bad(const Segment& segment, std::size_t texel, Scratch& scratch) const {
+  for (const Parameter parameter : sources_)
+    for (std::size_t c = 0; c < scratch.source.count(parameter); ++c) {
+      const float value = scratch.source.row(parameter, c)[texel];
+      if (is_ordinary(value, kLargest)) continue;
+      const SourceParameter& source = maps_.sources.at(parameter);
+      const std::string of = c < source.channel_names.size() ? source.channel_names[c] + " of " : "";
+      throw Error(ErrorKind::kInput, source.name + ": " + of + "texel (" + std::to_string(segment.x + texel) +
+                                         ", " + std::to_string(maps_.first_row + segment.y) + ") is " +
+                                         number_text(static_cast<double>(value)) +
+                                         " (--bad-texels clamp replaces such values)");
+    }
+  throw Error(ErrorKind::kUsage, "convert_maps: no invalid texel found");
+}
+
+// Counts invalid texels, and throws for the first one with BadTexels::kFail.
+void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
+  struct CheckedRow {
+    const float* values;
+    float highest;
+  };
+  std::vector<CheckedRow> rows;
+  for (const Parameter parameter : sources_)
+    for (std::size_t c = 0; c < scratch.source.count(parameter); ++c)
+      rows.push_back({scratch.source.row(parameter, c), highest(parameter)});
+  std::size_t odd = 0;
+  for (const CheckedRow& row : rows)
+    for (std::size_t i = 0; i < segment.count; ++i) odd += !is_ordinary(row.values[i], row.highest);
+  if (odd == 0) return;  // the usual case, detected at the speed of memory
+  for (std::size_t i = 0; i < segment.count; ++i) {
+    bool nan = false, infinite = false, negative = false, above = false;
+    for (const CheckedRow& row : rows) {
+      const float value = row.values[i];
+      nan = nan || std::isnan(value);
+      infinite = infinite || std::isinf(value);
+      negative = negative || value < 0.0f;
+      above = above || (value > row.highest && !std::isinf(value));
+    }
+    if (!is_covered(scratch, i)) continue;
+    statistics.above_one_count += above;
+    if (!(nan || infinite || negative)) continue;
+    if (maps_.bad_texels == BadTexels::kFail) fail_bad(segment, i, scratch);
+    if (!statistics.first_bad) statistics.first_bad = {segment.x + i, maps_.first_row + segment.y};
+    statistics.nan_count += nan;
+    statistics.infinite_count += infinite;
+    statistics.negative_count += negative;
+  }
+}
+
+void Conversion::clamp_bad(std::size_t count, Scratch& scratch) const {
+  const auto clamp = [count](float* row, const Range& range) {
+    const float low = static_cast<float>(range.min), high = static_cast<float>(range.max);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(row[i] >= 0.0f)) row[i] = low;
+      if (row[i] > kLargest) row[i] = high;
+    }
+  };
+  for (const Parameter parameter : sources_) {
+    Range range{0.0, 1.0};
+    if (parameter == Parameter::kWidth) range = converter_.info().roughness;
+    if (parameter == Parameter::kSpecular) range.max = converter_.info().specular.max;
+    for (std::size_t c = 0; c < scratch.source.count(parameter); ++c)
+      clamp(scratch.source.row(parameter, c), range);
+  }
+}
+
+void Conversion::write_mask(const Segment& segment, Scratch& scratch) const {
+  for (std::size_t i = 0; i < segment.count; ++i) scratch.other[i] = scratch.outside[i] != 0 ? 1.0f : 0.0f;
+  store(*maps_.mask, segment, scratch.other.data());
+}
+
+std::size_t Conversion::store_parameter(const TargetParameter& parameter, std::size_t channel,
+                                        const Segment& segment, const float* values, FloatRow& stored) const {
+  const ChannelView& view = parameter.channels[channel];
+  const bool dithered = maps_.dither && byte_count(view.type) == 1;
+  if (parameter.transfer == Transfer::kLinear && !dithered) return store(view, segment, values);
+  std::copy_n(values, segment.count, stored.data());
+  from_linear(parameter.transfer, {stored.data(), segment.count});
+  if (dithered) {
+    for (std::size_t i = 0; i < segment.count; ++i)
+      stored[i] = std::clamp(stored[i], 0.0f, 1.0f) +
+                  dither_noise(segment.x + i, maps_.first_row + segment.y, channel) / 255.0f;
+  }
+  return store(view, segment, stored.data());
+}
+
+void Conversion::store_targets(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
+  for (const Parameter parameter : converter_.targets()) {
+    const std::size_t made = scratch.target.count(parameter);
+    if (maps_.value_statistics && parameter != Parameter::kDoubts)
+      for (std::size_t c = 0; c < made; ++c)
+        statistics.targets[parameter] +=
+            value_statistics(segment.count, scratch.target.row(parameter, c), scratch);
+    const TargetParameter* target = wanted(parameter);
+    if (target == nullptr) continue;
+    std::size_t clipped = 0;
+    for (std::size_t c = 0; c < target->channels.size(); ++c) {
+      const std::size_t own = store_parameter(
+          *target, c, segment, scratch.target.row(parameter, std::min(c, made - 1)), scratch.other);
+      clipped = is_color(parameter) ? clipped + own : own;  // equal channels count once
+    }
+    statistics.clipped_count += clipped;
+  }
+}
+
+void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const {
+  const ConverterInfo& info = converter_.info();
+  const std::size_t count = segment.count;
+  if (maps_.coverage) {
+    load(*maps_.coverage, segment, scratch.coverage.data());
+    for (std::size_t i = 0; i < count; ++i) statistics.masked_count += !is_covered(scratch, i);
+  }
+  load_sources(segment, scratch, statistics);
+  statistics.texel_count += count;
+  meet_bad_texels(segment, scratch, statistics);
+  change_convention(maps_.source_convention.value_or(info.source.roughness), info.source.roughness,
+                    {scratch.source.row(Parameter::kWidth, 0), count});
+  if (maps_.bad_texels == BadTexels::kClamp) clamp_bad(count, scratch);
+
+  const std::size_t specular = scratch.source.count(Parameter::kSpecular);
+  for (const Parameter parameter : converter_.targets())
+    if (is_made(parameter)) scratch.target.make(parameter, converter_.target_channels(parameter, specular));
+  statistics.out_of_domain_count +=
+      converter_.convert(count, scratch.source.all<const float>(), scratch.target.all<float>(),
+                         maps_.mask ? scratch.outside.data() : nullptr);
+  if (maps_.mask) write_mask(segment, scratch);
+  if (converter_.can_diagnose() && maps_.metallic_statistics)
+    statistics.metallic += statistics_of(count, {{segment.x, maps_.first_row + segment.y},
+                                                 scratch.target.row(Parameter::kResidual, 0),
+                                                 scratch.target.row(Parameter::kDoubts, 0),
+                                                 maps_.coverage ? scratch.coverage.data() : nullptr});
+  change_convention(info.target.roughness, maps_.target_convention.value_or(info.target.roughness),
+                    {scratch.target.row(Parameter::kWidth, 0), count});
+  store_targets(segment, scratch, statistics);
+}
+
+MapStatistics Conversion::convert_rows(std::size_t begin, std::size_t end) const {
+  MapStatistics statistics;
+  const auto scratch = std::make_unique<Scratch>();
+  for (std::size_t y = begin; y < end; ++y)
+    for (std::size_t x = 0; x < maps_.width; x += kSegment)
+      convert_segment({x, y, std::min(kSegment, maps_.width - x)}, *scratch, statistics);
+  return statistics;
+}
+
+template <typename Float, typename Byte>
+BasicChannelView<Byte> float_view(Float* first, std::size_t width, std::size_t values_a_texel) {
+  const auto texel = static_cast<std::ptrdiff_t>(values_a_texel * sizeof(float));
+  return {reinterpret_cast<Byte*>(first), PixelType::kFloat, texel,
+          texel * static_cast<std::ptrdiff_t>(width)};
+}
+
+}  // namespace
+
+ChannelView float_channel(float* first, std::size_t width, std::size_t values_a_texel) noexcept {
+  return float_view<float, std::byte>(first, width, values_a_texel);
+}
+
+ConstChannelView float_channel(const float* first, std::size_t width, std::size_t values_a_texel) noexcept {
+  return float_view<const float, const std::byte>(first, width, values_a_texel);
+}
+
+MapStatistics convert_maps(const Converter& converter, const MapConversion& maps, int thread_count) {
+  const Conversion conversion(converter, maps);
+  const std::size_t parts = std::clamp<std::size_t>(static_cast<std::size_t>(std::max(thread_count, 1)), 1,
+                                                    std::max<std::size_t>(maps.height, 1));
+  if (parts == 1) return conversion.convert_rows(0, maps.height);
+  std::vector<std::future<MapStatistics>> results;
+  for (std::size_t part = 0; part < parts; ++part)
+    results.push_back(std::async(std::launch::async, [&, part] {
+      return conversion.convert_rows(maps.height * part / parts, maps.height * (part + 1) / parts);
+    }));
+  MapStatistics statistics;
+  for (std::future<MapStatistics>& result : results) statistics += result.get();
+  return statistics;
+}
+
+std::size_t copy_channel(const ConstChannelView& from, const ChannelView& to, std::size_t width,
+                         std::size_t height) {
+  std::size_t clipped = 0;
+  FloatRow values;
+  for (std::size_t y = 0; y < height; ++y) {
+    if (from.type == to.type) {
+      const std::size_t bytes = byte_count(from.type);
+      const std::byte* source = at(from, 0, y);
+      std::byte* target = at(to, 0, y);
+      for (std::size_t x = 0; x < width; ++x, source += from.texel_stride, target += to.texel_stride)
+        std::memcpy(target, source, bytes);
+      continue;
+    }
+    for (std::size_t x = 0; x < width; x += kSegment) {
+      const Segment segment{x, y, std::min(kSegment, width - x)};
+      load(from, segment, values.data());
+      clipped += store(to, segment, values.data());
+    }
+  }
+  return clipped;
+}
+
+}  // namespace remap

@@ -1,0 +1,108 @@
+#include "remap/map_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace remap {
+namespace {
+
+constexpr double kResidualUnit = 0x1p-40;
+
+template <typename Map>
+void add_all(Map& sums, const Map& more) {
+  for (const auto& [parameter, statistics] : more) sums[parameter] += statistics;
+}
+
+}  // namespace
+
+ParameterStatistics statistics_of(std::span<const float> values) {
+  ParameterStatistics statistics;
+  statistics.min = std::numeric_limits<float>::max();
+  statistics.max = -statistics.min;
+  for (const float value : values) {
+    const bool counts = std::fabs(value) <= std::numeric_limits<float>::max();
+    statistics.min = counts && value < statistics.min ? value : statistics.min;
+    statistics.max = counts && value > statistics.max ? value : statistics.max;
+    statistics.finite_count += counts;
+  }
+  constexpr float kBins = static_cast<float>(ParameterStatistics::kBins);
+  for (const float value : values) {
+    if (std::isnan(value)) continue;
+    const float bin = std::clamp(value * kBins, 0.0f, kBins - 1.0f);
+    ++statistics.histogram[static_cast<std::size_t>(bin)];
+  }
+  return statistics;
+}
+
+MetallicStatistics statistics_of(std::size_t count, const DiagnosedRow& row) {
+  MetallicStatistics sum;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float residual = row.residual[i];
+    if (std::isnan(residual) || (row.coverage != nullptr && !(row.coverage[i] > 0.0f))) continue;
+    const long doubts = std::lround(row.doubts[i] * 255.0f);
+    const auto count_if_has = [&](Doubt doubt, DoubtStatistics& texels) {
+      if ((doubts & static_cast<long>(doubt)) != 0)
+        texels += {1, TexelPosition{row.first.x + i, row.first.y}};
+    };
+    const double square = static_cast<double>(residual) * static_cast<double>(residual);
+    ++sum.texel_count;
+    sum.residual_squares += static_cast<std::uint64_t>(std::llround(square / kResidualUnit));
+    sum.largest_residual = std::max(sum.largest_residual, residual);
+    count_if_has(Doubt::kGuess, sum.guess);
+    count_if_has(Doubt::kDark, sum.dark);
+    count_if_has(Doubt::kTwoAnswers, sum.two_answers);
+    count_if_has(Doubt::kClamped, sum.clamped);
+  }
+  return sum;
+}
+
+double MetallicStatistics::rms_residual() const noexcept {
+  if (texel_count == 0) return 0.0;
+  return std::sqrt(static_cast<double>(residual_squares) * kResidualUnit / static_cast<double>(texel_count));
+}
+
+DoubtStatistics& DoubtStatistics::operator+=(const DoubtStatistics& other) noexcept {
+  count += other.count;
+  if (!first) first = other.first;
+  return *this;
+}
+
+MetallicStatistics& MetallicStatistics::operator+=(const MetallicStatistics& other) noexcept {
+  texel_count += other.texel_count;
+  residual_squares += other.residual_squares;
+  largest_residual = std::max(largest_residual, other.largest_residual);
+  guess += other.guess;
+  dark += other.dark;
+  two_answers += other.two_answers;
+  clamped += other.clamped;
+  return *this;
+}
+
+ParameterStatistics& ParameterStatistics::operator+=(const ParameterStatistics& other) noexcept {
+  if (other.finite_count > 0) {
+    min = finite_count > 0 ? std::min(min, other.min) : other.min;
+    max = finite_count > 0 ? std::max(max, other.max) : other.max;
+  }
+  finite_count += other.finite_count;
+  for (std::size_t i = 0; i < kBins; ++i) histogram[i] += other.histogram[i];
+  return *this;
+}
+
+MapStatistics& MapStatistics::operator+=(const MapStatistics& other) {
+  texel_count += other.texel_count;
+  out_of_domain_count += other.out_of_domain_count;
+  nan_count += other.nan_count;
+  infinite_count += other.infinite_count;
+  negative_count += other.negative_count;
+  clipped_count += other.clipped_count;
+  masked_count += other.masked_count;
+  above_one_count += other.above_one_count;
+  if (!first_bad) first_bad = other.first_bad;
+  add_all(sources, other.sources);
+  add_all(targets, other.targets);
+  metallic += other.metallic;
+  return *this;
+}
+
+}  // namespace remap

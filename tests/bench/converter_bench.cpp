@@ -1,0 +1,79 @@
+// Shipped converters as texremap runs them, as data, against their compiled headers.
+#include <algorithm>
+
+#include "bench/bench.hpp"
+#include "bench/builds.hpp"
+#include "remap/shipped_converters.hpp"
+
+namespace remap_bench {
+namespace {
+
+// The instruction set that a header compiled with `flags` has; none for -O2, which nobody would compare.
+std::optional<remap::InstructionSet> set_of(const std::string& flags) {
+  if (flags == "o3") return remap::InstructionSet::kBaseline;
+  if (flags == "avx2") return remap::InstructionSet::kAvx2;
+  if (flags == "avx512") return remap::InstructionSet::kAvx512;
+  return std::nullopt;
+}
+
+struct Pair {
+  const remap::Converter* data;
+  std::string header;  // benchmark of the compiled header
+  std::string flags;
+};
+
+// The headers of shipped converters among the builds, each with its converter.
+std::vector<Pair> pairs() {
+  std::vector<Pair> pairs;
+  for (const Build<Pass>& build : pass_builds())
+    if (const auto set = set_of(build.flags))
+      for (const auto& converter : remap::shipped_converters(*set))
+        if (converter->info().id == build.code)
+          pairs.push_back({converter.get(), build.code + "_" + build.flags, build.flags});
+  return pairs;
+}
+
+std::string data_name(const Pair& pair) { return "data_" + pair.header + "/small"; }
+
+void convert(const remap::Converter& converter, Maps& maps) {
+  const std::array<const float*, 3> specular = {maps.in[1].data(), maps.in[2].data(), maps.in[3].data()};
+  const std::array<float*, 3> specular_out = {maps.out[1].data(), maps.out[2].data(), maps.out[3].data()};
+  benchmark::DoNotOptimize(
+      converter.convert(maps.texels, maps.in[0].data(), specular, maps.out[0].data(), specular_out));
+}
+
+}  // namespace
+
+void add_converters() {
+  for (const Pair& pair : pairs())
+    add_benchmark(data_name(pair), small_maps().texels, 7,
+                  [converter = pair.data] { convert(*converter, small_maps()); });
+}
+
+Section converter_section(const Medians& medians) {
+  Section section{"texremap's converters as data against their compiled headers, RGB, 64 x 64, in cache", {}};
+  std::map<std::string, std::vector<double>> ratios;
+  for (const Pair& pair : pairs()) {
+    Row row;
+    row.what = pair.data->info().id + " at " + flags_text(pair.flags);
+    row.value = mega_items(medians, data_name(pair));
+    row.unit = "Mtexel/s";
+    row.ratio = speed_ratio(medians, data_name(pair), pair.header + "/small");
+    row.rival = "the header";
+    row.goal = 0.9;
+    if (row.ratio) ratios[pair.flags].push_back(*row.ratio);
+    section.rows.push_back(row);
+  }
+  for (auto& [flags, values] : ratios) {
+    std::sort(values.begin(), values.end());
+    Row row;
+    row.what = "median of these at " + flags_text(flags);
+    row.ratio = values[values.size() / 2];
+    row.rival = "the header";
+    row.goal = 0.9;
+    section.rows.push_back(row);
+  }
+  return section;
+}
+
+}  // namespace remap_bench

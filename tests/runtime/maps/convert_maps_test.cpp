@@ -1,0 +1,256 @@
+// The conversion of buffers in memory, compared with the converter applied to each texel.
+#include "remap/convert_maps.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include <catch2/catch.hpp>
+
+#include "remap/error.hpp"
+#include "support/example_fit.hpp"
+#include "support/test_image.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr std::size_t kWidth = 61, kHeight = 37;
+
+// Interleaved texels of roughness, red, green, blue and two foreign values, with padded rows.
+struct Buffer {
+  static constexpr std::size_t kValues = 6, kRow = kWidth * kValues + 3;
+  std::vector<float> values = std::vector<float>(kRow * kHeight, -7.0f);
+
+  float& at(std::size_t x, std::size_t y, std::size_t c) { return values[y * kRow + x * kValues + c]; }
+  // If `flipped`, the first row is the last in memory.
+  ChannelView channel(std::size_t c, bool flipped = false) {
+    ChannelView view = float_channel(&at(0, flipped ? kHeight - 1 : 0, c), kWidth, kValues);
+    view.row_stride = static_cast<std::ptrdiff_t>(kRow * sizeof(float)) * (flipped ? -1 : 1);
+    return view;
+  }
+};
+
+Buffer noisy_buffer() {
+  Buffer buffer;
+  for (std::size_t y = 0; y < kHeight; ++y)
+    for (std::size_t x = 0; x < kWidth; ++x)
+      for (std::size_t c = 0; c < Buffer::kValues; ++c)
+        buffer.at(x, y, c) = noise(static_cast<int>(x), static_cast<int>(y), static_cast<int>(c));
+  return buffer;
+}
+
+MapConversion conversion(Buffer& from, Buffer& to, bool flipped = false) {
+  MapConversion maps;
+  maps.width = kWidth;
+  maps.height = kHeight;
+  maps.sources[Parameter::kWidth].channels = {from.channel(0, flipped)};
+  maps.targets[Parameter::kWidth].channels = {to.channel(0, flipped)};
+  for (std::size_t c = 1; c <= 3; ++c) {
+    maps.sources[Parameter::kSpecular].channels.push_back(from.channel(c, flipped));
+    maps.targets[Parameter::kSpecular].channels.push_back(to.channel(c, flipped));
+  }
+  return maps;
+}
+
+std::array<float, 4> converted(const Converter& converter, float roughness, std::array<float, 3> specular,
+                               std::size_t* outside = nullptr) {
+  std::array<float, 4> result{};
+  const std::array<const float*, 3> in = {&specular[0], &specular[1], &specular[2]};
+  const std::array<float*, 3> out = {&result[1], &result[2], &result[3]};
+  const std::size_t count = converter.convert(1, &roughness, in, &result[0], out);
+  if (outside != nullptr) *outside = count;
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("convert_maps: strided, padded, flipped and shared buffers, on any number of threads") {
+  const auto converter = make_interpreted_converter(example_fit());
+  const bool in_place = GENERATE(false, true), flipped = GENERATE(false, true);
+  const int threads = GENERATE(1, 3, 100);
+  Buffer from = noisy_buffer(), copy = from, to;
+  const MapStatistics statistics =
+      convert_maps(*converter, conversion(from, in_place ? from : to, flipped), threads);
+  Buffer& result = in_place ? from : to;
+  CHECK(statistics.texel_count == kWidth * kHeight);
+  for (std::size_t y = 0; y < kHeight; ++y)
+    for (std::size_t x = 0; x < kWidth; ++x) {
+      const auto expected =
+          converted(*converter, copy.at(x, y, 0), {copy.at(x, y, 1), copy.at(x, y, 2), copy.at(x, y, 3)});
+      for (std::size_t c = 0; c < 4; ++c) REQUIRE(result.at(x, y, c) == expected[c]);
+      REQUIRE(result.at(x, y, 4) == (in_place ? copy.at(x, y, 4) : -7.0f));
+      REQUIRE(result.at(x, y, 5) == (in_place ? copy.at(x, y, 5) : -7.0f));
+    }
+  CHECK(result.values.back() == -7.0f);  // padding
+}
+
+TEST_CASE("convert_maps: the mask marks each texel that the converter counts as outside") {
+  const auto converter = make_interpreted_converter(example_fit());
+  Buffer from = noisy_buffer(), to;
+  for (std::size_t x = 3; x < kWidth; x += 7) from.at(x, x % kHeight, 0) = 2.0f;
+  for (std::size_t x = 0; x < kWidth; ++x) from.at(x, 8, 2) = 100.0f;  // a whole row
+  MapConversion maps = conversion(from, to);
+  std::vector<float> mask(kWidth * kHeight, 0.5f);
+  maps.mask = float_channel(mask.data(), kWidth);
+  const MapStatistics statistics = convert_maps(*converter, maps, 2);
+  std::size_t marked = 0;
+  for (std::size_t y = 0; y < kHeight; ++y)
+    for (std::size_t x = 0; x < kWidth; ++x) {
+      std::size_t outside = 0;
+      converted(*converter, from.at(x, y, 0), {from.at(x, y, 1), from.at(x, y, 2), from.at(x, y, 3)},
+                &outside);
+      REQUIRE(mask[y * kWidth + x] == static_cast<float>(outside));
+      marked += outside;
+    }
+  CHECK(marked > kWidth);
+  CHECK(marked < kWidth * kHeight);
+  CHECK(statistics.out_of_domain_count == marked);
+}
+
+TEST_CASE("convert_maps: statistics cover all values, for any number of threads") {
+  const auto converter = make_interpreted_converter(example_fit());
+  Buffer from = noisy_buffer(), to;
+  from.at(50, 20, 2) = NAN;
+  from.at(3, 21, 0) = -1.0f;
+  from.at(4, 36, 3) = INFINITY;
+  MapConversion maps = conversion(from, to);
+  maps.value_statistics = true;
+  maps.first_row = 1000;
+  const MapStatistics one = convert_maps(*converter, maps, 1), many = convert_maps(*converter, maps, 5);
+  for (const MapStatistics& statistics : {one, many}) {
+    CHECK(statistics.nan_count == 1);
+    CHECK(statistics.negative_count == 1);
+    CHECK(statistics.infinite_count == 1);
+    REQUIRE(statistics.first_bad.has_value());
+    CHECK(statistics.first_bad->x == 50);
+    CHECK(statistics.first_bad->y == 1020);
+    CHECK(statistics.sources.at(Parameter::kWidth).min == -1.0f);
+    CHECK(statistics.sources.at(Parameter::kSpecular).finite_count == 3 * kWidth * kHeight - 2);
+    CHECK(statistics.sources.at(Parameter::kSpecular).max < 1.0f);
+    const auto& bins = statistics.sources.at(Parameter::kSpecular).histogram;
+    CHECK(std::accumulate(bins.begin(), bins.end(), std::size_t{0}) == 3 * kWidth * kHeight - 1);
+    CHECK(bins == one.sources.at(Parameter::kSpecular).histogram);
+    CHECK(statistics.targets.at(Parameter::kWidth).max == one.targets.at(Parameter::kWidth).max);
+  }
+  // The noise is uniform, so every bin holds about its share.
+  for (const std::size_t count : one.sources.at(Parameter::kSpecular).histogram)
+    CHECK(static_cast<double>(count) == Approx(3.0 * kWidth * kHeight / 32.0).epsilon(0.3));
+}
+
+TEST_CASE("convert_maps: every encoding of roughness gives the same result") {
+  const auto converter = make_interpreted_converter(example_fit());
+  const RoughnessConvention own = converter->info().source.roughness,
+                            target = converter->info().target.roughness;
+  for (const std::string& name : convention_names()) {
+    INFO(name);
+    const RoughnessConvention encoding = *convention_from_name(name);
+    float width = static_cast<float>(from_alpha(encoding, 0.25)), result = 0.0f;
+    MapConversion maps;
+    maps.width = maps.height = 1;
+    maps.sources[Parameter::kWidth].constants = {width};
+    maps.sources[Parameter::kSpecular].constants = {0.3f};
+    maps.targets[Parameter::kWidth].channels = {float_channel(&result, 1)};
+    maps.source_convention = maps.target_convention = encoding;
+    convert_maps(*converter, maps);
+    const float expected =
+        converted(*converter, static_cast<float>(from_alpha(own, 0.25)), {0.3f, 0.3f, 0.3f})[0];
+    CHECK(to_alpha(encoding, static_cast<double>(result)) ==
+          Approx(to_alpha(target, static_cast<double>(expected))).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("convert_maps: dithering keeps the mean and is the same in every run and in every band") {
+  const auto converter = make_interpreted_converter(example_fit());
+  constexpr std::size_t kSide = 256;
+  std::vector<std::uint8_t> whole(kSide * kSide), parts(kSide * kSide), plain(kSide * kSide);
+  const auto run = [&](std::vector<std::uint8_t>& result, std::size_t first, std::size_t rows, bool dither) {
+    MapConversion maps;
+    maps.width = kSide;
+    maps.height = rows;
+    maps.first_row = first;
+    maps.dither = dither;
+    maps.sources[Parameter::kWidth].constants = {0.3f};
+    maps.sources[Parameter::kSpecular].constants = {0.3f};
+    maps.targets[Parameter::kSpecular].channels = {{reinterpret_cast<std::byte*>(&result[first * kSide]),
+                                                    PixelType::kUint8, 1,
+                                                    static_cast<std::ptrdiff_t>(kSide)}};
+    convert_maps(*converter, maps);
+  };
+  run(whole, 0, kSide, true);
+  run(plain, 0, kSide, false);
+  for (std::size_t first = 0; first < kSide; first += 64) run(parts, first, 64, true);
+  CHECK(whole == parts);
+  const double exact = 255.0 * static_cast<double>(converted(*converter, 0.3f, {0.3f, 0.3f, 0.3f})[1]);
+  const auto mean = [](const std::vector<std::uint8_t>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  };
+  CHECK(mean(whole) == Approx(exact).margin(0.01));
+  CHECK(std::fabs(mean(plain) - exact) > 0.05);  // otherwise the line before proves nothing
+}
+
+TEST_CASE("convert_maps: channels that do not match the converter are refused") {
+  const auto converter = make_interpreted_converter(example_fit());
+  Buffer from = noisy_buffer(), to;
+  const auto refused = [&](auto change, const std::string& message) {
+    MapConversion maps = conversion(from, to);
+    change(maps);
+    CHECK_THROWS_WITH(convert_maps(*converter, maps), Contains(message));
+  };
+  refused([](MapConversion& maps) { maps.sources[Parameter::kWidth].channels.clear(); },
+          "roughness has no channel");
+  refused([](MapConversion& maps) { maps.sources[Parameter::kSpecular].channels.pop_back(); },
+          "specular has 2 channels");
+  refused([](MapConversion& maps) { maps.targets[Parameter::kSpecular].channels.pop_back(); },
+          "but the converter makes 3");
+  refused(
+      [](MapConversion& maps) {
+        maps.sources[Parameter::kSpecular].factors = {1.0f, 2.0f};
+      },
+      "more factors than channels");
+}
+
+TEST_CASE("copy_channel: equal types keep bits, other types keep values") {
+  const std::vector<std::uint32_t> bits = {0, 0x7fc12345u, 0xffffffffu, 1};  // a NaN with a payload
+  std::vector<std::uint32_t> copy(4);
+  const auto* first = reinterpret_cast<const std::byte*>(bits.data());
+  copy_channel({first, PixelType::kFloat, 4, 8},
+               {reinterpret_cast<std::byte*>(copy.data()), PixelType::kFloat, 4, 8}, 2, 2);
+  CHECK(copy == bits);
+  const std::vector<float> values = {0.5f, 1.5f, -1.0f, 0.25f};
+  std::vector<std::uint8_t> bytes(4);
+  const std::size_t clipped =
+      copy_channel(float_channel(values.data(), 4),
+                   {reinterpret_cast<std::byte*>(bytes.data()), PixelType::kUint8, 1, 4}, 4, 1);
+  CHECK(bytes == std::vector<std::uint8_t>{128, 255, 0, 64});
+  CHECK(clipped == 2);
+}
+
+TEST_CASE("transfer: sRGB is invertible and continuous") {
+  for (float value = -0.5f; value < 2.0f; value += 0.00711f) {
+    float changed = value;
+    to_linear(Transfer::kSrgb, {&changed, 1});
+    from_linear(Transfer::kSrgb, {&changed, 1});
+    CHECK(changed == Approx(value).margin(1e-6));
+  }
+  // Stokes et al. 1996, and the table of IEC 61966-2-1: 188 of 255 is about half.
+  float half = 188.0f / 255.0f;
+  to_linear(Transfer::kSrgb, {&half, 1});
+  CHECK(half == Approx(0.5029).margin(1e-4));
+}
+
+TEST_CASE("transfer: invalid roughness is clamped") {
+  float width = -0.5f;
+  change_convention(RoughnessConvention::kRoughness, RoughnessConvention::kAlpha, {&width, 1});
+  CHECK(width == 0.0f);
+  width = 3.0f;
+  change_convention(RoughnessConvention::kGlossiness, RoughnessConvention::kAlpha, {&width, 1});
+  CHECK(width == 0.0f);
+  width = NAN;
+  change_convention(RoughnessConvention::kGlossiness, RoughnessConvention::kAlpha, {&width, 1});
+  CHECK(std::isnan(width));
+  width = 0.0f;
+  change_convention(RoughnessConvention::kAlpha, RoughnessConvention::kExponent, {&width, 1});
+  CHECK(std::isinf(width));
+}
