@@ -9,7 +9,6 @@
 #include "compiler/fit/made_table.hpp"
 #include "fit/rows/folds.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 #include "support/shared_data.hpp"
 #include "system/files.hpp"
 #include "table/domain.hpp"
