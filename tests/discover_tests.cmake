@@ -31,11 +31,11 @@ endif()
 get_filename_component(working_folder ${SCRIPT} DIRECTORY)
 set(script "")
 
-# add(NAME LABELS ARGUMENT...): a test of this program.
-function(add name labels)
-  list(JOIN ARGN "]==] [==[" arguments)
+# add(NAME LABELS ARGUMENTS): a test of this program. ARGUMENTS is one text, [==[ARGUMENT]==] with spaces between them: a
+# name may have semicolons.
+function(add name labels arguments)
   string(APPEND script
-    "add_test([==[${NAME}: ${name}]==] [==[${PROGRAM}]==] [==[${arguments}]==])\n"
+    "add_test([==[${NAME}: ${name}]==] [==[${PROGRAM}]==] ${arguments})\n"
     "set_tests_properties([==[${NAME}: ${name}]==] PROPERTIES WORKING_DIRECTORY [==[${working_folder}]==] "
     "SKIP_RETURN_CODE 77 LABELS [==[${labels}]==] ${PROPERTIES})\n")
   set(script "${script}" PARENT_SCOPE)
@@ -60,7 +60,7 @@ foreach(case IN LISTS cases)
     if(NOT file IN_LIST quick_files)
       list(APPEND quick_files ${file})
       get_filename_component(stem ${file} NAME)
-      add(${file} "quick;${folders}" --filenames-as-tags "[#${stem}]~[slow]~[needs]~[.]")
+      add(${file} "quick;${folders}" "[==[--filenames-as-tags]==] [==[[#${stem}]~[slow]~[needs]~[.]]==]")
     endif()
     continue()
   endif()
@@ -68,6 +68,6 @@ foreach(case IN LISTS cases)
   string(REPLACE "<open>" "[" name "${name}")
   string(REPLACE "<close>" "]" name "${name}")
   string(REGEX REPLACE "([],[])" "\\\\\\1" pattern "${name}")  # commas and brackets are operators of Catch2
-  add("${name}" "${speed};${folders}" "${pattern}")
+  add("${name}" "${speed};${folders}" "[==[${pattern}]==]")
 endforeach()
 file(WRITE ${SCRIPT} "${script}")

@@ -127,7 +127,7 @@ TEST_CASE("remapc build: makes the items of the manifest, and none twice", "[slo
                                  "mitsuba_ward_to_mitsuba_ward_duer"});
 }
 
-TEST_CASE("remapc build: converters.json that is not of the last build is made again") {
+TEST_CASE("remapc build: converters.json that is not of the last build is made again", "[slow]") {
   const Session session;
   auto items = quick_manifest();
   items["chains"] = items["sweeps"] = nlohmann::json::array();

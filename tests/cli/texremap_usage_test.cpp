@@ -249,7 +249,8 @@ TEST_CASE("texremap: --fit evaluates that fit, and its models must agree", "[slo
                 "source model is example/a, but --from asks for mitsuba/ward");
 }
 
-TEST_CASE("texremap: --converters replaces the shipped converters by those of a fit, a folder or a list") {
+TEST_CASE("texremap: --converters replaces the shipped converters by those of a fit, a folder or a list",
+          "[slow]") {
   const Session session;
   const Fit fit = example_fit();
   std::filesystem::create_directory(session.path("fits"));
