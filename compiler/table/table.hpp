@@ -7,16 +7,12 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "model/fit.hpp"
+#include "table/csv.hpp"
 
 namespace remapc {
-
-struct Csv;
-struct CsvLine;
-struct CsvCell;
 
 // How far a row can be trusted. Fits use only kOk rows.
 enum class RowStatus {
@@ -44,8 +40,8 @@ struct TableRow {
 };
 
 struct Table {
-  std::string name;                                           // file name, for messages
-  std::vector<std::pair<std::string, std::string>> comments;  // `# key: value`, in file order
+  std::string name;  // file name, for messages
+  Comments comments;
   remap::ModelSide source;
   remap::ModelSide target;
   bool has_diffuse = false;  // rows carry diffuse1 and diffuse2
