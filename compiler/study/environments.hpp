@@ -2,13 +2,9 @@
 // several methods of conversion.
 #pragma once
 
-#include <atomic>
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "report/environment.hpp"
 #include "study/environments_options.hpp"
 
 namespace remapc {

@@ -1,14 +1,13 @@
 // Options of the environments study.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "model/fit.hpp"
 #include "report/environment.hpp"
+#include "report/lit_sphere.hpp"
 
 namespace remapc {
 
@@ -28,20 +27,16 @@ enum class Method {
 };
 std::string method_name(Method method);
 
-struct EnvironmentsOptions {
-  std::vector<ModelPair> pairs;                  // models of the built-in renderer
-  std::vector<double> alphas;                    // of the source
-  double specular = 0.5;                         // of the source, linear, above 0 to 1
-  std::vector<Environment> environments;         // of different names and equal mean luminance
-  std::vector<remap::Fit> fits;                  // fits for kShipped
-  int resolution = 128;                          // width and height of the pictures in pixels
-  int samples = 1024;                            // light directions per pixel
-  int match_resolution = 512;                    // width and height of the pictures for kPaper and kNatural
-  unsigned jobs = 0;                             // threads; 0: one per core
-  bool least_error = false;                      // compare kBest, too
-  std::optional<double> sheet_alpha;             // one of `alphas`: draw contact sheets of it
-  std::function<void()> progress;                // called progress_steps() times, from any thread
-  const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
+// `progress` is called progress_steps() times.
+struct EnvironmentsOptions : SphereSampling {
+  std::vector<ModelPair> pairs;           // models of the built-in renderer
+  std::vector<double> alphas;             // of the source
+  double specular = 0.5;                  // of the source, linear, above 0 to 1
+  std::vector<Environment> environments;  // of different names and equal mean luminance
+  std::vector<remap::Fit> fits;           // fits for kShipped
+  int match_resolution = 512;             // width and height of the pictures for kPaper and kNatural
+  bool least_error = false;               // compare kBest, too
+  std::optional<double> sheet_alpha;      // one of `alphas`: draw contact sheets of it
 };
 
 // The target parameters for one source material.

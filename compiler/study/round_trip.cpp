@@ -1,5 +1,6 @@
 #include "study/round_trip.hpp"
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -30,18 +31,19 @@ MetallicMaterial drawn(FamilyKind kind, std::mt19937_64& generator) {
   return material;
 }
 
-// `there` is equation (2); `back` is the conversion under test.
-struct RoundTrip {
+// One tested method: `there` is equation (2); `back` is the conversion under test.
+struct FamilyTrip {
+  std::string name;
   remap::WorkflowConversion there, back;
 };
 
-RoundTrip round_trip(const remap::WorkflowConversion& conversion) {
-  remap::WorkflowConversion there = conversion;
-  there.formula = remap::Equation2{};
-  return {there, conversion};
+FamilyTrip trip_of(const WorkflowMethod& method, const std::string& addition = "") {
+  FamilyTrip trip{method.name + addition, method.conversion, method.conversion};
+  trip.there.formula = remap::Equation2{};
+  return trip;
 }
 
-FamilyErrors errors_of(const RoundTrip& trip, FamilyKind kind, std::size_t count, std::uint64_t seed) {
+FamilyErrors errors_of(const FamilyTrip& trip, FamilyKind kind, std::size_t count, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   double metallic = 0.0, color = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -65,36 +67,25 @@ FamilyErrors errors_of(const RoundTrip& trip, FamilyKind kind, std::size_t count
 }  // namespace
 
 std::string family_name(FamilyKind kind) {
-  switch (kind) {
-    case FamilyKind::kExact:
-      return "uniform, exact";
-    case FamilyKind::kStored:
-      return "uniform, 8-bit";
-    case FamilyKind::kAuthored:
-      break;
-  }
-  return "authored, 8-bit";
+  constexpr std::array<const char*, kFamilyKinds> kNames = {"uniform, exact", "uniform, 8-bit",
+                                                            "authored, 8-bit"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::vector<FamilyLine> study_family(const std::vector<NamedConversion>& learned, std::size_t count,
                                      std::uint64_t seed, unsigned jobs) {
   if (count == 0) throw remap::Error(remap::ErrorKind::kUsage, "--family-count must be at least 1");
-  std::vector<FamilyLine> lines;
-  std::vector<RoundTrip> trips;
-  const auto add = [&](const std::string& name, const RoundTrip& trip) {
-    lines.push_back({name, {}});
-    trips.push_back(trip);
-  };
+  std::vector<FamilyTrip> trips;
   for (const WorkflowMethod& method : plain_methods(learned)) {
-    RoundTrip trip = round_trip(method.conversion);
     const bool is_khronos = std::holds_alternative<remap::KhronosSolver>(method.conversion.formula);
+    FamilyTrip& trip = trips.emplace_back(trip_of(method, is_khronos ? ", plain" : ""));
     // The solver is also tested on maps of the other convention.
     if (is_khronos)
       trip.there.specular.diffuse = trip.there.metallic.diffuse = remap::DiffuseConvention::kPlain;
-    add(is_khronos ? method.name + ", plain" : method.name, trip);
   }
-  for (const WorkflowMethod& method : gltf_methods())
-    add(method.name + ", glTF", round_trip(method.conversion));
+  for (const WorkflowMethod& method : gltf_methods()) trips.push_back(trip_of(method, ", glTF"));
+  std::vector<FamilyLine> lines;
+  for (const FamilyTrip& trip : trips) lines.push_back({trip.name, {}});
   remap::run_parallel(lines.size() * kFamilyKinds, jobs, [&](std::size_t i) {
     const std::size_t line = i / kFamilyKinds, kind = i % kFamilyKinds;
     lines[line].errors[kind] = errors_of(trips[line], static_cast<FamilyKind>(kind), count, seed);

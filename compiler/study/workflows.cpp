@@ -5,7 +5,6 @@
 #include "remap/error.hpp"
 #include "renderer/image_similarity.hpp"
 #include "report/contact_sheet.hpp"
-#include "report/displayed_sphere.hpp"
 #include "system/parallel.hpp"
 #include "text/number_text.hpp"
 
@@ -226,9 +225,7 @@ std::size_t progress_steps(const WorkflowsOptions& options) {
 
 WorkflowsResult study_workflows(const WorkflowsOptions& options) {
   require_options(options);
-  SphereSampling sampling{options.resolution, options.samples, options.jobs, options.progress};
-  sampling.cancelled = options.cancelled;
-  const LitReflectances lit(options.environments, options.alphas, sampling);
+  const LitReflectances lit(options.environments, options.alphas, options);
   const Studio studio{options, lit};
   WorkflowsResult result;
   const WorkflowRun plain{"plain", false, plain_methods(options.learned), {remap::kCommonDielectricF0, 1.0}};

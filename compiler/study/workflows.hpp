@@ -2,14 +2,11 @@
 // under environment maps (Sztrajman et al. 2019, section 8, figures 21 and 22).
 #pragma once
 
-#include <atomic>
-#include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "study/workflow_least_error.hpp"
+#include "study/lit_reflectances.hpp"
 #include "study/workflow_materials.hpp"
 #include "workflow/conversion.hpp"
 
@@ -34,17 +31,13 @@ std::vector<WorkflowMethod> plain_methods(const std::vector<NamedConversion>& le
 // made for this convention.
 std::vector<WorkflowMethod> gltf_methods();
 
-struct WorkflowsOptions {
+// `progress` is called progress_steps() times.
+struct WorkflowsOptions : SphereSampling {
   std::vector<StudyMaterial> materials;
   std::vector<double> alphas;
   std::vector<Environment> environments;  // of different names and equal mean luminance
   std::vector<NamedConversion> learned;
-  int resolution = 128;
-  int samples = 1024;                            // light directions per pixel
-  unsigned jobs = 0;                             // threads; 0: one per core. Results do not depend on it
-  bool sheets = false;                           // draw contact sheets
-  std::function<void()> progress;                // called progress_steps() times, from any thread
-  const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
+  bool sheets = false;  // draw contact sheets
 };
 std::size_t progress_steps(const WorkflowsOptions& options);
 

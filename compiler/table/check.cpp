@@ -69,9 +69,7 @@ class TableCheck : Findings {
   explicit TableCheck(const Table& table) : table_(table) {
     for (const TableRow& row : table.rows)
       if (row.status == RowStatus::kOk) by_alpha_[row.alpha1].push_back(&row);
-    for (auto& [alpha, rows] : by_alpha_)
-      std::stable_sort(rows.begin(), rows.end(),
-                       [](const TableRow* a, const TableRow* b) { return a->specular1 < b->specular1; });
+    for (auto& [alpha, rows] : by_alpha_) std::ranges::stable_sort(rows, {}, &TableRow::specular1);
   }
 
   std::vector<Finding> run() {
@@ -246,8 +244,7 @@ class MaterialCheck : Findings {
 
   void check_row_count() {
     const auto usable =
-        static_cast<std::size_t>(std::count_if(table_.rows.begin(), table_.rows.end(),
-                                               [](const NamedRow& r) { return r.status == RowStatus::kOk; }));
+        static_cast<std::size_t>(std::ranges::count(table_.rows, RowStatus::kOk, &NamedRow::status));
     const std::size_t fewest = kFewestRowsAColumn * table_.source_columns.size();
     if (usable < fewest)
       add(Severity::kError, "rows", 0,
@@ -304,9 +301,7 @@ std::string finding_text(const std::string& name, const Finding& finding) {
 
 void require_fittable(const Table& table) {
   const std::vector<Finding> findings = check_table(table);
-  const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
-    return finding.severity == Severity::kError;
-  });
+  const auto errors = std::ranges::count(findings, Severity::kError, &Finding::severity);
   if (errors == 0) return;
   const Finding& first = findings.front();
   const std::string more =

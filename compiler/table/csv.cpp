@@ -116,8 +116,4 @@ void CsvText::add(double number) { text_ += remap::number_text(number) + ","; }
 
 void CsvText::add(const std::optional<double>& number) { number ? add(*number) : add(std::string_view()); }
 
-void CsvText::add(std::span<const double> numbers) {
-  for (const double number : numbers) add(number);
-}
-
 }  // namespace remapc

@@ -2,8 +2,9 @@
 // that was read knows its place.
 #pragma once
 
+#include <concepts>
 #include <optional>
-#include <span>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,7 +57,7 @@ class CsvText {
   explicit CsvText(const std::string& header, const Comments& comments = {});
 
   // Adds a row of at least one cell: text (quoted if it holds a comma), a number (the shortest text that
-  // reads back), an optional number (without one an empty cell), or numbers, one cell each.
+  // reads back), an optional number (none: an empty cell), or a range of these, one cell each.
   template <typename... Cells>
   void add_row(const Cells&... cells) {
     (add(cells), ...);
@@ -70,7 +71,10 @@ class CsvText {
   void add(double number);
   void add(std::size_t number) { add(static_cast<double>(number)); }
   void add(const std::optional<double>& number);
-  void add(std::span<const double> numbers);
+  template <std::ranges::range Numbers>
+  requires(!std::convertible_to<Numbers, std::string_view>) void add(const Numbers& numbers) {
+    for (const auto& number : numbers) add(number);
+  }
 
   std::string text_;
 };

@@ -94,4 +94,11 @@ std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap
 // text gives the same numbers.
 std::string table_text(const Table& table);
 
+// Returns what a fit records of its table, whose file is `bytes`.
+remap::TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
+                                const Comments& comments);
+
+// Returns the SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
+std::string sha256(std::string_view bytes);
+
 }  // namespace remapc

@@ -23,8 +23,7 @@ std::vector<const WorkerRenderer*> RendererSet::started() const {
 
 const Renderer& RendererSet::renderer_of(const std::string& model) const {
   const std::string prefix = model.substr(0, model.find('/'));
-  const auto entry = std::find_if(workers_.begin(), workers_.end(),
-                                  [&](const WorkerEntry& worker) { return worker.name == prefix; });
+  const auto entry = std::ranges::find(workers_, prefix, &WorkerEntry::name);
   if (entry == workers_.end()) return *builtin_;
   const std::lock_guard lock(mutex_);
   if (const auto known = started_.find(prefix); known != started_.end()) return *known->second;

@@ -27,7 +27,7 @@ WorkerSettings settings() {
 // Where a model of the worker `name` can be rendered. Else skips.
 bool is_here(const RendererSet& renderers, const std::string& name, const std::string& model) {
   try {
-    find_model(renderers, name + "/" + model);
+    renderers.model(name + "/" + model);
     return true;
   } catch (const remap::Error& error) {
     if (error.kind() != remap::ErrorKind::kInput) throw;
