@@ -82,9 +82,8 @@ Colors difference(const Colors& a, const Colors& b) {
 }
 
 // Converts the source of this alpha by the fit.
-template <typename Figure>
-Figure converted(const remap::Fit& fit, const std::vector<double>& specular, double alpha) {
-  Figure figure;
+PreviewedMaterial converted(const remap::Fit& fit, const std::vector<double>& specular, double alpha) {
+  PreviewedMaterial figure;
   figure.alpha = alpha;
   figure.target_specular.resize(specular.size());
   const double own = remap::evaluate_texel(fit, remap::from_alpha(fit.source.roughness, alpha), specular,
@@ -104,11 +103,9 @@ void require_options(const PreviewOptions& options) {
 }
 
 // Fills missing options from the domain of a fit.
-template <typename Options>
-Options filled(Options options, const remap::Domain& domain) {
-  if (options.alphas.empty()) options.alphas = preview_alphas(domain);
-  if (options.specular.empty()) options.specular = {0.5 * domain.specular.max};
-  return options;
+void fill(const remap::Domain& domain, PreviewMaterials* options) {
+  if (options->alphas.empty()) options->alphas = preview_alphas(domain);
+  if (options->specular.empty()) options->specular = {0.5 * domain.specular.max};
 }
 
 constexpr std::size_t kColumns = 3;  // source, copied, converted
@@ -246,7 +243,8 @@ std::vector<double> preview_alphas(const remap::Domain& domain) {
 
 Preview make_preview(const Renderer& renderer, const remap::Fit& fit, const PreviewOptions& wanted) {
   require_options(wanted);
-  const PreviewOptions options = filled(wanted, fit.domain);
+  PreviewOptions options = wanted;
+  fill(fit.domain, &options);
   const auto scale = remap::parse_number(comment(fit, "irradiance_scale"));
   const End source = make_end(renderer, fit, "source", fit.source, scale.value_or(1.0));
   const End target = make_end(renderer, fit, "target", fit.target, 1.0);
@@ -259,8 +257,7 @@ Preview make_preview(const Renderer& renderer, const remap::Fit& fit, const Prev
     const Scene scene{side, options.samples_per_axis, options.light, 0, options.shapes[s]};
     const std::vector<std::uint32_t> pixels = shape_pixels(scene.shape, side);
     for (std::size_t a = 0; a < options.alphas.size(); ++a) {
-      auto figure = converted<PreviewFigure>(fit, options.specular, options.alphas[a]);
-      figure.shape = scene.shape;
+      PreviewFigure figure{converted(fit, options.specular, options.alphas[a]), scene.shape};
       const Colors before =
           photograph(renderer, source, material_of(source, figure.alpha, options.specular), scene, pixels);
       const Colors after = photograph(
@@ -292,7 +289,8 @@ Environment environment_for_preview(const std::string& name_or_file, double expo
 
 LitPreview make_lit_preview(const remap::Fit& fit, const Environment& environment,
                             const LitPreviewOptions& wanted) {
-  const LitPreviewOptions options = filled(wanted, fit.domain);
+  LitPreviewOptions options = wanted;
+  fill(fit.domain, &options);
   require_options(options);
   LitPreview preview{options.specular, {}, contact_sheet(options.alphas.size(), kColumns, cell_of(options))};
   const RadiancePyramid pyramid(std::span(&environment, 1));
@@ -300,7 +298,7 @@ LitPreview make_lit_preview(const remap::Fit& fit, const Environment& environmen
   sampling.resolution = options.resolution * options.samples_per_axis;
   sampling.samples = options.directions;
   for (const double alpha : options.alphas) {
-    preview.figures.push_back(converted<LitFigure>(fit, options.specular, alpha));
+    preview.figures.push_back({converted(fit, options.specular, alpha), {}, {}});
     const SpherePictures pictures =
         render_spheres(pyramid, materials_of(fit, options, preview.figures.back()), sampling);
     show_row(pictures, options, preview.figures.size() - 1, &preview);

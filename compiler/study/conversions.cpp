@@ -156,6 +156,13 @@ Search search_of(const SpherePictures& pictures, std::span<const SphereMaterial>
 
 }  // namespace
 
+std::string pair_name(const ModelPair& pair) { return pair.source + " -> " + pair.target; }
+
+std::string method_name(Method method) {
+  constexpr std::array<const char*, 5> kNames = {"copy", "paper", "natural", "shipped", "best"};
+  return kNames[static_cast<std::size_t>(method)];
+}
+
 std::vector<Conversion> conversions_of(const EnvironmentsOptions& options,
                                        std::vector<std::string>* remarks) {
   const auto renderer = make_builtin_renderer();

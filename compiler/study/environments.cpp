@@ -9,7 +9,6 @@
 #include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
 #include "report/contact_sheet.hpp"
-#include "study/conversions.hpp"
 #include "system/parallel.hpp"
 #include "text/number_text.hpp"
 
@@ -152,13 +151,6 @@ void require_options(const EnvironmentsOptions& options) {
 }
 
 }  // namespace
-
-std::string pair_name(const ModelPair& pair) { return pair.source + " -> " + pair.target; }
-
-std::string method_name(Method method) {
-  constexpr std::array<const char*, 5> kNames = {"copy", "paper", "natural", "shipped", "best"};
-  return kNames[static_cast<std::size_t>(method)];
-}
 
 std::vector<ModelPair> default_pairs() {
   return {{"mitsuba/ward", "mitsuba/ggx"},     {"mitsuba/beckmann", "mitsuba/ggx"},

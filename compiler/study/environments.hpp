@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "study/environments_options.hpp"
+#include "study/conversions.hpp"
 
 namespace remapc {
 

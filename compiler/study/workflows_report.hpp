@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "study/round_trip.hpp"
 #include "study/study_report.hpp"
 #include "study/workflows.hpp"
 

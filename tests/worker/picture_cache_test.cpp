@@ -4,7 +4,6 @@
 #include "system/parallel.hpp"
 #include "worker/fake_session.hpp"
 #include "worker/renderer_set.hpp"
-#include "worker/worker_list.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;

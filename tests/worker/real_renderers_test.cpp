@@ -12,7 +12,6 @@
 #include "support/skip.hpp"
 #include "sweep/sweep.hpp"
 #include "worker/renderer_set.hpp"
-#include "worker/worker_list.hpp"
 
 using namespace remapc;
 
