@@ -11,7 +11,6 @@
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
 #include "remap/error.hpp"
-#include "table/material_check.hpp"
 
 namespace remapc {
 namespace {
@@ -28,11 +27,6 @@ struct Checked {
   std::vector<Finding> findings;
 };
 
-Checked check(const Table& table) { return {table.name, table.rows.size(), check_table(table)}; }
-Checked check(const MaterialTable& table) {
-  return {table.name, table.rows.size(), check_material_table(table)};
-}
-
 void print_json(const Checked& checked) {
   nlohmann::ordered_json json = {
       {"table", checked.name}, {"rows", checked.rows}, {"findings", nlohmann::json::array()}};
@@ -45,8 +39,11 @@ void print_json(const Checked& checked) {
 }
 
 void run(const CheckOptions& options) {
-  const Checked checked =
-      std::visit([](const auto& table) { return check(table); }, options.table.read_any());
+  const Checked checked = std::visit(
+      [](const auto& table) {
+        return Checked{table.name, table.rows.size(), check_table(table)};
+      },
+      options.table.read_any());
   if (options.json)
     print_json(checked);
   else

@@ -16,7 +16,6 @@
 #include "probe/objective.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
-#include "report/lit_preview.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {

@@ -2,7 +2,7 @@
 
 #include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
-#include "worker/worker_list.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remapc {
 

@@ -11,7 +11,7 @@
 #include "commands/renderer_options.hpp"
 #include "remap/error.hpp"
 #include "table/domain.hpp"
-#include "worker/worker_list.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remapc {
 namespace {

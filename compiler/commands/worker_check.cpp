@@ -12,7 +12,7 @@
 #include "commands/renderer_options.hpp"
 #include "remap/error.hpp"
 #include "worker/conformance.hpp"
-#include "worker/worker_list.hpp"
+#include "worker/renderer_set.hpp"
 
 namespace remapc {
 namespace {

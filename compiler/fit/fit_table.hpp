@@ -9,7 +9,6 @@
 #include "fit/regressors.hpp"
 #include "remap/fit.hpp"
 #include "table/table.hpp"
-#include "table/table_record.hpp"
 
 namespace remapc {
 

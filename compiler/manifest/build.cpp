@@ -21,7 +21,7 @@
 #include "sweep/material_sample.hpp"
 #include "system/files.hpp"
 #include "system/parallel.hpp"
-#include "table/table_record.hpp"
+#include "table/table.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -143,8 +143,8 @@ class Builder {
         file_sha256(paths_of(folders_, item.id).table) != last->second.table)
       return false;
     try {
-      find_model(renderer_, swept->source);
-      find_model(renderer_, swept->target);
+      renderer_.model(swept->source);
+      renderer_.model(swept->target);
       return false;
     } catch (const Error& error) {
       *reason = error.what();
@@ -201,7 +201,7 @@ class Builder {
     options.objective = objective_preset(recipe.objective);
     options.objective_name = recipe.objective;
     options.resolution = recipe.resolution;
-    remap::Range speculars = canonical_speculars(renderer_, find_model(renderer_, source));
+    remap::Range speculars = canonical_speculars(renderer_, renderer_.model(source));
     if (const auto part = recipe.speculars.find(source); part != recipe.speculars.end())
       speculars = {std::max(speculars.min, part->second.min), std::min(speculars.max, part->second.max)};
     options.samples =

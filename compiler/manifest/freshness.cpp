@@ -6,7 +6,7 @@
 #include "manifest/report.hpp"
 #include "remap/version.hpp"
 #include "system/files.hpp"
-#include "table/table_record.hpp"
+#include "table/table.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {

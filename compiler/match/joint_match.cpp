@@ -279,8 +279,7 @@ JointMatch JointMatcher::match_from(const RoleValues& guess) const {
 JointMatch JointMatcher::best_match(const std::vector<RoleValues>& guesses) const {
   std::vector<JointMatch> found;
   for (const RoleValues& guess : guesses) found.push_back(search(guess, kAnswerTolerance));
-  JointMatch best = *std::min_element(
-      found.begin(), found.end(), [](const JointMatch& a, const JointMatch& b) { return a.error < b.error; });
+  JointMatch best = *std::ranges::min_element(found, {}, &JointMatch::error);
   best.status = judge(best, found);
   return best;
 }

@@ -194,8 +194,7 @@ Match Matcher::match(const std::vector<double>& coefficients, std::vector<std::s
 
   std::vector<Match> candidates;
   for (const std::size_t node : *minima) candidates.push_back(refine(node, coefficients));
-  const auto better = [](const Match& a, const Match& b) { return a.error < b.error; };
-  Match match = *std::min_element(candidates.begin(), candidates.end(), better);
+  Match match = *std::ranges::min_element(candidates, {}, &Match::error);
   for (const Match& rival : candidates) {
     const bool apart = std::fabs(std::log(rival.alpha / match.alpha)) > 2.0 * bank_.log_step();
     if (apart && rival.error < kRivalError * match.error) match.status = RowStatus::kUnstable;

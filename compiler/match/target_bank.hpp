@@ -1,5 +1,5 @@
 // The bank of target pictures. For widths on a geometric grid it holds the few pictures whose combinations
-// give all others of that width (specular_family.hpp). Each is rendered when a search first needs it.
+// give all others of that width (SpecularFamily). Each is rendered when a search first needs it.
 #pragma once
 
 #include <atomic>
@@ -51,6 +51,30 @@ class TargetBank {
   SpecularFamily family_;
   double log_step_;
   std::vector<double> alphas_;
+  mutable std::deque<Slot> slots_;
+};
+
+// Pictures of a target on a coarse grid of widths and speculars. They give a search its starting points if
+// the target has no family (ProbedModel::family).
+class TargetGrid {
+ public:
+  // Samples widths in `alphas`, evenly in log(alpha), and canonical speculars, evenly; without diffuse.
+  TargetGrid(const PictureTaker& picture_taker, const ProbedModel& target, const remap::Range& alphas);
+
+  // Returns at most three grid points, best first, at which the weighted squared difference from `source` is
+  // no larger than at their neighbours. The first call renders the pictures. Thread-safe.
+  std::vector<RoleValues> minima(const std::vector<float>& source, const std::vector<float>& weights) const;
+
+ private:
+  struct Slot {
+    std::once_flag once;
+    std::vector<float> picture;
+  };
+  const std::vector<float>& picture(std::size_t point) const;
+
+  const PictureTaker& picture_taker_;
+  ProbedModel target_;
+  std::vector<RoleValues> points_;  // grouped by width
   mutable std::deque<Slot> slots_;
 };
 

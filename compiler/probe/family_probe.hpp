@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "probe/specular_family.hpp"
+#include "probe/specular_response.hpp"
 
 namespace remapc {
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "probe/objective.hpp"
-#include "probe/specular_family.hpp"
 #include "probe/specular_response.hpp"
 #include "renderer/renderer.hpp"
 

@@ -91,8 +91,7 @@ std::vector<PolynomialMinimum> polynomial_minima(const std::vector<double>& coef
     const bool right = i + 1 == points.size() || points[i].value <= points[i + 1].value;
     if (left && right) minima.push_back(points[i]);
   }
-  std::stable_sort(minima.begin(), minima.end(),
-                   [](const PolynomialMinimum& a, const PolynomialMinimum& b) { return a.value < b.value; });
+  std::ranges::stable_sort(minima, {}, &PolynomialMinimum::value);
   return minima;
 }
 

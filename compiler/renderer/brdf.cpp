@@ -48,6 +48,17 @@ double microfacet(Brdf distribution, double alpha, const LocalGeometry& g) {
 
 }  // namespace
 
+LocalGeometry local_geometry(double cos_light, double cos_view, double cos_between) {
+  const double half_length_2 = 2.0 + 2.0 * cos_between;
+  const double half_length = std::sqrt(half_length_2);
+  return {cos_light,
+          cos_view,
+          std::min(1.0, (cos_light + cos_view) / half_length),
+          std::min(1.0, 0.5 * half_length),
+          half_length_2,
+          std::min(1.0, 2.0 * cos_light * cos_view - cos_between)};
+}
+
 double microfacet_distribution(Brdf brdf, double alpha, double cos_half) {
   const double alpha_2 = alpha * alpha;
   const double cos_half_2 = cos_half * cos_half;

@@ -16,6 +16,10 @@ struct LocalGeometry {
   double cos_mirror;      // mirrored light to view
 };
 
+// From the cosines between normal and light, normal and camera, light and camera; the sum of light and camera
+// must not be 0.
+LocalGeometry local_geometry(double cos_light, double cos_view, double cos_between);
+
 // Reflectance of one model: `base` + specular * `slope`. Under Schlick's Fresnel (1994), `base` is the
 // reflectance at F0 = 0. It is 0 for models whose specular is a plain scale.
 struct Lobe {

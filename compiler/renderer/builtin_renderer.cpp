@@ -13,7 +13,6 @@
 #include "renderer/brdf.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/renderer.hpp"
-#include "renderer/shape.hpp"
 #include "text/nearest_name.hpp"
 #include "text/number_text.hpp"
 
@@ -156,13 +155,8 @@ std::vector<LitSample> lit_samples(const Scene& scene) {
       if (cos_light <= 0.0 || cos_view <= 0.0) continue;
       if (is_shadowed(scene.shape, hit, {light_x, 0.0, light_z})) continue;
       const double cos_between = lx * vx + ly * vy + lz * vz;
-      const double half_length_2 = 2.0 + 2.0 * cos_between;
-      const double half_length = std::sqrt(half_length_2);
       const int pixel = row / scene.samples_per_axis * scene.resolution + column / scene.samples_per_axis;
-      samples.push_back({static_cast<std::uint32_t>(pixel),
-                         {cos_light, cos_view, std::min(1.0, (cos_light + cos_view) / half_length),
-                          std::min(1.0, 0.5 * half_length), half_length_2,
-                          std::min(1.0, 2.0 * cos_light * cos_view - cos_between)},
+      samples.push_back({static_cast<std::uint32_t>(pixel), local_geometry(cos_light, cos_view, cos_between),
                          cos_light / (light_distance * light_distance) * step * step});
     }
   }
@@ -278,7 +272,7 @@ double specular_reflectance(Reflectance reflectance, double shape, double schlic
 
 Image BuiltinRenderer::render(const Material& material, const Scene& scene) const {
   require_scene(scene);
-  const ModelDescription description = find_model(*this, material.model);
+  const ModelDescription description = model(material.model);
   require_material(material, description);
   const BuiltinModel* model = find_builtin(material.model);
   const std::string& roughness = description.parameter(ParameterRole::kRoughness).name;
@@ -306,7 +300,7 @@ Image BuiltinRenderer::render(const Material& material, const Scene& scene) cons
 }  // namespace
 
 BrdfModel builtin_brdf(const std::string& name) {
-  find_model(BuiltinRenderer(), name);
+  BuiltinRenderer().model(name);
   const BuiltinModel* model = find_builtin(name);
   if (model->reflectance == Reflectance::kScale) return {model->brdf, Fresnel::kNone};
   if (model->reflectance == Reflectance::kSchlick) return {model->brdf, Fresnel::kSchlick};
@@ -316,7 +310,7 @@ BrdfModel builtin_brdf(const std::string& name) {
 }
 
 MapModel builtin_map_model(const std::string& name) {
-  find_model(BuiltinRenderer(), name);
+  BuiltinRenderer().model(name);
   const BuiltinModel* model = find_builtin(name);
   switch (model->reflectance) {
     case Reflectance::kScale:

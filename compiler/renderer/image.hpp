@@ -1,6 +1,7 @@
 // A linear float image: the result of a renderer and the input of the match.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -13,5 +14,14 @@ struct Image {
   int channels = 0;
   std::vector<float> values;
 };
+
+// Linear RGB with the primaries of sRGB.
+using Rgb = std::array<double, 3>;
+
+// The luminance of linear RGB (ITU-R BT.709), or the luma of display values.
+inline double luminance(const float* rgb) {
+  return 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) +
+         0.0722 * static_cast<double>(rgb[2]);
+}
 
 }  // namespace remapc

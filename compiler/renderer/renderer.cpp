@@ -8,34 +8,26 @@
 #include "text/number_text.hpp"
 
 namespace remapc {
-
 namespace {
 
-const char* role_name(ParameterRole role) {
-  switch (role) {
-    case ParameterRole::kRoughness:
-      return "roughness";
-    case ParameterRole::kSpecular:
-      return "specular";
-    case ParameterRole::kDiffuse:
-      return "diffuse";
-    case ParameterRole::kIndex:
-      return "index of refraction";
-    case ParameterRole::kExtinction:
-      return "extinction";
-    case ParameterRole::kOther:
-      return "anything else";
-  }
-  return "";
+// In the order of ParameterRole: for messages, and as words of the protocol.
+constexpr std::array<const char*, 6> kRoleNames = {"roughness",           "specular",   "diffuse",
+                                                   "index of refraction", "extinction", "anything else"};
+constexpr std::array<std::string_view, 6> kRoleWords = {"roughness", "specular",   "diffuse",
+                                                        "index",     "extinction", "other"};
+
+// Converts a width to the model's own parameter. At the ends of its range, rounding may move it out by one
+// ulp.
+double own_width(const ModelDescription& model, double alpha) {
+  const remap::Range range = model.parameter(ParameterRole::kRoughness).range;
+  const double own = remap::from_alpha(model.roughness, alpha);
+  const double held = std::clamp(own, range.min, range.max);
+  return std::fabs(own - held) <= 1e-12 * std::fabs(held) ? held : own;
 }
 
 }  // namespace
 
-std::string_view role_word(ParameterRole role) {
-  if (role == ParameterRole::kIndex) return "index";
-  if (role == ParameterRole::kOther) return "other";
-  return role_name(role);
-}
+std::string_view role_word(ParameterRole role) { return kRoleWords[static_cast<std::size_t>(role)]; }
 
 bool ModelDescription::has(ParameterRole role) const {
   return std::any_of(parameters.begin(), parameters.end(),
@@ -45,7 +37,8 @@ bool ModelDescription::has(ParameterRole role) const {
 const ParameterDescription& ModelDescription::parameter(ParameterRole role) const {
   for (const ParameterDescription& description : parameters)
     if (description.role == role) return description;
-  throw remap::Error(remap::ErrorKind::kUsage, name + ": has no parameter for " + role_name(role) +
+  throw remap::Error(remap::ErrorKind::kUsage, name + ": has no parameter for " +
+                                                   kRoleNames[static_cast<std::size_t>(role)] +
                                                    " (remapc list --models shows those of every model)");
 }
 
@@ -99,23 +92,6 @@ void require_material(const Material& material, const ModelDescription& model) {
     for (const double value : values) require_value(model, parameter, value);
   }
 }
-
-ModelDescription find_model(const Renderer& renderer, const std::string& name) {
-  return renderer.model(name);
-}
-
-namespace {
-
-// Converts a width to the model's own parameter. At the ends of its range, rounding may move it out by one
-// ulp.
-double own_width(const ModelDescription& model, double alpha) {
-  const remap::Range range = model.parameter(ParameterRole::kRoughness).range;
-  const double own = remap::from_alpha(model.roughness, alpha);
-  const double held = std::clamp(own, range.min, range.max);
-  return std::fabs(own - held) <= 1e-12 * std::fabs(held) ? held : own;
-}
-
-}  // namespace
 
 Material grey_material(const ModelDescription& model, double alpha, double specular, double diffuse) {
   Material material{model.name,

@@ -76,9 +76,6 @@ class Renderer {
   virtual Image render(const Material& material, const Scene& scene) const = 0;
 };
 
-// The same as renderer.model(name).
-ModelDescription find_model(const Renderer& renderer, const std::string& name);
-
 // Throws kUsage if `parameter` of `model` does not accept `value`.
 void require_value(const ModelDescription& model, const ParameterDescription& parameter, double value);
 

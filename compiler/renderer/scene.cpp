@@ -1,11 +1,75 @@
 #include "renderer/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "remap/error.hpp"
+#include "text/nearest_name.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
+namespace {
+
+// Sphere tracing counts as a hit at this distance and as a miss after this many steps; rays that graze the
+// torus take the most steps.
+constexpr double kHitDistance = 1e-10;
+constexpr int kMostSteps = 500;
+// Shadow rays start this far above the surface, in sphere radii, so that they do not hit their own point.
+constexpr double kShadowOffset = 1e-6;
+
+const double kSine = std::sin(kTorusTilt * std::numbers::pi / 180.0);
+const double kCosine = std::cos(kTorusTilt * std::numbers::pi / 180.0);
+
+double length(const SurfacePoint& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+SurfacePoint along(const SurfacePoint& origin, const SurfacePoint& direction, double t) {
+  return {origin.x + t * direction.x, origin.y + t * direction.y, origin.z + t * direction.z};
+}
+
+SurfacePoint normalised(const SurfacePoint& v) {
+  const double scale = 1.0 / length(v);
+  return {v.x * scale, v.y * scale, v.z * scale};
+}
+
+// Returns the nearest point of the circle in the middle of the tube.
+SurfacePoint tube_middle(const SurfacePoint& p) {
+  const double height = p.y * kSine + p.z * kCosine;  // along the axis
+  const SurfacePoint flat = {p.x, p.y - height * kSine, p.z - height * kCosine};
+  const double radius = std::max(length(flat), 1e-12);
+  return along({0.0, 0.0, 0.0}, flat, kTorusRadius / radius);
+}
+
+double torus_distance(const SurfacePoint& p) {
+  const SurfacePoint middle = tube_middle(p);
+  return length({p.x - middle.x, p.y - middle.y, p.z - middle.z}) - kTubeRadius;
+}
+
+// Sphere tracing (Hart 1996): steps of the exact distance never pass the surface. Returns the distance along
+// the ray, or a negative number if nothing is hit before `end`.
+double march(const SurfacePoint& origin, const SurfacePoint& direction, double start, double end) {
+  double t = start;
+  for (int step = 0; step < kMostSteps && t < end; ++step) {
+    const double distance = torus_distance(along(origin, direction, t));
+    if (distance < kHitDistance) return t;
+    t += distance;
+  }
+  return -1.0;
+}
+
+bool torus_point(int resolution, double column, double row, SurfaceHit* hit) {
+  const SurfacePoint camera = {0.0, 0.0, kCameraDistance};
+  const SurfacePoint direction = normalised(camera_ray(resolution, column, row));
+  const double t = march(camera, direction, kCameraDistance - 1.0, kCameraDistance + 1.0);
+  if (t < 0.0) return false;
+  hit->position = along(camera, direction, t);
+  const SurfacePoint middle = tube_middle(hit->position);
+  hit->normal =
+      normalised({hit->position.x - middle.x, hit->position.y - middle.y, hit->position.z - middle.z});
+  return true;
+}
+
+}  // namespace
 
 std::string light_name(const Light& light) {
   std::string name = light.angle == 0.0 ? "headlight" : remap::number_text(light.angle);
@@ -53,6 +117,42 @@ std::vector<float> view_cosines(int resolution, int samples_per_axis) {
     }
   }
   return cosines;
+}
+
+std::string shape_name(Shape shape) { return shape == Shape::kSphere ? "sphere" : "torus"; }
+
+Shape shape_from_name(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Shape shape : kShapes) {
+    if (shape_name(shape) == name) return shape;
+    names.push_back(shape_name(shape));
+  }
+  throw remap::Error(remap::ErrorKind::kUsage,
+                     "shape: unknown shape " + name + remap::suggestion(name, names));
+}
+
+bool shape_point(Shape shape, int resolution, double column, double row, SurfaceHit* hit) {
+  if (shape == Shape::kTorus) return torus_point(resolution, column, row, hit);
+  if (!sphere_point(resolution, column, row, &hit->position)) return false;
+  hit->normal = hit->position;
+  return true;
+}
+
+bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light) {
+  if (shape == Shape::kSphere) return false;
+  const SurfacePoint origin = along(hit.position, hit.normal, kShadowOffset);
+  const SurfacePoint way = {light.x - origin.x, light.y - origin.y, light.z - origin.z};
+  return march(origin, normalised(way), 0.0, length(way)) >= 0.0;
+}
+
+std::vector<std::uint32_t> shape_pixels(Shape shape, int resolution) {
+  std::vector<std::uint32_t> pixels;
+  SurfaceHit hit{};
+  for (int row = 0; row < resolution; ++row)
+    for (int column = 0; column < resolution; ++column)
+      if (shape_point(shape, resolution, column + 0.5, row + 0.5, &hit))
+        pixels.push_back(static_cast<std::uint32_t>(row * resolution + column));
+  return pixels;
 }
 
 }  // namespace remapc

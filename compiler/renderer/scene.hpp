@@ -1,7 +1,10 @@
 // The sweep scene (Sztrajman et al. 2019, section 4.1): a unit sphere at the origin, a pinhole camera on +z
-// whose square image just encloses the sphere, and one point light of unit intensity.
+// whose square image just encloses the sphere, and one point light of unit intensity. A torus in place of the
+// sphere previews a conversion on another shape.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,8 +20,9 @@ struct Light {
   bool operator==(const Light&) const = default;
 };
 
-// What the camera sees (shape.hpp). Sweeps use the sphere.
+// What the camera sees. Sweeps use the sphere.
 enum class Shape { kSphere, kTorus };
+inline constexpr std::array kShapes = {Shape::kSphere, Shape::kTorus};
 
 // One picture. `samples_per_axis` = 1 samples the pixel centre; N averages an N x N grid in each pixel.
 struct Scene {
@@ -49,5 +53,32 @@ bool sphere_point(int resolution, double column, double row, SurfacePoint* point
 // Returns cos(normal, view) of each pixel, averaged over its samples; 0 where the pixel does not show the
 // sphere. Row-major, resolution^2 values.
 std::vector<float> view_cosines(int resolution, int samples_per_axis);
+
+// Returns `sphere` or `torus`.
+std::string shape_name(Shape shape);
+// Throws kUsage for an unknown name, with the nearest.
+Shape shape_from_name(const std::string& name);
+
+// The torus is centred at the origin, inside the unit sphere. Its axis is tilted from the camera towards +y,
+// so that the hole and both flanks are visible.
+inline constexpr double kTorusRadius = 0.68;  // of the circle in the middle of the tube
+inline constexpr double kTubeRadius = 0.3;
+inline constexpr double kTorusTilt = 40.0;  // degrees from +z to +y
+
+struct SurfaceHit {
+  SurfacePoint position;
+  SurfacePoint normal;
+};
+
+// Intersects the ray through the image at (column, row), as sphere_point does, with the shape. Returns false
+// if it misses.
+bool shape_point(Shape shape, int resolution, double column, double row, SurfaceHit* hit);
+
+// Whether the shape casts its own shadow on the point, for a light at `light`. Always false for the sphere:
+// its own shadow is where the light is below the horizon, which this function does not test.
+bool is_shadowed(Shape shape, const SurfaceHit& hit, const SurfacePoint& light);
+
+// Returns the indices, row by row, of the pixels whose centres show the shape.
+std::vector<std::uint32_t> shape_pixels(Shape shape, int resolution);
 
 }  // namespace remapc

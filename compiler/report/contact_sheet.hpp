@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "renderer/image.hpp"
 
@@ -18,5 +19,12 @@ Image contact_sheet(std::size_t rows, std::size_t columns, int side);
 // display values for each of them.
 void place_picture(Image* sheet, int side, std::size_t row, std::size_t column,
                    std::span<const std::uint32_t> pixels, std::span<const float> colors);
+
+// Returns a picture of one grey value.
+Image blank_picture(int width, int height, float grey);
+
+// Arranges rows of pictures on a light background, with gaps. Columns are as wide as the widest picture, rows
+// as high as their highest picture, and pictures are centered in their cells.
+Image sheet_of(const std::vector<std::vector<Image>>& rows);
 
 }  // namespace remapc

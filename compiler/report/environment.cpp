@@ -9,7 +9,6 @@
 
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
-#include "report/color.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {

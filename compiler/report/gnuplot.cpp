@@ -1,19 +1,14 @@
 #include "report/gnuplot.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
-#include <spawn.h>
 #include <stdlib.h>
 #include <sys/wait.h>
-#include <unistd.h>
-#include <vector>
 
 #include "remap/error.hpp"
 #include "system/files.hpp"
-
-extern char** environ;
 
 namespace remapc {
 namespace {
@@ -42,36 +37,24 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-struct FileActions {
-  posix_spawn_file_actions_t value;
-  FileActions() { posix_spawn_file_actions_init(&value); }
-  ~FileActions() { posix_spawn_file_actions_destroy(&value); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
-  void open(int descriptor, const std::string& path, int flags) {
-    posix_spawn_file_actions_addopen(&value, descriptor, path.c_str(), flags, 0600);
-  }
-};
+// Quotes `text` as one word of the shell.
+std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
+}
 
 // Runs `gnuplot argument` and returns its exit code, or -1 if a signal ended it.
-int run(std::string argument, const std::string& output, const std::string& complaints) {
-  FileActions actions;
-  actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
-  actions.open(STDOUT_FILENO, output, O_WRONLY | O_CREAT | O_TRUNC);
-  actions.open(STDERR_FILENO, complaints, O_WRONLY | O_CREAT | O_TRUNC);
-  std::string program = "gnuplot";
-  std::vector<char*> arguments = {program.data(), argument.data(), nullptr};
-  pid_t child = 0;
-  const int failure =
-      posix_spawnp(&child, program.c_str(), &actions.value, nullptr, arguments.data(), environ);
-  if (failure != 0)
-    throw Error(ErrorKind::kOutput,
-                "plot: gnuplot cannot be started: " + std::string(std::strerror(failure)) +
-                    " (install gnuplot, on Debian the package gnuplot-nox)");
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+int run(const std::string& argument, const std::string& output, const std::string& complaints) {
+  constexpr int kNotFound = 127;  // the shell's code for a program that cannot be started
+  const std::string command = "exec gnuplot " + shell_word(argument) + " </dev/null >" + shell_word(output) +
+                              " 2>" + shell_word(complaints);
+  const int status = std::system(command.c_str());
+  if (!WIFEXITED(status)) return -1;
+  if (WEXITSTATUS(status) == kNotFound)
+    throw Error(ErrorKind::kOutput, "plot: gnuplot cannot be started: " + std::string(std::strerror(ENOENT)) +
+                                        " (install gnuplot, on Debian the package gnuplot-nox)");
+  return WEXITSTATUS(status);
 }
 
 // The first line of gnuplot's message that states the error. The lines before it only show the place.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "remap/error.hpp"
+#include "renderer/image_similarity.hpp"
 #include "renderer/scene.hpp"
 #include "system/parallel.hpp"
 
@@ -78,9 +79,7 @@ struct Mixture {
 
 Mixture mixture_for(std::span<const SphereMaterial> materials, int samples) {
   Mixture mixture;
-  const auto [low, high] =
-      std::minmax_element(materials.begin(), materials.end(),
-                          [](const SphereMaterial& a, const SphereMaterial& b) { return a.alpha < b.alpha; });
+  const auto [low, high] = std::ranges::minmax_element(materials, {}, &SphereMaterial::alpha);
   mixture.alphas = {low->alpha, high->alpha};
   for (std::size_t t = 0; t < kTechniqueCount; ++t) {
     mixture.counts[t] =
@@ -92,18 +91,10 @@ Mixture mixture_for(std::span<const SphereMaterial> materials, int samples) {
 
 // Computes the geometry of a light direction for evaluate_lobe. Returns false if light or view is below the
 // horizon.
-bool local_geometry(const Direction& normal, const Direction& view, const Direction& light,
-                    LocalGeometry* g) {
+bool is_lit(const Direction& normal, const Direction& view, const Direction& light, LocalGeometry* g) {
   const double cos_light = dot(normal, light), cos_view = dot(normal, view), cos_between = dot(light, view);
-  const double half_length_2 = 2.0 + 2.0 * cos_between;
-  if (cos_light <= 0.0 || cos_view <= 0.0 || half_length_2 <= 0.0) return false;
-  const double half_length = std::sqrt(half_length_2);
-  *g = {cos_light,
-        cos_view,
-        std::min(1.0, (cos_light + cos_view) / half_length),
-        std::min(1.0, 0.5 * half_length),
-        half_length_2,
-        std::min(1.0, 2.0 * cos_light * cos_view - cos_between)};
+  if (cos_light <= 0.0 || cos_view <= 0.0 || 2.0 + 2.0 * cos_between <= 0.0) return false;
+  *g = local_geometry(cos_light, cos_view, cos_between);
   return true;
 }
 
@@ -171,7 +162,7 @@ void add_lamps(const Rendering& rendering, const PixelSampler& sampler, std::siz
   for (std::size_t e = 0; 3 * e < rendering.environments.channel_count(); ++e)
     for (const Lamp& lamp : rendering.environments.lamps(e)) {
       LocalGeometry geometry;
-      if (!local_geometry(sampler.normal(), sampler.view(), lamp.direction, &geometry)) continue;
+      if (!is_lit(sampler.normal(), sampler.view(), lamp.direction, &geometry)) continue;
       for (std::size_t m = 0; m < rendering.materials.size(); ++m) {
         const double factor = reflected(rendering.materials[m], geometry);
         for (std::size_t half = 0; half < kHalves; ++half)
@@ -189,7 +180,7 @@ void add_samples(const Rendering& rendering, const PixelSampler& sampler, std::s
       for (std::uint32_t i = 0; i < rendering.mixture.counts[technique]; ++i) {
         const Direction light = sampler.direction(technique, half, i);
         LocalGeometry geometry;
-        if (!local_geometry(sampler.normal(), sampler.view(), light, &geometry)) continue;
+        if (!is_lit(sampler.normal(), sampler.view(), light, &geometry)) continue;
         const double solid_angle = 1.0 / rendering.mixture.density(geometry);
         rendering.environments.look_up(light, solid_angle / kHalves, radiance.data());
         for (std::size_t m = 0; m < rendering.materials.size(); ++m) {
@@ -267,6 +258,35 @@ SpherePictures render_spheres(const RadiancePyramid& environments, std::span<con
     if (sampling.progress) sampling.progress();
   });
   return pictures;
+}
+
+std::vector<float> display_values(std::span<const float> radiance) {
+  std::vector<float> values;
+  values.reserve(radiance.size());
+  for (const float value : radiance) values.push_back(display_value(static_cast<double>(value)));
+  return values;
+}
+
+DisplayedSphere displayed_colors(std::vector<float> colors, std::span<const std::uint32_t> pixels,
+                                 int resolution) {
+  const auto side = static_cast<std::size_t>(resolution);
+  DisplayedSphere sphere{std::move(colors), std::vector<float>(side * side, 0.0f)};
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    sphere.luma[pixels[i]] = static_cast<float>(luminance(&sphere.colors[3 * i]));
+  return sphere;
+}
+
+DisplayedSphere displayed_sphere(std::span<const float> radiance, std::span<const std::uint32_t> pixels,
+                                 int resolution) {
+  return displayed_colors(display_values(radiance), pixels, resolution);
+}
+
+double sphere_similarity(const DisplayedSphere& a, const DisplayedSphere& b,
+                         std::span<const std::uint32_t> pixels, int resolution) {
+  const std::vector<float> map = similarity_map(a.luma, b.luma, resolution, resolution);
+  double sum = 0.0;
+  for (const std::uint32_t pixel : pixels) sum += static_cast<double>(map[pixel]);
+  return sum / static_cast<double>(pixels.size());
 }
 
 }  // namespace remapc

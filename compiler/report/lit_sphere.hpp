@@ -1,4 +1,5 @@
-// Renders the sphere of the sweep scene under environments in place of a point light.
+// Renders the sphere of the sweep scene under environments in place of a point light, and compares such
+// pictures in display values.
 #pragma once
 
 #include <atomic>
@@ -63,5 +64,27 @@ class SpherePictures {
 // count out of range, and kInterrupted.
 SpherePictures render_spheres(const RadiancePyramid& environments, std::span<const SphereMaterial> materials,
                               const SphereSampling& sampling);
+
+// Converts linear values to display values (renderer/image_similarity.hpp).
+std::vector<float> display_values(std::span<const float> radiance);
+
+// A picture in display values. The shape may be another than the sphere.
+struct DisplayedSphere {
+  std::vector<float> colors;  // RGB of the pixels that show the sphere
+  std::vector<float> luma;    // of the whole picture, row-major; 0 outside the sphere
+};
+
+// `radiance`: linear RGB of `pixels`, which are row-major indices into a picture of `resolution` x
+// `resolution`.
+DisplayedSphere displayed_sphere(std::span<const float> radiance, std::span<const std::uint32_t> pixels,
+                                 int resolution);
+
+// The same for `colors` in display values.
+DisplayedSphere displayed_colors(std::vector<float> colors, std::span<const std::uint32_t> pixels,
+                                 int resolution);
+
+// The mean structural similarity of luma over the pixels of the sphere; 1 for equal pictures.
+double sphere_similarity(const DisplayedSphere& a, const DisplayedSphere& b,
+                         std::span<const std::uint32_t> pixels, int resolution);
 
 }  // namespace remapc

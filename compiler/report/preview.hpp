@@ -1,5 +1,7 @@
-// Previews a conversion: renders the source and the converted material side by side, on several shapes and at
-// alphas that may differ from those of the sweep.
+// Previews a conversion. Under a light: the source and the converted material side by side, on several shapes
+// and at alphas that may differ from those of the sweep. Under an environment: the source, the target with
+// the numbers of the source, and the target with converted numbers. Copying the numbers is what a conversion
+// competes with.
 #pragma once
 
 #include <string>
@@ -7,30 +9,53 @@
 
 #include "remap/fit.hpp"
 #include "renderer/renderer.hpp"
-#include "renderer/shape.hpp"
+#include "report/environment.hpp"
 
 namespace remapc {
 
-struct PreviewOptions {
+// The materials and pictures of a preview.
+struct PreviewMaterials {
   std::vector<double> alphas;    // of the source, canonical; empty: preview_alphas()
-  std::vector<double> specular;  // of the source, in the fit's unit: one value, or red, green, blue; none:
-                                 // half of what the domain covers
+  std::vector<double> specular;  // of the source, in the fit's unit: one value, or red, green, blue; empty:
+                                 // half of the domain
+  int resolution = 256;          // width and height of each picture, pixels
+  int samples_per_axis = 2;      // N x N samples in each pixel
+};
+
+struct PreviewOptions : PreviewMaterials {
   std::vector<Shape> shapes = {Shape::kSphere, Shape::kTorus};
   Light light{45.0, 3.0};
-  int resolution = 256;
-  int samples_per_axis = 2;
+};
+
+struct LitPreviewOptions : PreviewMaterials {
+  double diffuse = 0.0;  // reflectance of a Lambertian lobe that all spheres have, 0 to 1
+  int directions = 512;  // light directions for each sample
+};
+
+// One source material and its conversion.
+struct PreviewedMaterial {
+  double alpha = 0.0;                   // of the source
+  double target_alpha = 0.0;            // canonical
+  std::vector<double> target_specular;  // in the fit's unit
+  bool in_domain = true;                // of the fit
 };
 
 // One pair of pictures. The figures are computed from display values (sRGB) over the pixels that show the
 // shape. The exposure shows a white diffuse surface, facing the light where it is nearest, as white.
-struct PreviewFigure {
+struct PreviewFigure : PreviewedMaterial {
   Shape shape = Shape::kSphere;
-  double alpha = 0.0;                   // of the source
-  double target_alpha = 0.0;            // canonical
-  std::vector<double> target_specular;  // in the fit's unit
-  bool in_domain = true;                // inside the domain of the fit
-  double ssim = 0.0;                    // of luma
-  double rms = 0.0;                     // over red, green and blue
+  double ssim = 0.0;  // of luma
+  double rms = 0.0;   // over red, green and blue
+};
+
+// How far one picture is from the source's, in display values (sRGB) over the pixels that show the sphere.
+struct LitSimilarity {
+  double ssim = 0.0;  // of luma, 1 for equal pictures
+  double rms = 0.0;   // of red, green and blue
+};
+
+struct LitFigure : PreviewedMaterial {
+  LitSimilarity copied, converted;
 };
 
 struct Preview {
@@ -48,5 +73,21 @@ std::vector<double> preview_alphas(const remap::Domain& domain);
 // renderers that the fit's table states. Throws kUsage for models that `renderer` does not have, invalid
 // values, and without shapes.
 Preview make_preview(const Renderer& renderer, const remap::Fit& fit, const PreviewOptions& options);
+
+struct LitPreview {
+  std::vector<double> specular;    // of the source, as rendered
+  std::vector<LitFigure> figures;  // by alpha
+  Image sheet;  // a row for each alpha; columns: source, numbers copied, numbers converted; a margin of a
+                // twentieth of the resolution around each picture
+};
+
+// The built-in environment of this name (sky, overcast, studio), or the one of this file; its mean luminance
+// becomes `exposure` (> 0). Throws kUsage, and kInput as load_environment does.
+Environment environment_for_preview(const std::string& name_or_file, double exposure);
+
+// Both models of `fit` must be lobes of the built-in renderer with a scale or F0: throws kUsage otherwise,
+// and for values out of range.
+LitPreview make_lit_preview(const remap::Fit& fit, const Environment& environment,
+                            const LitPreviewOptions& options);
 
 }  // namespace remapc

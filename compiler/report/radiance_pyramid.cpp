@@ -112,8 +112,7 @@ std::vector<Lamp> take_lamps(Image* map, double mean) {
       const Spot spot = spot_at(*map, row, column, threshold);
       if (spot.luminance > 0.0) spots.push_back(spot);
     }
-  std::stable_sort(spots.begin(), spots.end(),
-                   [](const Spot& a, const Spot& b) { return a.luminance > b.luminance; });
+  std::ranges::stable_sort(spots, std::ranges::greater{}, &Spot::luminance);
   if (spots.size() > kMostLamps) spots.resize(kMostLamps);
   std::vector<Lamp> lamps;
   for (const Spot& spot : spots) {

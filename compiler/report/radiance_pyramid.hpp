@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "report/color.hpp"
 #include "report/environment.hpp"
 
 namespace remapc {

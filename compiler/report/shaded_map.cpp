@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "renderer/image_similarity.hpp"
+#include "report/contact_sheet.hpp"
 
 namespace remapc {
 namespace {
@@ -15,6 +16,23 @@ using Radiance = std::array<double, 3>;
 constexpr double kSteepest = 0.7;      // tangent of the cushion's slope at its ends
 constexpr double kSurroundings = 0.3;  // uniform radiance from all sides
 constexpr double kLeastAlpha = 0.02;   // narrower highlights would be smaller than a pixel
+
+// Colors that color-blind readers can distinguish (Okabe and Ito 2008).
+constexpr std::array<DisplayColor, 7> kStrokeColors = {{{0.84f, 0.37f, 0.00f},
+                                                        {0.00f, 0.45f, 0.70f},
+                                                        {0.00f, 0.62f, 0.45f},
+                                                        {0.94f, 0.89f, 0.26f},
+                                                        {0.80f, 0.47f, 0.65f},
+                                                        {0.34f, 0.71f, 0.91f},
+                                                        {0.90f, 0.62f, 0.00f}}};
+constexpr float kDimmed = 0.55f;
+
+constexpr int kMostSamples = 3;  // along each side of a pixel
+
+std::size_t texel_at(int sample, int sample_count, std::size_t texel_count) {
+  const double place = (static_cast<double>(sample) + 0.5) / static_cast<double>(sample_count);
+  return std::min(static_cast<std::size_t>(place * static_cast<double>(texel_count)), texel_count - 1);
+}
 
 struct DistantLight {
   Vector direction;
@@ -60,6 +78,32 @@ Radiance radiance_of(const remap::WarpTexel& texel, const BrdfModel& model, cons
 
 }  // namespace
 
+PictureGrid picture_grid(std::size_t width, std::size_t height, int side) {
+  const auto longer = static_cast<double>(std::max(width, height));
+  const double scale = static_cast<double>(side) / longer;
+  const auto pixels = [&](std::size_t texels) {
+    return std::max(static_cast<int>(std::lround(static_cast<double>(texels) * scale)), 1);
+  };
+  PictureGrid grid;
+  grid.width = pixels(width);
+  grid.height = pixels(height);
+  grid.samples = std::clamp(static_cast<int>(std::ceil(1.0 / scale - 1e-9)), 1, kMostSamples);
+  const int columns = grid.width * grid.samples, rows = grid.height * grid.samples;
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x)
+      grid.texels.push_back(
+          static_cast<std::uint32_t>(texel_at(y, rows, height) * width + texel_at(x, columns, width)));
+  return grid;
+}
+
+std::vector<remap::WarpTexel> samples_of(const PictureGrid& grid,
+                                         const std::vector<remap::WarpTexel>& texels) {
+  std::vector<remap::WarpTexel> samples;
+  samples.reserve(grid.texels.size());
+  for (const std::uint32_t texel : grid.texels) samples.push_back(texels[texel]);
+  return samples;
+}
+
 Image shaded_map(const PictureGrid& grid, const std::vector<remap::WarpTexel>& samples,
                  const BrdfModel& model) {
   Image picture = blank_picture(grid.width, grid.height, 0.0f);
@@ -86,6 +130,28 @@ Image shaded_map(const PictureGrid& grid, const std::vector<remap::WarpTexel>& s
 DisplayColor shaded_color(const remap::WarpTexel& texel, const BrdfModel& model) {
   const Radiance radiance = radiance_of(texel, model, {0.0, 0.0, 1.0});
   return {display_value(radiance[0]), display_value(radiance[1]), display_value(radiance[2])};
+}
+
+const DisplayColor& stroke_color(std::size_t stroke) { return kStrokeColors[stroke % kStrokeColors.size()]; }
+
+Image with_strokes(const Image& picture, const PictureGrid& grid, const std::vector<StrokePair>& strokes,
+                   StrokeSide side) {
+  Image marked = picture;
+  for (float& value : marked.values) value = 1.0f - kDimmed + kDimmed * value;
+  const std::uint32_t last = *std::max_element(grid.texels.begin(), grid.texels.end());
+  std::vector<int> stroke_of(std::size_t{last} + 1, -1);
+  for (std::size_t k = 0; k < strokes.size(); ++k)
+    for (const std::uint32_t texel : strokes[k].*side)
+      if (texel <= last) stroke_of[texel] = static_cast<int>(k);
+  const auto step = static_cast<std::size_t>(grid.samples), columns = grid.sample_width();
+  for (std::size_t i = 0; i < grid.texels.size(); ++i) {
+    const int stroke = stroke_of[grid.texels[i]];
+    if (stroke < 0) continue;
+    const std::size_t pixel = i / columns / step * static_cast<std::size_t>(grid.width) + i % columns / step;
+    const DisplayColor& color = stroke_color(static_cast<std::size_t>(stroke));
+    std::copy(color.begin(), color.end(), &marked.values[3 * pixel]);
+  }
+  return marked;
 }
 
 }  // namespace remapc

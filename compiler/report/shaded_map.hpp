@@ -1,13 +1,37 @@
-// Shades maps of a material so that color and gloss are visible.
+// Pictures of maps of any size: their texels scaled to one size, shaded so that color and gloss are visible,
+// and strokes on them.
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "remap/compiled_warp.hpp"
 #include "renderer/brdf.hpp"
-#include "report/picture_grid.hpp"
+#include "renderer/image.hpp"
+#include "warp/space/material.hpp"
 
 namespace remapc {
+
+// The texels of a map that a picture shows: `samples` x `samples` per pixel. Texels are shaded before they
+// are averaged.
+struct PictureGrid {
+  int width = 0, height = 0;  // of the picture
+  int samples = 1;            // along each side of a pixel
+  std::vector<std::uint32_t>
+      texels;  // indices into the map, row-major, (width * samples) x (height * samples)
+
+  std::size_t sample_width() const noexcept { return static_cast<std::size_t>(width * samples); }
+};
+
+// Returns the grid of a picture whose longer side is `side` pixels, for a map of `width` x `height` texels
+// (both above 0). Texels of small maps are repeated; a pixel of a large map shows at most nine texels.
+PictureGrid picture_grid(std::size_t width, std::size_t height, int side);
+
+// Returns the texels of the grid.
+std::vector<remap::WarpTexel> samples_of(const PictureGrid& grid,
+                                         const std::vector<remap::WarpTexel>& texels);
 
 using DisplayColor = std::array<float, 3>;  // 0 to 1, encoded for a display
 
@@ -20,5 +44,14 @@ Image shaded_map(const PictureGrid& grid, const std::vector<remap::WarpTexel>& s
 
 // The color of a texel at the center of the cushion, for points in plots.
 DisplayColor shaded_color(const remap::WarpTexel& texel, const BrdfModel& model);
+
+using StrokeSide = std::vector<std::uint32_t> StrokePair::*;
+
+// The color of the stroke with this index. Seven colors are repeated.
+const DisplayColor& stroke_color(std::size_t stroke);
+
+// Dims the picture and draws one side of the strokes in their colors. `grid`: the grid of the picture.
+Image with_strokes(const Image& picture, const PictureGrid& grid, const std::vector<StrokePair>& strokes,
+                   StrokeSide side);
 
 }  // namespace remapc

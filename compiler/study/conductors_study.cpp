@@ -4,15 +4,11 @@
 #include <atomic>
 #include <cmath>
 #include <complex>
-#include <map>
 #include <set>
 
 #include "match/match.hpp"
 #include "renderer/fresnel.hpp"
 #include "study/materials.hpp"
-#include "study/study_plot.hpp"
-#include "study/study_sweep.hpp"
-#include "system/files.hpp"
 #include "system/parallel.hpp"
 #include "text/number_text.hpp"
 
@@ -56,19 +52,13 @@ Material conductor(double alpha, double eta, double k) {
   return {"mitsuba/as-conductor", {{"alpha", {alpha}}, {"eta", {eta}}, {"k", {k}}, {"diffuse", {0.0}}}};
 }
 
-// Matches pictures of metals with exact Fresnel to the target model.
-struct ExactMatching {
-  const PictureTaker& picture_taker;
-  ModelDescription source;
-  TargetBank bank;
-
-  TableRow match(double alpha, double f0, const std::vector<float>& picture) const {
-    Matcher matcher(bank, {picture}, squared_weights(picture_taker.objective(), picture, {}));
-    std::vector<std::size_t> minima;
-    const Match found = matcher.match({1.0}, &minima);
-    return {alpha, f0, found.alpha, found.specular, found.error, found.status, 0};
-  }
-};
+// Matches the picture of a metal with exact Fresnel to the target model.
+TableRow exact_match(const StudyTarget& target, double alpha, double f0, const std::vector<float>& picture) {
+  Matcher matcher(target.bank, {picture}, squared_weights(target.picture_taker.objective(), picture, {}));
+  std::vector<std::size_t> minima;
+  const Match found = matcher.match({1.0}, &minima);
+  return {alpha, f0, found.alpha, found.specular, found.error, found.status, 0};
+}
 
 double square_difference(const std::vector<float>& a, const std::vector<float>& b) {
   double sum = 0.0;
@@ -84,32 +74,26 @@ double square_sum(const std::vector<float>& a) {
 
 // Matches one metal at one alpha by its index of refraction, and measures the error of Schlick's
 // approximation.
-void match_metal(const ExactMatching& matching, const Conductor& metal, double alpha, ConductorRow* rows,
-                 FresnelDifference* fresnel) {
+void match_metal(const StudyTarget& target, const ModelDescription& source, const Conductor& metal,
+                 double alpha, ConductorRow* rows, FresnelDifference* fresnel) {
   double difference = 0.0, power = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
     const double f0 = reflectance(metal, c);
-    const auto exact = matching.picture_taker.take(conductor(alpha, metal.eta[c], metal.k[c]));
-    const auto schlick = matching.picture_taker.take(matching.source, RoleValues{alpha, f0, 0.0});
+    const auto exact = target.picture_taker.take(conductor(alpha, metal.eta[c], metal.k[c]));
+    const auto schlick = target.picture_taker.take(source, RoleValues{alpha, f0, 0.0});
     difference += square_difference(exact, schlick);
     power += square_sum(exact);
     rows[c].material = metal.name;
     rows[c].channel = c;
     rows[c].f0 = f0;
-    rows[c].by_index = matching.match(alpha, f0, exact);
+    rows[c].by_index = exact_match(target, alpha, f0, exact);
   }
   *fresnel = {metal.name, alpha, std::sqrt(difference / power)};
 }
 
 void match_exactly(const Renderer& renderer, const StudyOptions& options, ConductorsStudy* study) {
-  const SweepOptions setting =
-      study_sweep_options(kConductorSource, kConductorTarget, {}, options.resolution);
-  const PictureTaker picture_taker(renderer, setting.objective, options.resolution, 1);
-  const ModelDescription target = find_model(renderer, kConductorTarget);
-  const remap::Range alphas{options.alphas.front() / 4.0, target.alpha.max};
-  const ProbedModel probed_model{target, probe_specular(picture_taker, target, alphas)};
-  const ExactMatching matching{picture_taker, find_model(renderer, kConductorSource),
-                               TargetBank(picture_taker, probed_model, alphas, kBankRatio)};
+  const StudyTarget target(renderer, kConductorTarget, options);
+  const ModelDescription source = renderer.model(kConductorSource);
   const auto metals = measured_conductors();
   const std::size_t tasks = metals.size() * options.alphas.size();
   study->rows.resize(3 * tasks);
@@ -117,7 +101,7 @@ void match_exactly(const Renderer& renderer, const StudyOptions& options, Conduc
   std::atomic<std::size_t> done{0};
   remap::run_parallel(tasks, options.jobs, [&](std::size_t task) {
     const Conductor& metal = metals[task % metals.size()];
-    match_metal(matching, metal, options.alphas[task / metals.size()], &study->rows[3 * task],
+    match_metal(target, source, metal, options.alphas[task / metals.size()], &study->rows[3 * task],
                 &study->fresnel[task]);
     if (options.progress)
       options.progress(0.3 + 0.5 * static_cast<double>(++done) / static_cast<double>(tasks));
@@ -193,8 +177,7 @@ double difference(const Table& a, const Table& b) {
 
 // Assigns to each row of a metal the row of the sweep with the same F0.
 void join_rows(ConductorsStudy* study) {
-  std::map<std::pair<double, double>, const TableRow*> by_sample;
-  for (const TableRow& row : study->there.rows) by_sample[{row.alpha1, row.specular1}] = &row;
+  const auto by_sample = rows_by_sample(study->there);
   for (ConductorRow& row : study->rows) {
     row.by_f0 = *by_sample.at({row.by_index.alpha1, row.f0});
     if (row.by_f0.status == RowStatus::kOk && row.by_index.status == RowStatus::kOk)
@@ -203,26 +186,14 @@ void join_rows(ConductorsStudy* study) {
   }
 }
 
-}  // namespace
+double mean_error(const std::vector<FresnelDifference>& all) {
+  double mean = 0.0;
+  for (const FresnelDifference& item : all) mean += item.error / static_cast<double>(all.size());
+  return mean;
+}
 
-ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& options) {
-  ConductorsStudy study;
-  SweepExecution execution;
-  execution.jobs = options.jobs;
-  SweepOptions there =
-      study_sweep_options(kConductorSource, kConductorTarget, metal_samples(options), options.resolution);
-  study.there = run_sweep(renderer, there, execution);
-  if (options.progress) options.progress(0.2);
-  there.target = "mitsuba/ward";
-  study.plain_difference = difference(study.there, run_sweep(renderer, there, execution));
-  if (options.progress) options.progress(0.3);
-  for (const double alpha : options.alphas)
-    study.curves.push_back(curve_of(rows_of_alpha(study.there, alpha), alpha));
-  match_exactly(renderer, options, &study);
-  join_rows(&study);
-  travel_back(renderer, options, execution, &study);
-  if (options.progress) options.progress(1.0);
-  return study;
+const FresnelDifference& worst_of(const std::vector<FresnelDifference>& all) {
+  return *std::ranges::max_element(all, {}, &FresnelDifference::error);
 }
 
 std::vector<std::string> conductors_words(const ConductorsStudy& study) {
@@ -253,58 +224,102 @@ std::vector<std::string> conductors_words(const ConductorsStudy& study) {
                   kConductorSource + ": slope " + short_text(trip.slope, 6) + ", offset " +
                   short_text(trip.offset) + ", F0 within " + short_text(trip.f0_deviation) +
                   ", alpha within " + short_text(trip.alpha_deviation));
-  const auto worst = std::max_element(
-      study.fresnel.begin(), study.fresnel.end(),
-      [](const FresnelDifference& a, const FresnelDifference& b) { return a.error < b.error; });
-  double mean = 0.0;
-  for (const FresnelDifference& item : study.fresnel)
-    mean += item.error / static_cast<double>(study.fresnel.size());
-  words.push_back("Schlick (from F0) against exact Fresnel: pictures differ by " + percent_text(mean) +
-                  " on average, at most " + percent_text(worst->error) + " (" + worst->material + ", alpha " +
-                  number_text(worst->alpha) + "); Ward specular differs by at most " +
-                  percent_text(study.exact_specular_shift));
+  const FresnelDifference& worst = worst_of(study.fresnel);
+  words.push_back("Schlick (from F0) against exact Fresnel: pictures differ by " +
+                  percent_text(mean_error(study.fresnel)) + " on average, at most " +
+                  percent_text(worst.error) + " (" + worst.material + ", alpha " + number_text(worst.alpha) +
+                  "); Ward specular differs by at most " + percent_text(study.exact_specular_shift));
   return words;
 }
 
-std::vector<std::string> write_conductors(const ConductorsStudy& study, const std::filesystem::path& folder) {
-  std::string rows =
+std::string rows_csv(const ConductorsStudy& study) {
+  CsvText csv(
       "material,channel,f0,alpha1,alpha2_by_f0,specular2_by_f0,error_by_f0,status_by_f0,alpha2_by_index,"
-      "specular2_by_index,error_by_index,status_by_index\n";
+      "specular2_by_index,error_by_index,status_by_index");
   for (const ConductorRow& row : study.rows) {
-    rows += row.material + "," + std::string(1, "rgb"[row.channel]) + "," + number_text(row.f0) + "," +
-            number_text(row.by_f0.alpha1);
-    for (const TableRow* side : {&row.by_f0, &row.by_index})
-      rows += "," + number_text(side->alpha2) + "," + number_text(side->specular2) + "," +
-              number_text(side->error) + "," + std::string(status_name(side->status));
-    rows += "\n";
+    const TableRow &by_f0 = row.by_f0, &by_index = row.by_index;
+    csv.add_row(row.material, std::string(1, "rgb"[row.channel]), row.f0, by_f0.alpha1, by_f0.alpha2,
+                by_f0.specular2, by_f0.error, status_name(by_f0.status), by_index.alpha2, by_index.specular2,
+                by_index.error, status_name(by_index.status));
   }
-  std::string fresnel = "material,alpha,schlick_error\n";
-  for (const FresnelDifference& item : study.fresnel)
-    fresnel += item.material + "," + number_text(item.alpha) + "," + number_text(item.error) + "\n";
-  remap::write_file(folder / "conductors.csv", rows);
-  remap::write_file(folder / "fresnel.csv", fresnel);
-  remap::write_file(folder / "as_to_ward.csv", table_text(study.there));
-  remap::write_file(folder / "ward_to_as.csv", table_text(study.back));
-  return {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"};
+  return csv.text();
 }
 
-std::string conductors_plot_script(const ConductorsStudy& study) {
+std::string fresnel_csv(const ConductorsStudy& study) {
+  CsvText csv("material,alpha,schlick_error");
+  for (const FresnelDifference& item : study.fresnel) csv.add_row(item.material, item.alpha, item.error);
+  return csv.text();
+}
+
+std::vector<StudyPlot> conductors_plots(const ConductorsStudy& study) {
   StudyPlot there{"Figure 6: metals, one curve per alpha; open points: flagged",
                   "F0 of " + kConductorSource,
                   "specular of " + kConductorTarget,
                   {}};
   for (const ConductorCurve& curve : study.curves) {
-    StudyCurve ok{"alpha " + number_text(curve.alpha), {}, false}, flagged{"", {}, true};
-    for (const TableRow& row : rows_of_alpha(study.there, curve.alpha))
-      (row.status == RowStatus::kOk ? ok : flagged).points.emplace_back(row.specular1, row.specular2);
-    there.curves.push_back(ok);
-    there.curves.push_back(flagged);
+    std::vector<const TableRow*> rows;
+    for (const TableRow& row : study.there.rows)
+      if (row.alpha1 == curve.alpha) rows.push_back(&row);
+    there.add_rows(curve.alpha, rows);
   }
   StudyPlot trip{"Figure 7: round trip", "F0", "F0 after the round trip", {{"ok rows", {}, true}}};
   const std::vector<TableRow> usable = usable_rows(study.there);
   for (std::size_t i = 0; i < usable.size(); ++i)
     trip.curves[0].points.emplace_back(usable[i].specular1, study.back.rows[i].specular2);
-  return study_plot_script({there, trip});
+  return {there, trip};
+}
+
+nlohmann::ordered_json conductors_json(const ConductorsStudy& study) {
+  nlohmann::ordered_json curves = nlohmann::ordered_json::array();
+  for (const ConductorCurve& curve : study.curves)
+    curves.push_back({{"alpha", curve.alpha},
+                      {"ok", curve.ok},
+                      {"clamped", curve.clamped},
+                      {"other", curve.other},
+                      {"line_deviation", curve.line_deviation},
+                      {"limit_f0", curve.limit_f0},
+                      {"clamped_alpha_shift", curve.clamped_alpha_shift}});
+  return {{"curves", curves},
+          {"round_trip",
+           {{"rows", study.round_trip.rows},
+            {"slope", study.round_trip.slope},
+            {"offset", study.round_trip.offset},
+            {"f0_deviation", study.round_trip.f0_deviation},
+            {"alpha_deviation", study.round_trip.alpha_deviation}}},
+          {"schlick_error", {{"mean", mean_error(study.fresnel)}, {"max", worst_of(study.fresnel).error}}},
+          {"exact_specular_shift", study.exact_specular_shift}};
+}
+
+}  // namespace
+
+ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& options) {
+  ConductorsStudy study;
+  SweepExecution execution;
+  execution.jobs = options.jobs;
+  SweepOptions there =
+      study_sweep_options(kConductorSource, kConductorTarget, metal_samples(options), options.resolution);
+  study.there = run_sweep(renderer, there, execution);
+  if (options.progress) options.progress(0.2);
+  there.target = "mitsuba/ward";
+  study.plain_difference = difference(study.there, run_sweep(renderer, there, execution));
+  if (options.progress) options.progress(0.3);
+  for (const double alpha : options.alphas)
+    study.curves.push_back(curve_of(rows_of_alpha(study.there, alpha), alpha));
+  match_exactly(renderer, options, &study);
+  join_rows(&study);
+  travel_back(renderer, options, execution, &study);
+  if (options.progress) options.progress(1.0);
+  return study;
+}
+
+StudyReport conductors_report(const ConductorsStudy& study) {
+  StudyReport report =
+      study_report(conductors_words(study), conductors_json(study), "figure6_7.svg", conductors_plots(study));
+  report.tables = {{"conductors.csv", rows_csv(study)},
+                   {"fresnel.csv", fresnel_csv(study)},
+                   {"as_to_ward.csv", table_text(study.there)},
+                   {"ward_to_as.csv", table_text(study.back)}};
+  return report;
 }
 
 }  // namespace remapc

@@ -2,12 +2,10 @@
 // and 7). "Conserving Ward" is the model mitsuba/ward-conserving, which limits specular to 1.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "renderer/renderer.hpp"
-#include "study/study_sweep.hpp"
+#include "study/material_study.hpp"
 #include "table/table.hpp"
 
 namespace remapc {
@@ -61,13 +59,8 @@ struct ConductorsStudy {
 // Uses the paper's setting: light at 45 degrees, uniform weights.
 ConductorsStudy study_conductors(const Renderer& renderer, const StudyOptions& options);
 
-// The findings, one sentence each.
-std::vector<std::string> conductors_words(const ConductorsStudy& study);
-
-// Writes conductors.csv, as_to_ward.csv, ward_to_as.csv and fresnel.csv. Returns their names.
-std::vector<std::string> write_conductors(const ConductorsStudy& study, const std::filesystem::path& folder);
-
-// A gnuplot script that draws figures 6 and 7 as SVG.
-std::string conductors_plot_script(const ConductorsStudy& study);
+// The report of the study, with the tables conductors.csv, fresnel.csv, as_to_ward.csv and ward_to_as.csv,
+// and figures 6 and 7 as figure6_7.svg.
+StudyReport conductors_report(const ConductorsStudy& study);
 
 }  // namespace remapc

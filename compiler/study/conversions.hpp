@@ -1,15 +1,68 @@
-// The target materials that each method of the environments study computes.
+// The options of the environments study, and the target materials that each method of the environments study
+// computes, and the best ones: those with the pictures most similar to the source's under given environments,
+// which no conversion of parameters can exceed.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "study/environments_options.hpp"
+#include "remap/fit.hpp"
+#include "report/environment.hpp"
+#include "report/lit_sphere.hpp"
+#include "report/radiance_pyramid.hpp"
 
 namespace remapc {
+
+struct ModelPair {
+  std::string source, target;
+};
+
+// Returns `source -> target`.
+std::string pair_name(const ModelPair& pair);
+
+enum class Method {
+  kCopy,     // alpha and specular are copied
+  kPaper,    // match by the objective `paper`
+  kNatural,  // match by the objective `natural`
+  kShipped,  // a fit, evaluated as generated headers and texremap do
+  kBest,     // least mean RMSE over the given environments; no conversion can be better
+};
+std::string method_name(Method method);
+
+// `progress` is called progress_steps() times.
+struct EnvironmentsOptions : SphereSampling {
+  std::vector<ModelPair> pairs;           // models of the built-in renderer
+  std::vector<double> alphas;             // of the source
+  double specular = 0.5;                  // of the source, linear, above 0 to 1
+  std::vector<Environment> environments;  // of different names and equal mean luminance
+  std::vector<remap::Fit> fits;           // fits for kShipped
+  int match_resolution = 512;             // width and height of the pictures for kPaper and kNatural
+  bool least_error = false;               // compare kBest, too
+  std::optional<double> sheet_alpha;      // one of `alphas`: draw contact sheets of it
+};
+
+// The target parameters for one source material.
+struct Conversion {
+  std::size_t pair = 0;  // index into EnvironmentsOptions::pairs
+  Method method = Method::kCopy;
+  double alpha = 0.0;  // of the source
+  double target_alpha = 0.0, target_specular = 0.0;
+};
 
 // Returns every pair and alpha converted by every method that applies to the pair, sorted by alpha, pair and
 // method. Adds a remark for each pair without a fit in `options.fits`.
 std::vector<Conversion> conversions_of(const EnvironmentsOptions& options, std::vector<std::string>* remarks);
+
+// The height of the pictures that the search compares, which is also its number of progress calls per alpha.
+inline constexpr int kLeastErrorResolution = 48;
+
+// Returns the target parameters of least mean RMSE over the environments for each of `starts`, which have one
+// source alpha. Searches for the best specular at each of eleven alphas around the start and interpolates by
+// a parabola through the best three. If the best alpha is within a factor of 1.5 of the start, the RMSE is
+// accurate to about 1 %.
+std::vector<Conversion> best_conversions(const EnvironmentsOptions& options, const RadiancePyramid& pyramid,
+                                         std::span<const Conversion> starts);
 
 }  // namespace remapc

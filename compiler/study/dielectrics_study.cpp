@@ -4,14 +4,10 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "match/joint_match.hpp"
 #include "study/materials.hpp"
-#include "study/study_plot.hpp"
-#include "study/study_sweep.hpp"
-#include "system/files.hpp"
 #include "system/parallel.hpp"
 #include "text/number_text.hpp"
 
@@ -52,12 +48,6 @@ std::vector<SamplePoint> dielectric_samples(const StudyOptions& options) {
   return samples;
 }
 
-std::map<std::pair<double, double>, const TableRow*> rows_by_sample(const Table& table) {
-  std::map<std::pair<double, double>, const TableRow*> rows;
-  for (const TableRow& row : table.rows) rows[{row.alpha1, row.specular1}] = &row;
-  return rows;
-}
-
 // The rows of the uniform grid at one alpha.
 std::vector<const TableRow*> grid_rows(const Table& table, double alpha) {
   const auto rows = rows_by_sample(table);
@@ -67,9 +57,7 @@ std::vector<const TableRow*> grid_rows(const Table& table, double alpha) {
 }
 
 double specular_range(const std::vector<const TableRow*>& rows) {
-  const auto [low, high] =
-      std::minmax_element(rows.begin(), rows.end(),
-                          [](const TableRow* a, const TableRow* b) { return a->specular2 < b->specular2; });
+  const auto [low, high] = std::ranges::minmax_element(rows, {}, &TableRow::specular2);
   return (*high)->specular2 - (*low)->specular2;
 }
 
@@ -104,20 +92,16 @@ using Errors = std::vector<double>;
 // Runs the one-stage match from every trial guess, for each alpha and grid index.
 std::map<std::pair<double, double>, Errors> try_guesses(const Renderer& renderer, const StudyOptions& options,
                                                         double diffuse) {
-  const SweepOptions setting = study_sweep_options(kSource, kTarget, {}, options.resolution);
-  const PictureTaker picture_taker(renderer, setting.objective, options.resolution, 1);
-  const ModelDescription source = find_model(renderer, kSource), target = find_model(renderer, kTarget);
-  const remap::Range alphas{options.alphas.front() / 4.0, target.alpha.max};
-  const ProbedModel probed_model{target, probe_specular(picture_taker, target, alphas)};
-  const TargetBank bank(picture_taker, probed_model, alphas, kBankRatio);
-  const BankPictures pictures(picture_taker, probed_model, bank);
+  const StudyTarget target(renderer, kTarget, options);
+  const ModelDescription source = renderer.model(kSource);
+  const BankPictures pictures(target.picture_taker, target.model, target.bank);
   const std::vector<RoleValues> guesses = trial_guesses();
   std::vector<Errors> found(options.alphas.size() * kIorCount);
   std::atomic<std::size_t> done{0};
   remap::run_parallel(found.size(), options.jobs, [&](std::size_t task) {
     const RoleValues role_values{options.alphas[task / kIorCount], grid_ior(task % kIorCount), diffuse};
-    auto picture = picture_taker.take(source, role_values);
-    auto weights = squared_weights(picture_taker.objective(), picture, {});
+    auto picture = target.picture_taker.take(source, role_values);
+    auto weights = squared_weights(target.picture_taker.objective(), picture, {});
     const JointMatcher matcher(pictures, std::move(picture), std::move(weights), {true, diffuse > 0.0});
     for (const RoleValues& guess : guesses)
       found[task].push_back(matcher.best_match({matcher.point_of(guess)}).error);
@@ -190,19 +174,24 @@ std::string curve_words(const DielectricCurve& curve) {
          std::to_string(curve.unstable) + " unstable, " + std::to_string(curve.clamped) + " clamped";
 }
 
+std::ptrdiff_t losing_count(const std::vector<GuessTrial>& trials) {
+  return std::ranges::count_if(trials, [](const GuessTrial& trial) { return trial.lost > 0; });
+}
+
+std::ptrdiff_t jumping_count(const std::vector<GuessTrial>& trials) {
+  return std::ranges::count_if(trials, [](const GuessTrial& trial) { return trial.jumps > 0; });
+}
+
 // Describes the one-stage match from guesses other than its own.
 void add_guess_words(const DielectricsStudy& study, std::vector<std::string>* words) {
-  std::size_t losing = 0, jumping = 0;
   const GuessTrial* example = nullptr;
-  for (const GuessTrial& trial : study.trials) {
-    losing += trial.lost > 0 ? 1 : 0;
-    jumping += trial.jumps > 0 ? 1 : 0;
+  for (const GuessTrial& trial : study.trials)
     if (trial.jumps > 0 && (example == nullptr || trial.jumps < example->jumps)) example = &trial;
-  }
   words->push_back("one stage from " + std::to_string(trial_guesses().size()) +
-                   " other fixed guesses at each alpha: " + std::to_string(losing) + " of " +
-                   std::to_string(study.trials.size()) + " curves miss the best minimum at some index, " +
-                   std::to_string(jumping) + " of them with a jump along the index");
+                   " other fixed guesses at each alpha: " + std::to_string(losing_count(study.trials)) +
+                   " of " + std::to_string(study.trials.size()) +
+                   " curves miss the best minimum at some index, " +
+                   std::to_string(jumping_count(study.trials)) + " of them with a jump along the index");
   if (example != nullptr)
     words->push_back("example of a jump: guess " + guess_text(example->guess) +
                      " (shares of the ranges of alpha, specular, diffuse) at alpha " +
@@ -210,6 +199,12 @@ void add_guess_words(const DielectricsStudy& study, std::vector<std::string>* wo
                      number_text(example->first_lost_ior) + " to " + number_text(example->last_lost_ior) +
                      " (" + std::to_string(example->lost) + " of " + std::to_string(example->rows) +
                      " rows)");
+}
+
+std::set<double> alphas_of(const Table& table) {
+  std::set<double> alphas;
+  for (const TableRow& row : table.rows) alphas.insert(row.alpha1);
+  return alphas;
 }
 
 StudyPlot stage_plot(const Table& table, int stages) {
@@ -220,71 +215,28 @@ StudyPlot stage_plot(const Table& table, int stages) {
                  "ior of " + kSource,
                  "specular of " + kTarget,
                  {}};
-  std::set<double> alphas;
-  for (const TableRow& row : table.rows) alphas.insert(row.alpha1);
-  for (const double alpha : alphas) {
-    StudyCurve ok{"alpha " + number_text(alpha), {}, false}, flagged{"", {}, true};
-    for (const TableRow* row : grid_rows(table, alpha))
-      (row->status == RowStatus::kOk ? ok : flagged).points.emplace_back(row->specular1, row->specular2);
-    if (ok.points.empty()) flagged.label = ok.label;
-    plot.curves.push_back(ok);
-    plot.curves.push_back(flagged);
-  }
+  for (const double alpha : alphas_of(table)) plot.add_rows(alpha, grid_rows(table, alpha));
   return plot;
 }
 
-std::string materials_text(const Table& two) {
+std::string materials_csv(const Table& two) {
   const auto rows = rows_by_sample(two);
-  std::set<double> alphas;
-  for (const TableRow& row : two.rows) alphas.insert(row.alpha1);
-  std::string text = "material,ior,alpha1,alpha2,specular2,diffuse2,error,status\n";
+  CsvText csv("material,ior,alpha1,alpha2,specular2,diffuse2,error,status");
   for (const Dielectric& material : measured_dielectrics())
-    for (const double alpha : alphas) {
+    for (const double alpha : alphas_of(two)) {
       const TableRow& row = *rows.at({alpha, material.ior});
-      text += std::string(material.name);
-      for (const double value : {material.ior, alpha, row.alpha2, row.specular2, row.diffuse2, row.error})
-        text += "," + number_text(value);
-      text += "," + std::string(status_name(row.status)) + "\n";
+      csv.add_row(material.name, material.ior, alpha, row.alpha2, row.specular2, row.diffuse2, row.error,
+                  status_name(row.status));
     }
-  return text;
+  return csv.text();
 }
 
-std::string trials_text(const std::vector<GuessTrial>& trials) {
-  std::string text =
-      "alpha1,guess_alpha,guess_specular,guess_diffuse,rows,lost,jumps,first_lost_ior,last_lost_ior\n";
-  for (const GuessTrial& trial : trials) {
-    for (const double value : {trial.alpha, trial.guess.alpha, trial.guess.specular, trial.guess.diffuse})
-      text += number_text(value) + ",";
-    text += std::to_string(trial.rows) + "," + std::to_string(trial.lost) + "," +
-            std::to_string(trial.jumps) + "," + number_text(trial.first_lost_ior) + "," +
-            number_text(trial.last_lost_ior) + "\n";
-  }
-  return text;
-}
-
-}  // namespace
-
-DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions& options, double diffuse) {
-  DielectricsStudy study;
-  study.diffuse = diffuse;
-  for (const int stages : {1, 2, 3}) {
-    SweepOptions sweep =
-        study_sweep_options(kSource, kTarget, dielectric_samples(options), options.resolution);
-    sweep.stages = stages;
-    sweep.diffuse = diffuse;
-    SweepExecution execution;
-    execution.jobs = options.jobs;
-    if (options.progress)
-      execution.progress = [&](std::size_t done, std::size_t all) {
-        options.progress(0.2 * (stages - 1) + 0.2 * static_cast<double>(done) / static_cast<double>(all));
-      };
-    study.stages.push_back(run_sweep(renderer, sweep, execution));
-  }
-  for (const int stages : {1, 2, 3})
-    for (const double alpha : options.alphas) study.curves.push_back(curve_of(study.stages, stages, alpha));
-  compare_stages(options.alphas, &study);
-  study.trials = judge_guesses(try_guesses(renderer, options, diffuse), study.stages[2], options.alphas);
-  return study;
+std::string trials_csv(const std::vector<GuessTrial>& trials) {
+  CsvText csv("alpha1,guess_alpha,guess_specular,guess_diffuse,rows,lost,jumps,first_lost_ior,last_lost_ior");
+  for (const GuessTrial& trial : trials)
+    csv.add_row(trial.alpha, trial.guess.alpha, trial.guess.specular, trial.guess.diffuse, trial.rows,
+                trial.lost, trial.jumps, trial.first_lost_ior, trial.last_lost_ior);
+  return csv.text();
 }
 
 std::vector<std::string> dielectrics_words(const DielectricsStudy& study) {
@@ -318,25 +270,65 @@ std::vector<std::string> dielectrics_words(const DielectricsStudy& study) {
   return words;
 }
 
-std::vector<std::string> write_dielectrics(const DielectricsStudy& study,
-                                           const std::filesystem::path& folder) {
-  std::vector<std::string> files;
-  const auto write = [&](const std::string& name, const std::string& text) {
-    remap::write_file(folder / name, text);
-    files.push_back(name);
-  };
-  for (std::size_t i = 0; i < study.stages.size(); ++i)
-    write("stages" + std::to_string(i + 1) + ".csv", table_text(study.stages[i]));
-  write("guesses.csv", trials_text(study.trials));
-  write("dielectrics.csv", materials_text(study.stages[1]));
-  return files;
+nlohmann::ordered_json dielectrics_json(const DielectricsStudy& study) {
+  nlohmann::ordered_json curves = nlohmann::ordered_json::array();
+  for (const DielectricCurve& curve : study.curves)
+    curves.push_back({{"stages", curve.stages},
+                      {"alpha", curve.alpha},
+                      {"second_difference", curve.second_difference},
+                      {"largest_step", curve.largest_step},
+                      {"largest_step_ior", curve.step_ior},
+                      {"mean_error", curve.mean_error},
+                      {"max_error", curve.worst_error},
+                      {"unstable", curve.unstable},
+                      {"clamped", curve.clamped},
+                      {"least_highlight", curve.least_highlight},
+                      {"jumps", curve.jumps()}});
+  return {{"curves", curves},
+          {"guesses",
+           {{"curves", study.trials.size()},
+            {"lost", losing_count(study.trials)},
+            {"jumping", jumping_count(study.trials)}}},
+          {"three_stages_error_gain", study.error_gain},
+          {"three_stages_specular_move", study.worst_difference}};
 }
 
-std::string dielectrics_plot_script(const DielectricsStudy& study) {
+}  // namespace
+
+DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions& options, double diffuse) {
+  DielectricsStudy study;
+  study.diffuse = diffuse;
+  for (const int stages : {1, 2, 3}) {
+    SweepOptions sweep =
+        study_sweep_options(kSource, kTarget, dielectric_samples(options), options.resolution);
+    sweep.stages = stages;
+    sweep.diffuse = diffuse;
+    SweepExecution execution;
+    execution.jobs = options.jobs;
+    if (options.progress)
+      execution.progress = [&](std::size_t done, std::size_t all) {
+        options.progress(0.2 * (stages - 1) + 0.2 * static_cast<double>(done) / static_cast<double>(all));
+      };
+    study.stages.push_back(run_sweep(renderer, sweep, execution));
+  }
+  for (const int stages : {1, 2, 3})
+    for (const double alpha : options.alphas) study.curves.push_back(curve_of(study.stages, stages, alpha));
+  compare_stages(options.alphas, &study);
+  study.trials = judge_guesses(try_guesses(renderer, options, diffuse), study.stages[2], options.alphas);
+  return study;
+}
+
+StudyReport dielectrics_report(const DielectricsStudy& study) {
   std::vector<StudyPlot> plots;
   for (std::size_t i = 0; i < study.stages.size(); ++i)
     plots.push_back(stage_plot(study.stages[i], static_cast<int>(i + 1)));
-  return study_plot_script(plots);
+  StudyReport report =
+      study_report(dielectrics_words(study), dielectrics_json(study), "figure8_10.svg", plots);
+  for (std::size_t i = 0; i < study.stages.size(); ++i)
+    report.tables.emplace_back("stages" + std::to_string(i + 1) + ".csv", table_text(study.stages[i]));
+  report.tables.emplace_back("guesses.csv", trials_csv(study.trials));
+  report.tables.emplace_back("dielectrics.csv", materials_csv(study.stages[1]));
+  return report;
 }
 
 }  // namespace remapc

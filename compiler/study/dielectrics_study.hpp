@@ -2,12 +2,9 @@
 // stages (Sztrajman et al. 2019, section 4.1.2, figures 8 to 10).
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <vector>
 
-#include "probe/picture_taker.hpp"
-#include "study/study_sweep.hpp"
+#include "study/material_study.hpp"
 #include "table/table.hpp"
 
 namespace remapc {
@@ -53,14 +50,8 @@ struct DielectricsStudy {
 // the source, 0 to 1.
 DielectricsStudy study_dielectrics(const Renderer& renderer, const StudyOptions& options, double diffuse);
 
-std::vector<std::string> dielectrics_words(const DielectricsStudy& study);
-
-// Writes stages1.csv, stages2.csv, stages3.csv, guesses.csv and dielectrics.csv (the measured materials in
-// two stages). Returns their names.
-std::vector<std::string> write_dielectrics(const DielectricsStudy& study,
-                                           const std::filesystem::path& folder);
-
-// A gnuplot script that draws figures 8 and 10 as SVG.
-std::string dielectrics_plot_script(const DielectricsStudy& study);
+// The report of the study, with the tables stages1.csv, stages2.csv, stages3.csv, guesses.csv and
+// dielectrics.csv (the measured materials in two stages), and figures 8 and 10 as figure8_10.svg.
+StudyReport dielectrics_report(const DielectricsStudy& study);
 
 }  // namespace remapc

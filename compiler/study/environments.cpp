@@ -8,12 +8,7 @@
 #include "remap/error.hpp"
 #include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
-#include "report/color.hpp"
 #include "report/contact_sheet.hpp"
-#include "report/displayed_sphere.hpp"
-#include "report/lit_sphere.hpp"
-#include "study/conversions.hpp"
-#include "study/least_error.hpp"
 #include "system/parallel.hpp"
 #include "text/number_text.hpp"
 
@@ -99,10 +94,7 @@ void compare_alpha(const EnvironmentsOptions& options, const RadiancePyramid& py
     pairs.push_back({c, rendered.place({builtin_brdf(pair.source), c.alpha, options.specular}),
                      rendered.place({builtin_brdf(pair.target), c.target_alpha, c.target_specular})});
   }
-  SphereSampling sampling{options.resolution, options.samples, options.jobs, options.progress};
-  sampling.cancelled = options.cancelled;
-  const SpherePictures pictures = render_spheres(pyramid, rendered.materials, sampling);
-
+  const SpherePictures pictures = render_spheres(pyramid, rendered.materials, options);
   const std::size_t environment_count = options.environments.size();
   std::vector<EnvironmentComparison> comparisons(pairs.size() * environment_count);
   const bool on_sheet = options.sheet_alpha == conversions.front().alpha;
@@ -146,7 +138,7 @@ void require_options(const EnvironmentsOptions& options) {
   const auto renderer = make_builtin_renderer();
   for (const ModelPair& pair : options.pairs)
     for (const std::string& name : {pair.source, pair.target}) {
-      const ModelDescription model = find_model(*renderer, name);
+      const ModelDescription model = renderer->model(name);
       for (const double alpha : options.alphas)
         if (!model.alpha.contains(alpha))
           throw Error(ErrorKind::kUsage, "alpha: " + remap::number_text(alpha) + " is out of range for " +
@@ -159,24 +151,6 @@ void require_options(const EnvironmentsOptions& options) {
 }
 
 }  // namespace
-
-std::string pair_name(const ModelPair& pair) { return pair.source + " -> " + pair.target; }
-
-std::string method_name(Method method) {
-  switch (method) {
-    case Method::kCopy:
-      return "copy";
-    case Method::kPaper:
-      return "paper";
-    case Method::kNatural:
-      return "natural";
-    case Method::kShipped:
-      return "shipped";
-    case Method::kBest:
-      break;
-  }
-  return "best";
-}
 
 std::vector<ModelPair> default_pairs() {
   return {{"mitsuba/ward", "mitsuba/ggx"},     {"mitsuba/beckmann", "mitsuba/ggx"},

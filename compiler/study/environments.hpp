@@ -2,14 +2,10 @@
 // several methods of conversion.
 #pragma once
 
-#include <atomic>
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "report/environment.hpp"
-#include "study/environments_options.hpp"
+#include "study/conversions.hpp"
 
 namespace remapc {
 

@@ -6,6 +6,7 @@
 
 #include "remap/version.hpp"
 #include "report/gnuplot.hpp"
+#include "table/csv.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -28,13 +29,46 @@ std::string brightness_text(const EnvironmentsOptions& options) {
   return number_text(std::round(1e6 * mean_luminance(options.environments.front())) / 1e6);
 }
 
-// Comment lines with the settings that the figures depend on.
-std::string comments_of(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  return comment_lines({{"tool", std::string("remap-study ") + remap::kVersion},
-                        {"resolution", std::to_string(options.resolution)},
-                        {"samples", std::to_string(options.samples)},
-                        {"mean_luminance", brightness_text(options)},
-                        {"noise_percent", number_text(remap::rounded_up(result.noise, 2))}});
+// The settings that the figures depend on.
+Comments comments_of(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  return {{"tool", std::string("remap-study ") + remap::kVersion},
+          {"resolution", std::to_string(options.resolution)},
+          {"samples", std::to_string(options.samples)},
+          {"mean_luminance", brightness_text(options)},
+          {"noise_percent", number_text(remap::rounded_up(result.noise, 2))}};
+}
+
+NamedFigures named(const PictureSimilarity& similarity) {
+  return {{"rmse_percent", similarity.rmse}, {"ssim", similarity.ssim}, {"energy_error", similarity.energy}};
+}
+
+// The methods that have comparisons, in the order of Method.
+std::vector<Method> methods_of(const EnvironmentsResult& result) {
+  std::vector<Method> methods;
+  for (const Method method : kMethods)
+    if (!comparisons_of(result, method).empty()) methods.push_back(method);
+  return methods;
+}
+
+// A pair for which a method is worse than copying.
+struct WorsePair {
+  Method method = Method::kPaper;
+  std::size_t pair = 0;
+  PictureSimilarity image_similarity, copy;
+};
+
+std::vector<WorsePair> worse_than_copy(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  std::vector<WorsePair> worse;
+  for (const Method method : kMethods)
+    for (std::size_t p = 0; p < options.pairs.size(); ++p) {
+      const auto chosen = comparisons_of(result, method, p);
+      if (chosen.empty()) continue;
+      const PictureSimilarity mean = mean_similarity(chosen);
+      const PictureSimilarity copy = mean_similarity(comparisons_of(result, Method::kCopy, p));
+      if (mean.rmse > copy.rmse + 0.5 * kRmseStep || mean.ssim < copy.ssim - 0.5 * kSsimStep)
+        worse.push_back({method, p, mean, copy});
+    }
+  return worse;
 }
 
 std::vector<const EnvironmentComparison*> at_alpha(
@@ -82,59 +116,29 @@ std::string verdict_text(const EnvironmentsOptions& options, const EnvironmentsR
          ".\n";
 }
 
-}  // namespace
-
-std::vector<Method> methods_of(const EnvironmentsResult& result) {
-  std::vector<Method> methods;
-  for (const Method method : kMethods)
-    if (!comparisons_of(result, method).empty()) methods.push_back(method);
-  return methods;
-}
-
 std::string comparisons_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  std::string text = comments_of(options, result) +
-                     "source,target,alpha,specular,environment,method,target_alpha,target_specular,"
-                     "rmse_percent,ssim,energy_error\n";
+  CsvText csv("source,target,alpha,specular,environment,method,target_alpha,target_specular," +
+                  named(PictureSimilarity{}).header(),
+              comments_of(options, result));
   for (const EnvironmentComparison& comparison : result.comparisons) {
     const Conversion& c = comparison.conversion;
-    text += options.pairs[c.pair].source + "," + options.pairs[c.pair].target + "," + number_text(c.alpha) +
-            "," + number_text(options.specular) + "," + options.environments[comparison.environment].name +
-            "," + method_name(c.method) + "," + number_text(c.target_alpha) + "," +
-            number_text(c.target_specular) + "," + number_text(comparison.image_similarity.rmse) + "," +
-            number_text(comparison.image_similarity.ssim) + "," +
-            number_text(comparison.image_similarity.energy) + "\n";
+    csv.add_row(options.pairs[c.pair].source, options.pairs[c.pair].target, c.alpha, options.specular,
+                options.environments[comparison.environment].name, method_name(c.method), c.target_alpha,
+                c.target_specular, named(comparison.image_similarity).values());
   }
-  return text;
+  return csv.text();
 }
 
 std::string summary_csv(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  std::string text = comments_of(options, result) + "source,target,method,rmse_percent,ssim,energy_error\n";
-  const auto add = [&](const std::string& models, Method method, std::size_t pair) {
-    const auto chosen = comparisons_of(result, method, pair);
-    if (chosen.empty()) return;
-    const PictureSimilarity mean = mean_similarity(chosen);
-    text += models + "," + method_name(method) + "," + number_text(mean.rmse) + "," + number_text(mean.ssim) +
-            "," + number_text(mean.energy) + "\n";
+  CsvText csv("source,target,method," + named(PictureSimilarity{}).header(), comments_of(options, result));
+  const auto add = [&](const ModelPair& models, Method method, std::size_t pair) {
+    if (const auto chosen = comparisons_of(result, method, pair); !chosen.empty())
+      csv.add_row(models.source, models.target, method_name(method), named(mean_similarity(chosen)).values());
   };
-  for (const Method method : kMethods) add("all,all", method, kAllPairs);
+  for (const Method method : kMethods) add({"all", "all"}, method, kAllPairs);
   for (std::size_t p = 0; p < options.pairs.size(); ++p)
-    for (const Method method : kMethods)
-      add(options.pairs[p].source + "," + options.pairs[p].target, method, p);
-  return text;
-}
-
-std::vector<WorsePair> worse_than_copy(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  std::vector<WorsePair> worse;
-  for (const Method method : kMethods)
-    for (std::size_t p = 0; p < options.pairs.size(); ++p) {
-      const auto chosen = comparisons_of(result, method, p);
-      if (chosen.empty()) continue;
-      const PictureSimilarity mean = mean_similarity(chosen);
-      const PictureSimilarity copy = mean_similarity(comparisons_of(result, Method::kCopy, p));
-      if (mean.rmse > copy.rmse + 0.5 * kRmseStep || mean.ssim < copy.ssim - 0.5 * kSsimStep)
-        worse.push_back({method, p, mean, copy});
-    }
-  return worse;
+    for (const Method method : kMethods) add(options.pairs[p], method, p);
+  return csv.text();
 }
 
 std::string summary_text(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
@@ -189,6 +193,44 @@ std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsRe
       << curves[0] << "\nset title 'SSIM of luma (1: equal)'\nset yrange [*:1]\nset key bottom right\n"
       << curves[1] << "\nunset multiplot\n";
   return out.str();
+}
+
+nlohmann::ordered_json report_json(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  nlohmann::ordered_json json = {{"noise_percent", result.noise},
+                                 {"methods", nlohmann::ordered_json::object()}};
+  for (const Method method : methods_of(result)) {
+    nlohmann::ordered_json& entry = json["methods"][method_name(method)];
+    entry = named(mean_similarity(comparisons_of(result, method))).json();
+    entry["pairs"] = nlohmann::ordered_json::array();
+    for (std::size_t p = 0; p < options.pairs.size(); ++p) {
+      const auto chosen = comparisons_of(result, method, p);
+      if (chosen.empty()) continue;
+      entry["pairs"].push_back({{"source", options.pairs[p].source}, {"target", options.pairs[p].target}});
+      entry["pairs"].back().update(named(mean_similarity(chosen)).json());
+    }
+  }
+  json["worse_than_copy"] = nlohmann::ordered_json::array();
+  for (const WorsePair& worse : worse_than_copy(options, result))
+    json["worse_than_copy"].push_back({{"method", method_name(worse.method)},
+                                       {"source", options.pairs[worse.pair].source},
+                                       {"target", options.pairs[worse.pair].target}});
+  json["remarks"] = result.remarks;
+  return json;
+}
+
+}  // namespace
+
+StudyReport environments_report(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  StudyReport report{summary_text(options, result),
+                     report_json(options, result),
+                     {{"environments.csv", comparisons_csv(options, result)},
+                      {"environments_summary.csv", summary_csv(options, result)}},
+                     "environments.svg",
+                     plot_script(options, result),
+                     {}};
+  for (std::size_t e = 0; e < result.sheets.size(); ++e)
+    report.sheets.emplace_back("spheres_" + options.environments[e].name + ".png", result.sheets[e]);
+  return report;
 }
 
 }  // namespace remapc

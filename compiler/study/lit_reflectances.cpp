@@ -1,9 +1,13 @@
 #include "study/lit_reflectances.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
+#include "renderer/image_similarity.hpp"
 #include "renderer/renderer.hpp"
+#include "study/golden_section.hpp"
 
 namespace remapc {
 namespace {
@@ -41,6 +45,148 @@ BasisPictures headlight_basis(double alpha, int resolution, const std::vector<st
   return {difference(picture(0.0, 1.0), dark), dark, difference(picture(1.0, 0.0), dark)};
 }
 
+constexpr std::size_t kPixelStep = 4;
+constexpr std::size_t kGrid = 33;
+constexpr int kSections = 14, kNewtonSteps = 4;
+
+// The display transfer function and its slope, by linear interpolation in a table of 2^16 values. The error
+// is below 1e-7.
+class DisplayCurve {
+ public:
+  DisplayCurve() {
+    for (std::size_t i = 0; i < kCells; ++i) {
+      values_[i] = at(i);
+      slopes_[i] = (at(i + 1) - at(i)) * static_cast<float>(kCells);
+    }
+  }
+  // Value and slope.
+  std::pair<float, float> operator()(float linear) const {
+    if (linear <= 0.0f) return {0.0f, 0.0f};
+    if (linear >= 1.0f) return {1.0f, 0.0f};
+    const auto cell = static_cast<std::size_t>(linear * static_cast<float>(kCells));
+    const float rest = linear - static_cast<float>(cell) / static_cast<float>(kCells);
+    return {values_[cell] + rest * slopes_[cell], slopes_[cell]};
+  }
+
+ private:
+  static constexpr std::size_t kCells = 65536;
+  static float at(std::size_t i) {
+    return display_value(static_cast<double>(i) / static_cast<double>(kCells));
+  }
+  std::array<float, kCells> values_{}, slopes_{};
+};
+
+const DisplayCurve& display_curve() {
+  static const DisplayCurve curve;
+  return curve;
+}
+
+// Pictures of one channel under one light, at the compared pixels.
+struct Strip {
+  std::vector<float> diffuse, dark, slope, source;
+};
+
+class MetallicSearch {
+ public:
+  MetallicSearch(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
+                 const MetallicReflection& reflection)
+      : reflection_(reflection), guess_(source.diffuse) {
+    for (std::size_t c = 0; c < 3; ++c) guess_[c] = std::clamp(source.diffuse[c] + source.f0[c], 0.0, 1.0);
+    for (std::size_t light = 0; light < lit.environment_count(); ++light) {
+      const BasisPictures& basis = lit.basis(alpha, light);
+      for (std::size_t c = 0; c < 3; ++c) {
+        Strip strip;
+        for (std::size_t i = c; i < basis.dark.size(); i += 3 * kPixelStep) {
+          strip.diffuse.push_back(basis.diffuse[i]);
+          strip.dark.push_back(basis.dark[i]);
+          strip.slope.push_back(basis.slope[i]);
+          strip.source.push_back(display_curve()(static_cast<float>(source.diffuse[c]) * basis.diffuse[i] +
+                                                 basis.dark[i] +
+                                                 static_cast<float>(source.f0[c]) * basis.slope[i])
+                                     .first);
+        }
+        strips_.push_back(std::move(strip));
+      }
+    }
+  }
+
+  MetallicSurface best() {
+    MetallicSurface best;
+    double least = error_at(0.0, guess_, &best);
+    for (std::size_t i = 1; i < kGrid; ++i)
+      least = std::min(least, error_at(static_cast<double>(i) / (kGrid - 1), guess_, &best));
+    constexpr double kCell = 1.0 / (kGrid - 1);
+    const Rgb start = best.base_color;
+    golden_section(std::max(0.0, best.metallic - kCell), std::min(1.0, best.metallic + kCell), kSections,
+                   [&](double metallic) { return error_at(metallic, start, &best); });
+    return best;
+  }
+
+ private:
+  // Sums over the pixels of a strip: the squared error and its derivatives for Newton's method.
+  struct Sums {
+    double square = 0.0, slope = 0.0, bend = 0.0;
+  };
+  Sums sums_of(const Strip& strip, double metallic, double albedo) const {
+    const double n = 1.0 - metallic;
+    const auto by_diffuse = static_cast<float>(reflection_.diffuse_of_albedo * n);
+    const auto by_slope = static_cast<float>(metallic);
+    const auto base = static_cast<float>(reflection_.dielectric_f0 * n), a = static_cast<float>(albedo);
+    const DisplayCurve& curve = display_curve();
+    Sums sums;
+    for (std::size_t i = 0; i < strip.source.size(); ++i) {
+      const float growth = by_diffuse * strip.diffuse[i] + by_slope * strip.slope[i];
+      const auto [value, slope] = curve(strip.dark[i] + base * strip.slope[i] + a * growth);
+      const auto error = static_cast<double>(value - strip.source[i]);
+      const auto change = static_cast<double>(slope * growth);
+      sums.square += error * error;
+      sums.slope += error * change;
+      sums.bend += change * change;
+    }
+    return sums;
+  }
+
+  // Returns the least mean RMSE at one metallic, and sets `best` if it is the least so far. Each step of
+  // Newton's method weights a light by the inverse of its RMSE, because the objective is a mean of roots.
+  double error_at(double metallic, const Rgb& start, MetallicSurface* best) {
+    Rgb albedo = start;
+    double least = 1e300;
+    const std::size_t lights = strips_.size() / 3;
+    std::vector<std::array<Sums, 3>> sums(lights);
+    for (int step = 0; step <= kNewtonSteps; ++step) {
+      double mean = 0.0;
+      std::array<double, 3> slope{}, bend{};
+      for (std::size_t light = 0; light < lights; ++light) {
+        double square = 0.0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          sums[light][c] = sums_of(strips_[3 * light + c], metallic, albedo[c]);
+          square += sums[light][c].square;
+        }
+        const double count = 3.0 * static_cast<double>(strips_[3 * light].source.size());
+        const double rmse = std::sqrt(square / count);
+        mean += rmse / static_cast<double>(lights);
+        for (std::size_t c = 0; c < 3; ++c) {
+          slope[c] += sums[light][c].slope / (rmse + 1e-6);
+          bend[c] += sums[light][c].bend / (rmse + 1e-6);
+        }
+      }
+      if (mean < least_) {
+        least_ = mean;
+        *best = {albedo, metallic};
+      }
+      least = std::min(least, mean);
+      for (std::size_t c = 0; c < 3; ++c)
+        if (bend[c] > 0.0) albedo[c] = std::clamp(albedo[c] - slope[c] / bend[c], 0.0, 1.0);
+    }
+    return least;
+  }
+
+  MetallicReflection reflection_;
+  Rgb guess_;
+  std::vector<Strip> strips_;  // three channels for each light
+  double least_ = 1e300;
+};
+
 }  // namespace
 
 LitReflectances::LitReflectances(std::span<const Environment> environments, std::span<const double> alphas,
@@ -71,6 +217,21 @@ std::vector<float> LitReflectances::radiance(std::size_t alpha, std::size_t ligh
       values[i] = diffuse * from.diffuse[i] + from.dark[i] + f0 * from.slope[i];
   }
   return values;
+}
+
+Reflectances reflectances_of(const MetallicSurface& surface, const MetallicReflection& reflection) {
+  Reflectances all;
+  const double n = 1.0 - surface.metallic;
+  for (std::size_t c = 0; c < 3; ++c) {
+    all.diffuse[c] = reflection.diffuse_of_albedo * n * surface.base_color[c];
+    all.f0[c] = reflection.dielectric_f0 * n + surface.metallic * surface.base_color[c];
+  }
+  return all;
+}
+
+MetallicSurface best_metallic(const LitReflectances& lit, std::size_t alpha, const Reflectances& source,
+                              const MetallicReflection& reflection) {
+  return MetallicSearch(lit, alpha, source, reflection).best();
 }
 
 }  // namespace remapc

@@ -5,7 +5,6 @@
 
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
-#include "study/warp_sets.hpp"
 
 namespace remapc {
 namespace {
@@ -13,23 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using remap::Error;
 using remap::ErrorKind;
-
-struct Recipe {
-  const char* name;
-  WarpSet (*make)(std::size_t size);
-};
-constexpr std::array<Recipe, 3> kRecipes = {{{"leaf", leaf_set}, {"wood", wood_set}, {"rust", rust_set}}};
-
-WarpCase case_of(WarpSet set, std::size_t stroke_sets) {
-  WarpCase made;
-  for (std::uint32_t seed = 0; seed < stroke_sets; ++seed) made.strokes.push_back(strokes_of(set, seed));
-  made.name = std::move(set.name);
-  made.width = made.height = set.size;
-  made.source = std::move(set.source);
-  made.target = std::move(set.target);
-  made.truth = std::move(set.truth);
-  return made;
-}
 
 // Reads a map. The first map sets the size of the case; all others must have the same size.
 Image read_map(const fs::path& path, WarpCase& made) {
@@ -97,26 +79,6 @@ std::vector<std::string> case_names(const fs::path& folder) {
 }
 
 }  // namespace
-
-std::vector<std::string> builtin_warp_names() {
-  std::vector<std::string> names;
-  for (const Recipe& recipe : kRecipes) names.emplace_back(recipe.name);
-  return names;
-}
-
-std::vector<WarpCase> builtin_warp_cases(std::size_t size, std::size_t stroke_sets,
-                                         const std::vector<std::string>& names) {
-  if (size < 32 || size > 2048)
-    throw Error(ErrorKind::kUsage, "--size: " + std::to_string(size) + " is out of range (32 to 2048)");
-  if (stroke_sets < 1 || stroke_sets > 100)
-    throw Error(ErrorKind::kUsage,
-                "--stroke-sets: " + std::to_string(stroke_sets) + " is out of range (1 to 100)");
-  std::vector<WarpCase> cases;
-  for (const Recipe& recipe : kRecipes)
-    if (names.empty() || std::find(names.begin(), names.end(), recipe.name) != names.end())
-      cases.push_back(case_of(recipe.make(size), stroke_sets));
-  return cases;
-}
 
 std::vector<WarpCase> read_warp_cases(const std::vector<fs::path>& folders) {
   std::vector<WarpCase> cases;

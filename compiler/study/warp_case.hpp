@@ -17,14 +17,6 @@ struct WarpCase {
   std::vector<std::vector<StrokePair>> strokes;  // several sets of strokes in the same regions
 };
 
-// The names of the sets of warp_sets.hpp: `leaf`, `wood`, `rust`.
-std::vector<std::string> builtin_warp_names();
-
-// Returns the sets of `names` (all if empty) with `size` x `size` texels and `stroke_sets` sets of strokes
-// each. Throws kUsage unless `size` is 32 to 2048 and `stroke_sets` 1 to 100.
-std::vector<WarpCase> builtin_warp_cases(std::size_t size, std::size_t stroke_sets,
-                                         const std::vector<std::string>& names = {});
-
 // Reads one case from each subfolder of the first folder, in the order of their names:
 // {source,template,truth}/ {diffuse,specular,alpha}.exr, linear, GGX with Schlick's Fresnel;
 // strokes/{source,template}<k>.exr from k = 0, masks of texels above 0.5. Each further folder has the same

@@ -8,17 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "warp/space/material.hpp"
+#include "study/warp_case.hpp"
 
 namespace remapc {
 
 using Latents = std::vector<std::array<double, 3>>;
 
-struct WarpSet {
-  std::string name;
-  std::size_t size = 0;  // width and height in texels
-  WarpMaterial source, target;
-  std::vector<remap::WarpTexel> truth;  // the template's reflectance at the source's latents
+// A case of width and height `size`. The truth is the template's reflectance at the source's latents.
+struct WarpSet : WarpCase {
   Latents source_latents, target_latents;
 };
 
@@ -30,5 +27,13 @@ WarpSet rust_set(std::size_t size);
 // Draws thin straight lines in each region, clipped to the region: three, or more until they cover 80 texels.
 // They differ between the materials and the seeds.
 std::vector<StrokePair> strokes_of(const WarpSet& set, std::uint32_t seed);
+
+// The names of the sets: `leaf`, `wood`, `rust`.
+std::vector<std::string> builtin_warp_names();
+
+// Returns the sets of `names` (all if empty) with `size` x `size` texels and `stroke_sets` sets of strokes
+// each. Throws kUsage unless `size` is 32 to 2048 and `stroke_sets` 1 to 100.
+std::vector<WarpCase> builtin_warp_cases(std::size_t size, std::size_t stroke_sets,
+                                         const std::vector<std::string>& names = {});
 
 }  // namespace remapc

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "report/stroke_overlay.hpp"
+#include "report/contact_sheet.hpp"
+#include "report/shaded_map.hpp"
 
 namespace remapc {
 namespace {

@@ -5,6 +5,8 @@
 
 #include "remap/version.hpp"
 #include "report/gnuplot.hpp"
+#include "study/warp_sheets.hpp"
+#include "table/csv.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -61,18 +63,26 @@ std::string line_of(const WarpsOptions& options, const WarpsResult& result, std:
   return text + "\n";
 }
 
-std::string cost_cells(const std::optional<WarpCost>& cost) {
-  if (!cost) return ",,,,,";
-  return number_text(cost->folds) + "," + number_text(cost->compiled.mean) + "," +
-         number_text(cost->compiled.difference) + "," + number_text(cost->bytes) + "," +
-         (cost->seconds > 0.0 ? number_text(cost->seconds) : "") + "," + std::to_string(cost->dimensions);
+// The cells of a cost; empty without a warp.
+std::vector<std::optional<double>> cells_of(const std::optional<WarpCost>& cost) {
+  if (!cost) return std::vector<std::optional<double>>(6);
+  const std::optional<double> seconds = cost->seconds > 0.0 ? std::optional(cost->seconds) : std::nullopt;
+  return {cost->folds, cost->compiled.mean, cost->compiled.difference, cost->bytes,
+          seconds,     cost->dimensions};
 }
 
-std::string comments_of(const WarpsOptions& options) {
-  return comment_lines({{"tool", std::string("remap-study ") + remap::kVersion},
-                        {"size", size_text(options)},
-                        {"sets", set_names(options)},
-                        {"unit", "percent of the template's spread unless stated otherwise"}});
+NamedFigures named(const WarpFigures& figures) {
+  return {{"error", figures.mean},      {"rms", figures.rms},
+          {"median", figures.median},   {"p95", figures.p95},
+          {"strokes", figures.strokes}, {"used", figures.used},
+          {"tears", figures.tears},     {"variation", figures.variation}};
+}
+
+Comments comments_of(const WarpsOptions& options) {
+  return {{"tool", std::string("remap-study ") + remap::kVersion},
+          {"size", size_text(options)},
+          {"sets", set_names(options)},
+          {"unit", "percent of the template's spread unless stated otherwise"}};
 }
 
 // Writes the mean error of each set, one line for each variant.
@@ -113,9 +123,7 @@ std::string plots_of(const WarpsOptions& options, const char* data, const char* 
   return text + "\n";
 }
 
-}  // namespace
-
-std::string warps_text(const WarpsOptions& options, const WarpsResult& result) {
+std::string summary_text(const WarpsOptions& options, const WarpsResult& result) {
   const std::size_t stroke_sets = options.cases.front().strokes.size();
   std::string text =
       "Sets " + set_names(options) + ", " + size_text(options) + " texels, " + std::to_string(stroke_sets) +
@@ -150,35 +158,55 @@ std::string warps_text(const WarpsOptions& options, const WarpsResult& result) {
          " %.\n";
 }
 
-std::string warps_csv(const WarpsOptions& options, const WarpsResult& result) {
-  std::string text = comments_of(options) +
-                     "set,stroke_set,group,variant,error,rms,median,p95,strokes,used,tears,variation,folds,"
-                     "compiled_error,table_difference,bytes,seconds,dimensions\n";
+std::string rows_csv(const WarpsOptions& options, const WarpsResult& result) {
+  CsvText csv("set,stroke_set,group,variant," + named(WarpFigures{}).header() +
+                  ",folds,compiled_error,table_difference,bytes,seconds,dimensions",
+              comments_of(options));
   for (const WarpRow& row : result.rows) {
     const WarpVariant& variant = result.variants[row.variant];
-    text += options.cases[row.set].name + "," + std::to_string(row.stroke_set) + "," +
-            group_name(variant.group) + "," + variant.name;
-    for (const double value :
-         {row.figures.mean, row.figures.rms, row.figures.median, row.figures.p95, row.figures.strokes,
-          row.figures.used, row.figures.tears, row.figures.variation})
-      text += "," + number_text(value);
-    text += "," + cost_cells(row.cost) + "\n";
+    csv.add_row(options.cases[row.set].name, row.stroke_set, group_name(variant.group), variant.name,
+                named(row.figures).values(), cells_of(row.cost));
   }
-  return text;
+  return csv.text();
 }
 
-std::string warp_sensitivity_csv(const WarpsOptions& options, const WarpsResult& result) {
-  std::string text = comments_of(options) + "set,group,variant,first,second,change\n";
+std::string sensitivity_csv(const WarpsOptions& options, const WarpsResult& result) {
+  CsvText csv("set,group,variant,first,second,change", comments_of(options));
   for (const StrokeChange& change : result.changes) {
     const WarpVariant& variant = result.variants[change.variant];
-    text += options.cases[change.set].name + "," + group_name(variant.group) + "," + variant.name + "," +
-            std::to_string(change.first) + "," + std::to_string(change.second) + "," +
-            number_text(change.change) + "\n";
+    csv.add_row(options.cases[change.set].name, group_name(variant.group), variant.name, change.first,
+                change.second, change.change);
   }
-  return text;
+  return csv.text();
 }
 
-std::string warps_plot_script(const WarpsOptions& options, const WarpsResult& result) {
+nlohmann::ordered_json summary_json(const WarpSummary& summary) {
+  nlohmann::ordered_json json = named(summary.figures).json();
+  if (summary.change) json["change"] = *summary.change;
+  if (!summary.cost) return json;
+  json["folds"] = summary.cost->folds;
+  json["compiled_error"] = summary.cost->compiled.mean;
+  json["table_difference"] = summary.cost->compiled.difference;
+  json["bytes"] = summary.cost->bytes;
+  if (summary.cost->seconds > 0.0) json["seconds"] = summary.cost->seconds;
+  return json;
+}
+
+nlohmann::ordered_json report_json(const WarpsOptions& options, const WarpsResult& result) {
+  nlohmann::ordered_json json = {{"width", options.cases.front().width},
+                                 {"height", options.cases.front().height}};
+  for (const WarpCase& studied : options.cases)
+    json["sets"].push_back({{"name", studied.name}, {"stroke_sets", studied.strokes.size()}});
+  for (std::size_t v = 0; v < result.variants.size(); ++v) {
+    nlohmann::ordered_json& entry = json[group_name(result.variants[v].group)][result.variants[v].name];
+    entry = summary_json(summary_of(result, v));
+    for (std::size_t set = 0; set < options.cases.size(); ++set)
+      entry["sets"][options.cases[set].name] = summary_json(summary_of(result, v, set));
+  }
+  return json;
+}
+
+std::string plot_script(const WarpsOptions& options, const WarpsResult& result) {
   std::ostringstream out;
   write_bars(options, result, out);
   write_curves(
@@ -205,6 +233,25 @@ std::string warps_plot_script(const WarpsOptions& options, const WarpsResult& re
       << "set title 'Compiled table against exact copy'\nset xlabel 'nodes, times the default'\n"
       << plots_of(options, "nodes", "1:", "with linespoints pointtype 7") << "unset multiplot\n";
   return out.str();
+}
+
+}  // namespace
+
+StudyReport warps_report(const WarpsOptions& options, const WarpsResult& result) {
+  StudyReport report{
+      summary_text(options, result),
+      report_json(options, result),
+      {{"warp.csv", rows_csv(options, result)}, {"warp_sensitivity.csv", sensitivity_csv(options, result)}},
+      "warp.svg",
+      plot_script(options, result),
+      {}};
+  if (!options.pictures) return report;
+  report.summary += "\n";
+  for (WarpSheet& sheet : warp_sheets(options, result)) {
+    report.summary += sheet.name + ".png: " + sheet.legend + ".\n";
+    report.sheets.emplace_back(sheet.name + ".png", std::move(sheet.picture));
+  }
+  return report;
 }
 
 }  // namespace remapc

@@ -1,6 +1,7 @@
 #include "study/workflow_materials.hpp"
 
 #include <algorithm>
+#include <array>
 #include <random>
 
 #include "remap/error.hpp"
@@ -220,19 +221,9 @@ class SetBuilder {
 }  // namespace
 
 std::string group_name(MaterialGroup group) {
-  switch (group) {
-    case MaterialGroup::kRandom:
-      return "random";
-    case MaterialGroup::kPlastic:
-      return "plastic";
-    case MaterialGroup::kPaint:
-      return "paint";
-    case MaterialGroup::kNgan:
-      return "ngan";
-    case MaterialGroup::kMeasured:
-      break;
-  }
-  return "measured";
+  constexpr std::array<const char*, kMaterialGroups> kNames = {"random", "plastic", "paint", "ngan",
+                                                               "measured"};
+  return kNames[static_cast<std::size_t>(group)];
 }
 
 MaterialSet study_materials(const MaterialSetOptions& options) {

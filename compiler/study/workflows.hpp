@@ -2,14 +2,12 @@
 // under environment maps (Sztrajman et al. 2019, section 8, figures 21 and 22).
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "study/workflow_least_error.hpp"
+#include "study/lit_reflectances.hpp"
 #include "study/workflow_materials.hpp"
 #include "workflow/conversion.hpp"
 
@@ -34,17 +32,13 @@ std::vector<WorkflowMethod> plain_methods(const std::vector<NamedConversion>& le
 // made for this convention.
 std::vector<WorkflowMethod> gltf_methods();
 
-struct WorkflowsOptions {
+// `progress` is called progress_steps() times.
+struct WorkflowsOptions : SphereSampling {
   std::vector<StudyMaterial> materials;
   std::vector<double> alphas;
   std::vector<Environment> environments;  // of different names and equal mean luminance
   std::vector<NamedConversion> learned;
-  int resolution = 128;
-  int samples = 1024;                            // light directions per pixel
-  unsigned jobs = 0;                             // threads; 0: one per core. Results do not depend on it
-  bool sheets = false;                           // draw contact sheets
-  std::function<void()> progress;                // called progress_steps() times, from any thread
-  const std::atomic<bool>* cancelled = nullptr;  // set to true to stop; throws kInterrupted
+  bool sheets = false;  // draw contact sheets
 };
 std::size_t progress_steps(const WorkflowsOptions& options);
 
@@ -87,5 +81,35 @@ WorkflowsResult study_workflows(const WorkflowsOptions& options);
 // Figures of one method of a comparison over `group`, or over all materials without a group.
 WorkflowFigures figures_of(const WorkflowsOptions& options, const WorkflowComparison& comparison,
                            std::size_t method, std::optional<MaterialGroup> group = {});
+
+// Round trips of materials that both workflows can represent: random metallic materials are converted to the
+// specular workflow by equation (2) and back by each method (Sztrajman et al. 2019, section 8, figure 20, in
+// the opposite direction).
+
+// The distribution of the materials and the storage of the specular maps.
+enum class FamilyKind {
+  kExact,    // base color and metallic uniform; floats
+  kStored,   // as kExact, stored with 8 bits in sRGB
+  kAuthored  // like assets: base color uniform in sRGB, metallic 0 or 1 in four of five; 8 bits
+};
+inline constexpr std::size_t kFamilyKinds = 3;
+// For example `uniform, exact`.
+std::string family_name(FamilyKind kind);
+
+// RMS errors over the materials, of metallic and of base color (sRGB, all channels).
+struct FamilyErrors {
+  double metallic = 0.0, base_color = 0.0;
+};
+
+struct FamilyLine {
+  std::string method;
+  FamilyErrors errors[kFamilyKinds];
+};
+
+// Each method converts back from specular materials of its own F0 and convention. Khronos' solver is also
+// tested on plain maps, as `Khronos, plain`. `count`: materials of each kind, with uniform alpha. Materials
+// depend only on `seed`. Throws kUsage if `count` is 0.
+std::vector<FamilyLine> study_family(const std::vector<NamedConversion>& learned, std::size_t count,
+                                     std::uint64_t seed, unsigned jobs);
 
 }  // namespace remapc

@@ -6,6 +6,7 @@
 
 #include "remap/version.hpp"
 #include "report/gnuplot.hpp"
+#include "table/csv.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -19,6 +20,15 @@ std::size_t name_width(const WorkflowsResult& result) {
   for (const WorkflowComparison& comparison : result.comparisons)
     for (const std::string& method : comparison.methods) width = std::max(width, method.size() + 2);
   return width;
+}
+
+// The groups that have materials, in the order of MaterialGroup.
+std::vector<MaterialGroup> groups_of(const WorkflowsOptions& options) {
+  std::vector<MaterialGroup> groups;
+  for (std::size_t g = 0; g < kMaterialGroups; ++g)
+    if (std::ranges::count(options.materials, static_cast<MaterialGroup>(g), &StudyMaterial::group) > 0)
+      groups.push_back(static_cast<MaterialGroup>(g));
+  return groups;
 }
 
 std::string comparison_text(const WorkflowsOptions& options, const WorkflowComparison& comparison,
@@ -65,21 +75,20 @@ std::string family_text(const std::vector<FamilyLine>& family, std::size_t width
   return text;
 }
 
-std::string comments_of(const WorkflowsOptions& options) {
-  return comment_lines({{"tool", std::string("remap-study ") + remap::kVersion},
-                        {"resolution", std::to_string(options.resolution)},
-                        {"samples", std::to_string(options.samples)},
-                        {"environments", environment_names(options.environments)},
-                        {"alphas", listed(options.alphas)}});
+Comments comments_of(const WorkflowsOptions& options) {
+  return {{"tool", std::string("remap-study ") + remap::kVersion},
+          {"resolution", std::to_string(options.resolution)},
+          {"samples", std::to_string(options.samples)},
+          {"environments", environment_names(options.environments)},
+          {"alphas", listed(options.alphas)}};
 }
 
-// Quotes a name that contains commas.
-std::string cell(const std::string& text) {
-  return text.find(',') == std::string::npos ? text : "\"" + text + "\"";
-}
-
-std::string rgb_cells(const Rgb& rgb) {
-  return number_text(rgb[0]) + "," + number_text(rgb[1]) + "," + number_text(rgb[2]);
+NamedFigures named(const WorkflowFigures& figures) {
+  return {{"rmse_percent", figures.rmse},
+          {"ssim", figures.ssim},
+          {"worst_ssim", figures.worst_ssim},
+          {"headlight_rmse_percent", figures.headlight_rmse},
+          {"headlight_ssim", figures.headlight_ssim}};
 }
 
 double mean_of_environments(const std::vector<double>& values) {
@@ -88,20 +97,8 @@ double mean_of_environments(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size() - 1);
 }
 
-}  // namespace
-
-std::vector<MaterialGroup> groups_of(const WorkflowsOptions& options) {
-  std::vector<MaterialGroup> groups;
-  for (std::size_t g = 0; g < kMaterialGroups; ++g)
-    if (std::any_of(options.materials.begin(), options.materials.end(), [&](const StudyMaterial& material) {
-          return material.group == static_cast<MaterialGroup>(g);
-        }))
-      groups.push_back(static_cast<MaterialGroup>(g));
-  return groups;
-}
-
-std::string workflows_text(const WorkflowsOptions& options, const WorkflowsResult& result,
-                           const std::vector<FamilyLine>& family) {
+std::string summary_text(const WorkflowsOptions& options, const WorkflowsResult& result,
+                         const std::vector<FamilyLine>& family) {
   std::size_t width = name_width(result);
   for (const FamilyLine& line : family) width = std::max(width, line.method.size() + 2);
   std::string text =
@@ -114,48 +111,66 @@ std::string workflows_text(const WorkflowsOptions& options, const WorkflowsResul
   return text + "\n" + family_text(family, width);
 }
 
-std::string workflow_materials_csv(const WorkflowsOptions& options, const WorkflowsResult& result) {
-  std::string text =
-      comments_of(options) +
+std::string materials_csv(const WorkflowsOptions& options, const WorkflowsResult& result) {
+  CsvText csv(
       "convention,material,group,alpha,diffuse_r,diffuse_g,diffuse_b,f0_r,f0_g,f0_b,method,"
       "base_color_r,base_color_g,base_color_b,metallic,rmse_percent,ssim,headlight_rmse_percent,"
-      "headlight_ssim\n";
+      "headlight_ssim",
+      comments_of(options));
   for (const WorkflowComparison& comparison : result.comparisons)
     for (std::size_t i = 0; i < options.materials.size(); ++i)
       for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
         const StudyMaterial& material = options.materials[i];
         const WorkflowPictures& pictures = comparison.pictures[m][i];
-        text += comparison.convention + "," + cell(material.name) + "," + group_name(material.group) + "," +
-                number_text(options.alphas[material.alpha]) + "," + rgb_cells(material.surface.diffuse) +
-                "," + rgb_cells(material.surface.f0) + "," + cell(comparison.methods[m]) + "," +
-                rgb_cells(pictures.surface.base_color) + "," + number_text(pictures.surface.metallic) + "," +
-                number_text(mean_of_environments(pictures.rmse)) + "," +
-                number_text(mean_of_environments(pictures.ssim)) + "," + number_text(pictures.rmse.back()) +
-                "," + number_text(pictures.ssim.back()) + "\n";
+        csv.add_row(comparison.convention, material.name, group_name(material.group),
+                    options.alphas[material.alpha], material.surface.diffuse, material.surface.f0,
+                    comparison.methods[m], pictures.surface.base_color, pictures.surface.metallic,
+                    mean_of_environments(pictures.rmse), mean_of_environments(pictures.ssim),
+                    pictures.rmse.back(), pictures.ssim.back());
       }
-  return text;
+  return csv.text();
 }
 
-std::string workflow_summary_csv(const WorkflowsOptions& options, const WorkflowsResult& result) {
-  std::string text = comments_of(options) +
-                     "convention,method,group,rmse_percent,ssim,worst_ssim,headlight_rmse_percent,"
-                     "headlight_ssim\n";
+std::string summary_csv(const WorkflowsOptions& options, const WorkflowsResult& result) {
+  CsvText csv("convention,method,group," + named(WorkflowFigures{}).header(), comments_of(options));
   for (const WorkflowComparison& comparison : result.comparisons)
     for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
       const auto add = [&](const std::string& group, const WorkflowFigures& figures) {
-        text += comparison.convention + "," + cell(comparison.methods[m]) + "," + group + "," +
-                number_text(figures.rmse) + "," + number_text(figures.ssim) + "," +
-                number_text(figures.worst_ssim) + "," + number_text(figures.headlight_rmse) + "," +
-                number_text(figures.headlight_ssim) + "\n";
+        csv.add_row(comparison.convention, comparison.methods[m], group, named(figures).values());
       };
       add("all", figures_of(options, comparison, m));
       for (const MaterialGroup group : groups_of(options))
         add(group_name(group), figures_of(options, comparison, m, group));
     }
-  return text;
+  return csv.text();
 }
 
-std::string workflows_plot_script(const WorkflowsOptions& options, const WorkflowsResult& result) {
+nlohmann::ordered_json report_json(const WorkflowsOptions& options, const WorkflowsResult& result,
+                                   const std::vector<FamilyLine>& family) {
+  nlohmann::ordered_json json = {{"materials", options.materials.size()}};
+  for (const WorkflowComparison& comparison : result.comparisons)
+    for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
+      nlohmann::ordered_json& entry = json[comparison.convention][comparison.methods[m]];
+      entry = named(figures_of(options, comparison, m)).json();
+      for (const MaterialGroup group : groups_of(options))
+        entry["groups"][group_name(group)] = named(figures_of(options, comparison, m, group)).json();
+    }
+  for (const FamilyLine& line : family)
+    for (std::size_t kind = 0; kind < kFamilyKinds; ++kind)
+      json["family"][line.method][family_name(static_cast<FamilyKind>(kind))] = {
+          {"metallic_rms", line.errors[kind].metallic}, {"base_color_rms", line.errors[kind].base_color}};
+  return json;
+}
+
+std::string sheet_text(const WorkflowsResult& result) {
+  if (result.sheets.empty()) return "";
+  std::string text = "\nRows of the contact sheets: ";
+  for (std::size_t i = 0; i < result.sheet_materials.size(); ++i)
+    text += (i == 0 ? "" : ", ") + result.sheet_materials[i];
+  return text + ".\nColumns: the source material, then the methods of the first table.\n";
+}
+
+std::string plot_script(const WorkflowsOptions& options, const WorkflowsResult& result) {
   static constexpr std::array<const char*, 8> kColors = {"black",        "#999999",      kPlotColors[3],
                                                          kPlotColors[4], kPlotColors[1], kPlotColors[5],
                                                          kPlotColors[0], kPlotColors[2]};
@@ -190,6 +205,24 @@ std::string workflows_plot_script(const WorkflowsOptions& options, const Workflo
       << bars[0] << "\nset title '1 - SSIM of luma (0: equal)'\nset key top left reverse Left noenhanced\n"
       << bars[1] << "\nunset multiplot\n";
   return out.str();
+}
+
+}  // namespace
+
+StudyReport workflows_report(const WorkflowsOptions& options, const WorkflowsResult& result,
+                             const std::vector<FamilyLine>& family, const std::vector<std::string>& remarks) {
+  StudyReport report{summary_text(options, result, family) + sheet_text(result),
+                     report_json(options, result, family),
+                     {{"workflows.csv", materials_csv(options, result)},
+                      {"workflows_summary.csv", summary_csv(options, result)}},
+                     "workflows.svg",
+                     plot_script(options, result),
+                     {}};
+  for (const std::string& remark : remarks) report.summary += "Note: " + remark + ".\n";
+  report.figures["remarks"] = remarks;
+  for (std::size_t e = 0; e < result.sheets.size(); ++e)
+    report.sheets.emplace_back("workflows_" + options.environments[e].name + ".png", result.sheets[e]);
+  return report;
 }
 
 }  // namespace remapc

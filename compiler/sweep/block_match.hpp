@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "match/target_bank.hpp"
-#include "match/target_grid.hpp"
 #include "match/target_pictures.hpp"
 #include "sweep/sweep_options.hpp"
 #include "table/table.hpp"

@@ -265,8 +265,8 @@ MaterialTable run_material_sample(const Renderer& any_renderer, const MaterialSa
                                   const SweepExecution& execution) {
   const SteadyRenderer renderer(any_renderer, {options.source, options.target},
                                 options.objective.lights.front());
-  const ModelDescription source = recast(find_model(renderer, options.source), options.source_roles);
-  const ModelDescription target = recast(find_model(renderer, options.target), options.target_roles);
+  const ModelDescription source = recast(renderer.model(options.source), options.source_roles);
+  const ModelDescription target = recast(renderer.model(options.target), options.target_roles);
   if (options.count == 0) throw Error(ErrorKind::kUsage, "samples: must be at least 1");
   const PictureTaker picture_taker(renderer, options.objective, options.resolution, options.samples_per_axis);
   const Matching matching = make_matching(options, picture_taker, source, target);

@@ -11,8 +11,6 @@
 
 namespace remapc {
 
-using Comments = std::vector<std::pair<std::string, std::string>>;
-
 // Adds one side: the model, its parameters and the law of its specular.
 void add_side(const std::string& role, const ProbedModel& probed_model, Comments* comments);
 

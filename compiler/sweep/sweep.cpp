@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <numbers>
 
 #include "match/joint_match.hpp"
 #include "match/target_bank.hpp"
@@ -11,9 +12,9 @@
 #include "probe/picture_taker.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
+#include "renderer/image_similarity.hpp"
 #include "sweep/block_match.hpp"
 #include "sweep/provenance.hpp"
-#include "sweep/spheres.hpp"
 #include "system/parallel.hpp"
 #include "table/domain.hpp"
 #include "text/number_text.hpp"
@@ -30,6 +31,9 @@ using remap::Range;
 constexpr int kSampleDigits = 9;
 // The law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
+// The number of widths whose spheres are compared, spread over those of a table: for each, the usable row
+// whose specular1 is nearest half of the source's range.
+constexpr std::size_t kComparedSpheres = 8;
 
 std::vector<SampleBlock> blocks_of(const std::vector<SamplePoint>& samples) {
   std::map<double, std::vector<std::size_t>> by_alpha;
@@ -40,9 +44,7 @@ std::vector<SampleBlock> blocks_of(const std::vector<SamplePoint>& samples) {
 }
 
 Range sampled_alphas(const std::vector<SamplePoint>& samples) {
-  const auto [low, high] =
-      std::minmax_element(samples.begin(), samples.end(),
-                          [](const SamplePoint& a, const SamplePoint& b) { return a.alpha < b.alpha; });
+  const auto [low, high] = std::ranges::minmax_element(samples, {}, &SamplePoint::alpha);
   return {low->alpha, high->alpha};
 }
 
@@ -173,6 +175,70 @@ SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_t
   return setup;
 }
 
+// Returns, for each width, the usable row whose specular is nearest `specular`.
+std::map<double, const TableRow*> middle_rows(const std::vector<TableRow>& rows, double specular) {
+  std::map<double, const TableRow*> middle;
+  for (const TableRow& row : rows) {
+    if (row.status != RowStatus::kOk) continue;
+    const TableRow*& chosen = middle[row.alpha1];
+    if (chosen == nullptr || std::fabs(row.specular1 - specular) < std::fabs(chosen->specular1 - specular))
+      chosen = &row;
+  }
+  return middle;
+}
+
+std::vector<const TableRow*> compared_rows(const SweepSetup& setup, const std::vector<TableRow>& rows) {
+  const Range range = setup.source.linear_range();
+  std::vector<const TableRow*> all, spread;
+  for (const auto& [alpha, row] : middle_rows(rows, 0.5 * (range.min + range.max))) all.push_back(row);
+  const std::size_t count = std::min(all.size(), kComparedSpheres);
+  for (std::size_t i = 0; i < count; ++i)
+    spread.push_back(all[count == 1 ? 0 : i * (all.size() - 1) / (count - 1)]);
+  return spread;
+}
+
+// Returns the exposure at which the brightest point of a white diffuse sphere is 1. Without diffuse it is
+// computed for an albedo of 1, lit at right angles from the distance of the light.
+double white_exposure(const SweepSetup& setup) {
+  if (!setup.target.model.has(ParameterRole::kDiffuse)) {
+    const double distance = setup.options.objective.lights.front().distance - 1.0;
+    return std::numbers::pi * distance * distance;
+  }
+  const double alpha = std::sqrt(setup.target.model.alpha.min * setup.target.model.alpha.max);
+  const double black = setup.target.specular_range().min;
+  const double white = setup.target.model.parameter(ParameterRole::kDiffuse).range.max;
+  const auto lit = setup.picture_taker.take(setup.target, {alpha, black, white});
+  const auto dark = setup.picture_taker.take(setup.target, {alpha, black, 0.0});
+  float brightest = 0.0f;
+  for (std::size_t i = 0; i < setup.picture_taker.pixel_count(); ++i)
+    brightest = std::max(brightest, lit[i] - dark[i]);
+  return brightest > 0.0f ? 1.0 / static_cast<double>(brightest) : 1.0;
+}
+
+// The comment kSpheresComment of a table: the structural similarity of the source's sphere and that of its
+// match as a display shows them, by rising width, `0.1 0.998, 0.5 0.97`. Spheres are lit by the first light
+// of the objective, have no diffuse, and are exposed so that the brightest point of a white diffuse sphere
+// would be white.
+std::string spheres_text(const SweepSetup& setup, const std::vector<TableRow>& rows) {
+  const double exposure = white_exposure(setup);
+  const int side = setup.options.resolution;
+  const auto displayed = [&](const ProbedModel& probed_model, double alpha, double specular) {
+    std::vector<float> square =
+        setup.picture_taker.square_picture(setup.picture_taker.take(probed_model, {alpha, specular, 0.0}));
+    for (float& value : square) value = display_value(exposure * static_cast<double>(value));
+    return square;
+  };
+  std::string text;
+  for (const TableRow* row : compared_rows(setup, rows)) {
+    const auto source = displayed(setup.source, row->alpha1, row->specular1);
+    const auto target = displayed(setup.target, row->alpha2, row->specular2);
+    const double ssim = structural_similarity(source, target, side, side);
+    text += (text.empty() ? "" : ", ") + number_text(row->alpha1) + " " +
+            number_text(std::round(ssim * 1e4) / 1e4);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<SamplePoint> grid_samples(const Range& alphas, std::size_t alpha_count, const Range& speculars,
@@ -210,8 +276,8 @@ Range canonical_speculars(const Renderer& renderer, const ModelDescription& mode
 Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const SweepExecution& execution) {
   const SteadyRenderer renderer(any_renderer, {options.source, options.target},
                                 options.objective.lights.front());
-  const ModelDescription source = recast(find_model(renderer, options.source), options.source_roles);
-  const ModelDescription target = recast(find_model(renderer, options.target), options.target_roles);
+  const ModelDescription source = recast(renderer.model(options.source), options.source_roles);
+  const ModelDescription target = recast(renderer.model(options.target), options.target_roles);
   require_options(options, source, target);
   require_alphas(options, source);
   const PictureTaker picture_taker(renderer, options.objective, options.resolution, options.samples_per_axis);
@@ -233,7 +299,7 @@ Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const
     done += block.samples.size();
     if (execution.progress) execution.progress(done, options.samples.size());
   });
-  table.comments.emplace_back(kSpheresComment, spheres_text(compare_spheres(setup, table.rows)));
+  table.comments.emplace_back(kSpheresComment, spheres_text(setup, table.rows));
   return table;
 }
 

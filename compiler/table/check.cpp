@@ -1,6 +1,7 @@
 #include "table/check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -23,6 +24,8 @@ constexpr double kGapFactor = 3.0;
 // show jumps of 10 % and more; smooth sweeps stay below 1 %).
 constexpr double kJumpAlpha = 0.02;
 constexpr double kJumpSlope = 0.05;
+// The fewest random samples for each source column from which something can be learned.
+constexpr std::size_t kFewestRowsAColumn = 10;
 
 using Rows = std::vector<const TableRow*>;
 
@@ -36,14 +39,37 @@ std::string sample_text(const TableRow& row) {
   return "alpha1 " + number_text(row.alpha1) + ", specular1 " + number_text(row.specular1);
 }
 
-class Linter {
+// The findings of a check.
+class Findings {
  public:
-  explicit Linter(const Table& table) : table_(table) {
+  void add(Severity severity, const std::string& kind, std::size_t line, const std::string& message) {
+    all_.push_back({severity, kind, line, message});
+  }
+  // A sample of line `line` that line `first` holds already, with the same target values or with others.
+  void add_repeat(bool same, const std::string& sample, std::size_t line, std::size_t first) {
+    const std::string place = sample + " also appears in line " + std::to_string(first);
+    if (same)
+      add(Severity::kWarning, "duplicate", line, place + "; it counts twice in a fit");
+    else
+      add(Severity::kError, "contradiction", line, place + " with other target values");
+  }
+  std::vector<Finding> sorted() {
+    std::stable_sort(all_.begin(), all_.end(), [](const Finding& a, const Finding& b) {
+      return a.severity != b.severity ? a.severity > b.severity : a.line < b.line;
+    });
+    return std::move(all_);
+  }
+
+ private:
+  std::vector<Finding> all_;
+};
+
+class TableCheck : Findings {
+ public:
+  explicit TableCheck(const Table& table) : table_(table) {
     for (const TableRow& row : table.rows)
       if (row.status == RowStatus::kOk) by_alpha_[row.alpha1].push_back(&row);
-    for (auto& [alpha, rows] : by_alpha_)
-      std::stable_sort(rows.begin(), rows.end(),
-                       [](const TableRow* a, const TableRow* b) { return a->specular1 < b->specular1; });
+    for (auto& [alpha, rows] : by_alpha_) std::ranges::stable_sort(rows, {}, &TableRow::specular1);
   }
 
   std::vector<Finding> run() {
@@ -54,17 +80,10 @@ class Linter {
     check_monotone();
     check_jumps();
     check_saturation();
-    std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& a, const Finding& b) {
-      return a.severity != b.severity ? a.severity > b.severity : a.line < b.line;
-    });
-    return std::move(findings_);
+    return sorted();
   }
 
  private:
-  void add(Severity severity, const std::string& kind, std::size_t line, const std::string& message) {
-    findings_.push_back({severity, kind, line, message});
-  }
-
   void check_ranges() {
     for (const TableRow& row : table_.rows) {
       const struct {
@@ -104,11 +123,7 @@ class Linter {
         const bool same =
             std::fabs(first.alpha2 - second.alpha2) <= kSameValue &&
             std::fabs(first.specular2 - second.specular2) <= kSameValue * std::fabs(first.specular2);
-        const std::string place = sample_text(second) + " also appears in line " + std::to_string(first.line);
-        if (same)
-          add(Severity::kWarning, "duplicate", second.line, place + "; it counts twice in a fit");
-        else
-          add(Severity::kError, "contradiction", second.line, place + " with other target values");
+        add_repeat(same, sample_text(second), second.line, first.line);
       }
     }
   }
@@ -198,42 +213,101 @@ class Linter {
 
   const Table& table_;
   std::map<double, Rows> by_alpha_;
-  std::vector<Finding> findings_;
 };
+
+class MaterialCheck : Findings {
+ public:
+  explicit MaterialCheck(const MaterialTable& table) : table_(table) {}
+
+  std::vector<Finding> run() {
+    check_values();
+    check_row_count();
+    check_columns();
+    check_repeats();
+    return sorted();
+  }
+
+ private:
+  void check_values() {
+    const auto check = [&](const NamedRow& row, const std::vector<std::string>& columns,
+                           const std::vector<double>& values) {
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        if (!std::isfinite(values[i]))
+          add(Severity::kError, "range", row.line,
+              columns[i] + " is " + number_text(values[i]) + "; expected a finite number");
+    };
+    for (const NamedRow& row : table_.rows) {
+      check(row, table_.source_columns, row.source);
+      check(row, table_.target_columns, row.target);
+    }
+  }
+
+  void check_row_count() {
+    const auto usable =
+        static_cast<std::size_t>(std::ranges::count(table_.rows, RowStatus::kOk, &NamedRow::status));
+    const std::size_t fewest = kFewestRowsAColumn * table_.source_columns.size();
+    if (usable < fewest)
+      add(Severity::kError, "rows", 0,
+          std::to_string(usable) + " usable rows for " + std::to_string(table_.source_columns.size()) +
+              " source columns; expected at least " + std::to_string(fewest));
+    if (usable != table_.rows.size())
+      add(Severity::kNote, "saturation", 0,
+          std::to_string(table_.rows.size() - usable) + " of " + std::to_string(table_.rows.size()) +
+              " rows are not ok and are not fitted");
+  }
+
+  void check_columns() {
+    for (std::size_t i = 0; i < table_.source_columns.size(); ++i) {
+      const double first = table_.rows.front().source[i];
+      if (std::all_of(table_.rows.begin(), table_.rows.end(),
+                      [&](const NamedRow& row) { return row.source[i] == first; }))
+        add(Severity::kWarning, "gap", 0,
+            table_.source_columns[i] + " is " + number_text(first) +
+                " in every row; a fit cannot learn its influence");
+    }
+  }
+
+  void check_repeats() {
+    std::map<std::vector<double>, const NamedRow*> known;
+    for (const NamedRow& row : table_.rows) {
+      const auto [found, is_new] = known.emplace(row.source, &row);
+      if (is_new) continue;
+      add_repeat(found->second->target == row.target, "the sample", row.line, found->second->line);
+    }
+  }
+
+  const MaterialTable& table_;
+};
+
+std::string place_of(const std::string& name, const Finding& finding) {
+  return finding.line == 0 ? name : name + ":" + std::to_string(finding.line);
+}
 
 }  // namespace
 
-std::vector<Finding> check_table(const Table& table) { return Linter(table).run(); }
+std::vector<Finding> check_table(const Table& table) { return TableCheck(table).run(); }
+
+std::vector<Finding> check_table(const MaterialTable& table) { return MaterialCheck(table).run(); }
 
 std::string_view severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::kNote:
-      return "note";
-    case Severity::kWarning:
-      return "warning";
-    case Severity::kError:
-      return "error";
-  }
-  return "note";
+  constexpr std::array<std::string_view, 3> kNames = {"note", "warning", "error"};
+  return kNames[static_cast<std::size_t>(severity)];
 }
 
 std::string finding_text(const std::string& name, const Finding& finding) {
-  const std::string place = finding.line == 0 ? name : name + ":" + std::to_string(finding.line);
-  return place + ": " + std::string(severity_name(finding.severity)) + ": " + finding.kind + ": " +
-         finding.message;
+  return place_of(name, finding) + ": " + std::string(severity_name(finding.severity)) + ": " + finding.kind +
+         ": " + finding.message;
 }
 
 void require_fittable(const Table& table) {
   const std::vector<Finding> findings = check_table(table);
-  const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
-    return finding.severity == Severity::kError;
-  });
+  const auto errors = std::ranges::count(findings, Severity::kError, &Finding::severity);
   if (errors == 0) return;
   const Finding& first = findings.front();
-  const std::string place = first.line == 0 ? table.name : table.name + ":" + std::to_string(first.line);
   const std::string more =
       errors == 1 ? "" : " (" + std::to_string(errors - 1) + " more errors: run remapc check)";
-  throw remap::Error(remap::ErrorKind::kInput, place + ": " + first.kind + ": " + first.message + more);
+  throw remap::Error(remap::ErrorKind::kInput,
+                     place_of(table.name, first) + ": " + first.kind + ": " + first.message + more);
 }
 
 }  // namespace remapc

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "table/table.hpp"
+#include "table/material_table.hpp"
 
 namespace remapc {
 
@@ -24,6 +24,10 @@ struct Finding {
 // Returns all findings by severity, then by line. Only rows of status ok are checked, except for saturation
 // and range. check.cpp defines the threshold of each check.
 std::vector<Finding> check_table(const Table& table);
+
+// The same for named parameters: values that are not finite, too few usable rows for the number of columns,
+// source columns with a single value, repeated samples, and rows that are not fitted.
+std::vector<Finding> check_table(const MaterialTable& table);
 
 std::string_view severity_name(Severity severity);
 

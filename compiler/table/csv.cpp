@@ -4,6 +4,7 @@
 
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
+#include "text/report_text.hpp"
 
 namespace remapc {
 namespace {
@@ -102,5 +103,17 @@ Csv parse_csv(std::string_view text, const std::string& name) {
   if (csv.lines.empty()) csv.fail(number, 1, "the table has no rows");
   return csv;
 }
+
+CsvText::CsvText(const std::string& header, const Comments& comments)
+    : text_(comment_lines(comments) + header + "\n") {}
+
+void CsvText::add(std::string_view cell) {
+  const char* quote = cell.find(',') == std::string_view::npos ? "" : "\"";
+  text_ += quote + std::string(cell) + quote + ",";
+}
+
+void CsvText::add(double number) { text_ += remap::number_text(number) + ","; }
+
+void CsvText::add(const std::optional<double>& number) { number ? add(*number) : add(std::string_view()); }
 
 }  // namespace remapc

@@ -1,13 +1,19 @@
-// Reads the CSV tables of this project: comments, a header row and rows of as many cells. Each cell knows its
-// place.
+// Reads and writes the CSV tables of this project: comments, a header row and rows of as many cells. A cell
+// that was read knows its place.
 #pragma once
 
+#include <concepts>
+#include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace remapc {
+
+// The lines `# key: value` of a table, in file order.
+using Comments = std::vector<std::pair<std::string, std::string>>;
 
 // One cell of a line with its place, for messages.
 struct CsvCell {
@@ -21,8 +27,8 @@ struct CsvLine {
 };
 
 struct Csv {
-  std::string name;                                           // for messages
-  std::vector<std::pair<std::string, std::string>> comments;  // `# key: value`, in file order
+  std::string name;  // for messages
+  Comments comments;
   CsvLine header;
   std::vector<CsvLine> lines;
 
@@ -43,5 +49,34 @@ std::vector<CsvCell> split_csv_line(std::string_view line, char delimiter);
 // point into `text`. Throws kInput for text without a header row or without rows, and for a row of another
 // length.
 Csv parse_csv(std::string_view text, const std::string& name);
+
+// CSV text that is being written.
+class CsvText {
+ public:
+  // `header`: the names of the columns, separated by commas.
+  explicit CsvText(const std::string& header, const Comments& comments = {});
+
+  // Adds a row of at least one cell: text (quoted if it holds a comma), a number (the shortest text that
+  // reads back), an optional number (none: an empty cell), or a range of these, one cell each.
+  template <typename... Cells>
+  void add_row(const Cells&... cells) {
+    (add(cells), ...);
+    text_.back() = '\n';
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  void add(std::string_view cell);
+  void add(double number);
+  void add(std::size_t number) { add(static_cast<double>(number)); }
+  void add(const std::optional<double>& number);
+  template <std::ranges::range Numbers>
+  requires(!std::convertible_to<Numbers, std::string_view>) void add(const Numbers& numbers) {
+    for (const auto& number : numbers) add(number);
+  }
+
+  std::string text_;
+};
 
 }  // namespace remapc

@@ -1,17 +1,7 @@
 #include "table/material_table.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-
-#include "remap/error.hpp"
-#include "table/csv.hpp"
-#include "text/number_text.hpp"
-
 namespace remapc {
 namespace {
-
-using remap::number_text;
 
 std::vector<std::string> split_names(const std::string& text) {
   std::vector<std::string> names;
@@ -35,12 +25,6 @@ std::vector<std::size_t> places_of(const Csv& csv, const std::vector<std::string
   std::vector<std::size_t> places;
   for (const std::string& column : columns) places.push_back(place_of(csv, column));
   return places;
-}
-
-}  // namespace
-
-MaterialTable parse_material_table(std::string_view text, const std::string& name) {
-  return material_table_from_csv(parse_csv(text, name));
 }
 
 MaterialTable material_table_from_csv(const Csv& csv) {
@@ -72,19 +56,27 @@ MaterialTable material_table_from_csv(const Csv& csv) {
   return table;
 }
 
+}  // namespace
+
+MaterialTable parse_material_table(std::string_view text, const std::string& name) {
+  return material_table_from_csv(parse_csv(text, name));
+}
+
 std::string material_table_text(const MaterialTable& table) {
   const std::string sources = joined(table.source_columns), targets = joined(table.target_columns);
-  std::string text;
-  for (const auto& [key, value] : table.comments) text += "# " + key + ": " + value + "\n";
-  text += std::string("# ") + kSourceColumnsComment + ": " + sources + "\n";
-  text += std::string("# ") + kTargetColumnsComment + ": " + targets + "\n";
-  text += sources + "," + targets + ",error,status\n";
-  for (const NamedRow& row : table.rows) {
-    for (const std::vector<double>* values : {&row.source, &row.target})
-      for (const double value : *values) text += number_text(value) + ",";
-    text += number_text(row.error) + "," + std::string(status_name(row.status)) + "\n";
-  }
-  return text;
+  Comments comments = table.comments;
+  comments.emplace_back(kSourceColumnsComment, sources);
+  comments.emplace_back(kTargetColumnsComment, targets);
+  CsvText csv(sources + "," + targets + ",error,status", comments);
+  for (const NamedRow& row : table.rows)
+    csv.add_row(row.source, row.target, row.error, status_name(row.status));
+  return csv.text();
+}
+
+AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map) {
+  const Csv csv = parse_csv(text, name);
+  if (csv.comment(kSourceColumnsComment).empty()) return table_from_csv(csv, map);
+  return material_table_from_csv(csv);
 }
 
 }  // namespace remapc

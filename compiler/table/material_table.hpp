@@ -2,10 +2,9 @@
 // channel, named as the models name them (Sztrajman et al. 2019, section 5.2: random samples; section 8).
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <variant>
 #include <vector>
 
 #include "table/table.hpp"
@@ -20,18 +19,22 @@ struct NamedRow {
 };
 
 struct MaterialTable {
-  std::string name;                                           // file name, for messages
-  std::vector<std::pair<std::string, std::string>> comments;  // without the two that list columns
-  std::vector<std::string> source_columns, target_columns;    // base_color_r1, ..., roughness2
+  std::string name;                                         // file name, for messages
+  Comments comments;                                        // without the two that list columns
+  std::vector<std::string> source_columns, target_columns;  // base_color_r1, ..., roughness2
   std::vector<NamedRow> rows;
 };
 
 // Parses what material_table_text writes and ignores other columns. Throws kInput with `name:line:column:`.
 MaterialTable parse_material_table(std::string_view text, const std::string& name);
 
-// The same from CSV text that parse_csv has split.
-MaterialTable material_table_from_csv(const Csv& csv);
-
 std::string material_table_text(const MaterialTable& table);
+
+// A table of either form: alpha and specular (remapc sweep), or named parameters (remapc sample).
+using AnyTable = std::variant<Table, MaterialTable>;
+
+// Parses CSV text once and reads it as the form that its comments declare: a comment source_columns makes it
+// a MaterialTable. `map` applies to a Table only. Throws as parse_table and parse_material_table do.
+AnyTable parse_any_table(std::string_view text, const std::string& name, const ColumnMap& map = {});
 
 }  // namespace remapc

@@ -4,9 +4,10 @@
 #include <array>
 #include <limits>
 
+#include <openssl/evp.h>
+
 #include "remap/error.hpp"
 #include "system/files.hpp"
-#include "table/csv.hpp"
 #include "text/nearest_name.hpp"
 #include "text/number_text.hpp"
 
@@ -16,8 +17,8 @@ namespace {
 using remap::Error;
 using remap::ErrorKind;
 
-constexpr std::array kStatuses = {RowStatus::kOk, RowStatus::kClamped, RowStatus::kFlat,
-                                  RowStatus::kUnstable};
+// In the order of RowStatus.
+constexpr std::array<std::string_view, 4> kStatusNames = {"ok", "clamped", "flat", "unstable"};
 const std::array<std::string, 8> kColumns = {"alpha1",   "specular1", "alpha2", "specular2",
                                              "diffuse1", "diffuse2",  "error",  "status"};
 constexpr std::size_t kRequiredColumns = 4;
@@ -114,34 +115,13 @@ class Reader {
   std::vector<std::size_t> places_ = std::vector<std::size_t>(kColumns.size(), kMissing);
 };
 
-// One row without its line break; diffuse only if the table has it.
-std::string row_text(const TableRow& row, bool has_diffuse) {
-  std::string text;
-  for (const double value : {row.alpha1, row.specular1, row.alpha2, row.specular2})
-    text += remap::number_text(value) + ",";
-  if (has_diffuse) text += remap::number_text(row.diffuse1) + "," + remap::number_text(row.diffuse2) + ",";
-  return text + remap::number_text(row.error) + "," + std::string(status_name(row.status));
-}
-
 }  // namespace
 
-std::string_view status_name(RowStatus status) {
-  switch (status) {
-    case RowStatus::kOk:
-      return "ok";
-    case RowStatus::kClamped:
-      return "clamped";
-    case RowStatus::kFlat:
-      return "flat";
-    case RowStatus::kUnstable:
-      return "unstable";
-  }
-  return "ok";
-}
+std::string_view status_name(RowStatus status) { return kStatusNames[static_cast<std::size_t>(status)]; }
 
 RowStatus read_status(const Csv& csv, const CsvLine& line, const CsvCell& cell) {
-  for (const RowStatus status : kStatuses)
-    if (status_name(status) == cell.text) return status;
+  for (std::size_t i = 0; i < kStatusNames.size(); ++i)
+    if (kStatusNames[i] == cell.text) return static_cast<RowStatus>(i);
   csv.fail(line.number, cell.column,
            "status is \"" + std::string(cell.text) + "\"; expected ok, clamped, flat or unstable");
 }
@@ -200,15 +180,39 @@ std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap
 }
 
 std::string table_text(const Table& table) {
-  std::string text;
-  for (const auto& [key, value] : table.comments) text += "# " + key + ": " + value + "\n";
+  std::string header;
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
     if (!table.has_diffuse && (i == kDiffuse1 || i == kDiffuse2)) continue;
-    text += (i == 0 ? "" : ",") + kColumns[i];
+    header += (i == 0 ? "" : ",") + kColumns[i];
   }
-  text += "\n";
-  for (const TableRow& row : table.rows) text += row_text(row, table.has_diffuse) + "\n";
+  CsvText csv(header, table.comments);
+  for (const TableRow& row : table.rows) {
+    std::vector<double> values = {row.alpha1, row.specular1, row.alpha2, row.specular2};
+    if (table.has_diffuse) values.insert(values.end(), {row.diffuse1, row.diffuse2});
+    csv.add_row(values, row.error, status_name(row.status));
+  }
+  return csv.text();
+}
+
+std::string sha256(std::string_view bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned length = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
+    throw Error(ErrorKind::kNumeric, "sha256: cannot compute the digest");
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (unsigned i = 0; i < length; ++i) {
+    text += kDigits[digest[i] >> 4];
+    text += kDigits[digest[i] & 15];
+  }
   return text;
+}
+
+remap::TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
+                                const std::vector<std::pair<std::string, std::string>>& comments) {
+  remap::TableRecord record{path.filename().string(), sha256(bytes), {}};
+  for (const auto& [key, value] : comments) record.comments[key] = value;
+  return record;
 }
 
 }  // namespace remapc

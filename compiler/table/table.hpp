@@ -7,16 +7,12 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "remap/fit.hpp"
+#include "table/csv.hpp"
 
 namespace remapc {
-
-struct Csv;
-struct CsvLine;
-struct CsvCell;
 
 // How far a row can be trusted. Fits use only kOk rows.
 enum class RowStatus {
@@ -44,8 +40,8 @@ struct TableRow {
 };
 
 struct Table {
-  std::string name;                                           // file name, for messages
-  std::vector<std::pair<std::string, std::string>> comments;  // `# key: value`, in file order
+  std::string name;  // file name, for messages
+  Comments comments;
   remap::ModelSide source;
   remap::ModelSide target;
   bool has_diffuse = false;  // rows carry diffuse1 and diffuse2
@@ -97,5 +93,12 @@ std::vector<TableRow> rows_inside(const std::vector<TableRow>& rows, const remap
 // Formats a table as CSV: comments, header row, rows; the diffuse columns only if has_diffuse. Parsing the
 // text gives the same numbers.
 std::string table_text(const Table& table);
+
+// Returns what a fit records of its table, whose file is `bytes`.
+remap::TableRecord table_record(const std::filesystem::path& path, std::string_view bytes,
+                                const Comments& comments);
+
+// Returns the SHA-256 (FIPS 180-4) of `bytes` as 64 hexadecimal digits.
+std::string sha256(std::string_view bytes);
 
 }  // namespace remapc

@@ -65,6 +65,11 @@ class ModelCheck {
     findings_->push_back({model_.name, check, verdict, words});
   }
 
+  // A check with a pass, of which `found` says more, and a fault.
+  void judge(const std::string& check, bool good, const std::string& found, const std::string& fault) {
+    add(check, good ? Verdict::kGood : Verdict::kWrong, good ? found : fault);
+  }
+
   double most(ParameterRole role) const { return model_.parameter(role).range.max; }
   bool has_diffuse() const { return model_.has(ParameterRole::kDiffuse); }
 
@@ -122,24 +127,17 @@ class ModelCheck {
       return;
     }
     const double outside = brightest(front, true);
-    add("background", outside > 1e-6 * top ? Verdict::kWrong : Verdict::kGood,
-        outside > 1e-6 * top ? "pixels outside the sphere are up to " + number_text(outside) +
-                                   ", not 0: wrong field of view, or an environment"
-                             : "black");
+    judge("background", outside <= 1e-6 * top, "black",
+          "pixels outside the sphere are up to " + number_text(outside) +
+              ", not 0: wrong field of view, or an environment");
     const double rows = difference(front, flipped(front, true)),
                  columns = difference(front, flipped(front, false));
     const double uneven = model_.noise ? 0.0 : std::max(rows, columns);
-    add("symmetry", uneven > kSamePicture ? Verdict::kWrong : Verdict::kGood,
-        uneven > kSamePicture
-            ? "under a headlight the " + std::string(rows >= columns ? "upper and lower" : "left and right") +
-                  " halves differ by " + percent(uneven) +
-                  ": the picture is shifted, often by one pixel, or the sphere is a mesh"
-            : "to " + percent(uneven));
+    judge("symmetry", uneven <= kSamePicture, "to " + percent(uneven),
+          "under a headlight the " + std::string(rows >= columns ? "upper and lower" : "left and right") +
+              " halves differ by " + percent(uneven) +
+              ": the picture is shifted, often by one pixel, or the sphere is a mesh");
     const Centroid place = centroid(take(highlight(wide_), kAside));
-    if (place.x > 0.1 && std::fabs(place.y) < 0.05) {
-      add("orientation", Verdict::kGood, "a light at +60 degrees is on the right");
-      return;
-    }
     std::string words = "a light at +60 degrees lights ";
     words += std::fabs(place.y) > std::fabs(place.x) ? (place.y > 0.0 ? "the top" : "the bottom")
              : place.x < -0.1                        ? "the left"
@@ -148,7 +146,8 @@ class ModelCheck {
     words += std::fabs(place.y) > std::fabs(place.x) ? "rows and columns are exchanged"
              : place.x < -0.1 ? "columns run from +x to -x, or the light turns the other way"
                               : "the light does not move";
-    add("orientation", Verdict::kWrong, words);
+    judge("orientation", place.x > 0.1 && std::fabs(place.y) < 0.05, "a light at +60 degrees is on the right",
+          words);
   }
 
   // Compares diffuse light with Lambert's law: intensity, inverse square, linearity.
@@ -185,36 +184,27 @@ class ModelCheck {
   void check_distance(const Image& near, const Image& unit) {
     const Image far = diffuse_picture(most(ParameterRole::kDiffuse), kFar);
     const double found = factor(far, near), expected = factor(lambertian(Scene{resolution_, 1, kFar}), unit);
-    const bool right = std::fabs(found / expected - 1.0) < 0.01;
-    add("inverse square", right ? Verdict::kGood : Verdict::kWrong,
-        right ? "holds"
-              : "a light twice as far is " + number_text(remap::rounded(found, 3)) +
-                    " times as bright, not " + number_text(remap::rounded(expected, 3)));
+    judge("inverse square", std::fabs(found / expected - 1.0) < 0.01, "holds",
+          "a light twice as far is " + number_text(remap::rounded(found, 3)) + " times as bright, not " +
+              number_text(remap::rounded(expected, 3)));
   }
 
   void check_linearity(const Image& whole, double full) {
     const double half = factor(diffuse_picture(0.5 * full, kHeadlight), whole);
-    if (std::fabs(half - 0.5) < 1e-3) {
-      add("linearity", Verdict::kGood, "half the diffuse is half the light");
-      return;
-    }
     const double exponent = std::log(half) / std::log(0.5);
-    add("linearity", Verdict::kWrong,
-        "half the diffuse gives " + number_text(remap::rounded(half, 3)) +
-            " of the light, not 0.5: a tone curve or display gamma of about " +
-            number_text(remap::rounded(exponent > 1.0 ? exponent : 1.0 / exponent, 2)));
+    judge("linearity", std::fabs(half - 0.5) < 1e-3, "half the diffuse is half the light",
+          "half the diffuse gives " + number_text(remap::rounded(half, 3)) +
+              " of the light, not 0.5: a tone curve or display gamma of about " +
+              number_text(remap::rounded(exponent > 1.0 ? exponent : 1.0 / exponent, 2)));
   }
 
   // Checks what storage or tone mapping did to the values.
   void check_values() {
     const Image sharp = take(highlight(0.1), kHeadlight);
     const std::size_t flat = count_of_brightest(sharp);
-    const bool round = brightest(sharp) == 1.0;
-    if (round && flat > 4)
-      add("clamping", Verdict::kWrong,
+    judge("clamping", brightest(sharp) != 1.0 || flat <= 4,
+          "none seen up to " + number_text(remap::rounded(brightest(sharp), 3)),
           std::to_string(flat) + " pixels of a highlight are exactly 1: values are clamped");
-    else
-      add("clamping", Verdict::kGood, "none seen up to " + number_text(remap::rounded(brightest(sharp), 3)));
     const std::string coarse = coarse_values(sharp);
     if (coarse == "8 bits")
       add("precision", Verdict::kWrong, "values have 8 bits (write floats)");
@@ -229,10 +219,9 @@ class ModelCheck {
     const Image first = take(highlight(0.3), kAside);
     take(highlight(wide_), kHeadlight);
     const double again = difference(first, take(highlight(0.3), kAside));
-    add("repeatability", again > 0.0 ? Verdict::kWrong : Verdict::kGood,
-        again > 0.0 ? "the same request gives pictures that differ by " + percent(again) +
-                          ": noise must depend on the seed only, and requests must not affect later ones"
-                    : "bit for bit");
+    judge("repeatability", !(again > 0.0), "bit for bit",
+          "the same request gives pictures that differ by " + percent(again) +
+              ": noise must depend on the seed only, and requests must not affect later ones");
     const double noise = difference(first, take(highlight(0.3), kAside, 1));
     if (noise > 0.0 && !model_.noise)
       add("noise", Verdict::kWrong,
@@ -253,17 +242,14 @@ class ModelCheck {
     const Material material = highlight(0.2);
     const Image small = take(material, kAside), large = take(material, kAside, 0, 3);
     const double jitter = difference(small, every_third(large));
-    add("pixel centres", jitter > kSamePicture ? Verdict::kWrong : Verdict::kGood,
-        jitter > kSamePicture
-            ? "pixels differ by " + percent(jitter) +
-                  " from those of a larger picture with the same centres: jitter in the pixel, a "
-                  "filter, or a shifted picture"
-            : "to " + percent(jitter));
+    judge("pixel centres", jitter <= kSamePicture, "to " + percent(jitter),
+          "pixels differ by " + percent(jitter) +
+              " from those of a larger picture with the same centres: jitter in the pixel, a filter, or a "
+              "shifted picture");
     const double grid = difference(take(material, kAside, 0, 1, 3), mean_of_nine(large));
-    add("pixel grid", grid > kSamePicture ? Verdict::kWrong : Verdict::kGood,
-        grid > kSamePicture ? "3 x 3 samples in a pixel differ by " + percent(grid) +
-                                  " from the mean of nine pixels (sample an even grid)"
-                            : "to " + percent(grid));
+    judge("pixel grid", grid <= kSamePicture, "to " + percent(grid),
+          "3 x 3 samples in a pixel differ by " + percent(grid) +
+              " from the mean of nine pixels (sample an even grid)");
   }
 
   // Checks that channels are independent and in order.
@@ -292,8 +278,7 @@ class ModelCheck {
         wrong = "channel " + std::to_string(c) + " differs by " + percent(off) +
                 " from a grey picture of its value; channels must be red, green, blue and independent";
     }
-    add("color", wrong.empty() ? Verdict::kGood : Verdict::kWrong,
-        wrong.empty() ? "red, green, blue" : wrong);
+    judge("color", wrong.empty(), "red, green, blue", wrong);
   }
 
   // A wider highlight has more light relative to its peak.
@@ -304,10 +289,9 @@ class ModelCheck {
       for (std::size_t i = 0; i < image.values.size(); ++i) sum += static_cast<double>(image.values[i]);
       return sum / std::max(brightest(image), 1e-30);
     };
-    const bool rising = spread(0.15) < spread(0.3) && spread(0.3) < spread(0.6);
-    add("width", rising ? Verdict::kGood : Verdict::kWrong,
-        rising ? "a larger alpha is a wider highlight"
-               : "highlights do not widen from alpha 0.15 to 0.3 and 0.6 (check the convention)");
+    judge("width", spread(0.15) < spread(0.3) && spread(0.3) < spread(0.6),
+          "a larger alpha is a wider highlight",
+          "highlights do not widen from alpha 0.15 to 0.3 and 0.6 (check the convention)");
   }
 
   static constexpr double wide_ = 0.5;

@@ -8,7 +8,7 @@
 
 #include "fit_file/fit_fields.hpp"
 #include "remap/error.hpp"
-#include "renderer/shape.hpp"
+#include "renderer/scene.hpp"
 #include "text/json_field.hpp"
 #include "text/number_text.hpp"
 
@@ -60,6 +60,13 @@ ParameterRole read_role(const Field& field) {
              "\" (choose roughness, specular, diffuse, index, extinction or other)");
 }
 
+// An optional field; false if it is missing.
+bool read_flag(const Field& field, const std::string& name) {
+  if (!field.json().contains(name)) return false;
+  field[name].require(field[name].json().is_boolean(), "true or false");
+  return field[name].json().get<bool>();
+}
+
 ParameterDescription read_parameter(const Field& field, RoughnessConvention* convention) {
   ParameterDescription parameter{field["name"].text(), read_role(field["role"]),
                                  remap::read_range(field["range"])};
@@ -72,17 +79,12 @@ ParameterDescription read_parameter(const Field& field, RoughnessConvention* con
     parameter.standard = field["default"].number();
     field["default"].require(parameter.range.contains(parameter.standard), "a number of the range");
   }
-  if (field.json().contains("grey")) {
-    field["grey"].require(field["grey"].json().is_boolean(), "true or false");
-    parameter.grey = field["grey"].json().get<bool>();
-  }
+  parameter.grey = read_flag(field, "grey");
   return parameter;
 }
 
 void require_once(const ModelDescription& model, ParameterRole role, bool needed, const std::string& place) {
-  const auto count =
-      std::count_if(model.parameters.begin(), model.parameters.end(),
-                    [&](const ParameterDescription& parameter) { return parameter.role == role; });
+  const auto count = std::ranges::count(model.parameters, role, &ParameterDescription::role);
   if (count > 1 || (needed && count == 0))
     throw Error(ErrorKind::kInput, place + ": " + std::to_string(count) + " parameters have the role " +
                                        std::string(role_word(role)) + "; expected " +
@@ -111,14 +113,11 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
     field["precision"].require(model.precision >= 0.0 && model.precision < 0.1, "a number from 0 to 0.1");
   }
   model.is_external = true;  // another process, and its files
-  if (field.json().contains("noise")) {
-    field["noise"].require(field["noise"].json().is_boolean(), "true or false");
-    model.noise = field["noise"].json().get<bool>();
-  }
+  model.noise = read_flag(field, "noise");
   return model;
 }
 
-// Parses an answer. It must have the id of the request and no error. nlohmann's message for invalid JSON
+// Parses an answer. It must have the id of the request. nlohmann's message for invalid JSON
 // quotes only the place in the text; the message here quotes the line.
 ordered_json parse_answer(const std::string& line, std::int64_t id, const std::string& place) {
   const auto shown = [&] { return line.size() > 80 ? line.substr(0, 77) + "..." : line; };
@@ -129,9 +128,12 @@ ordered_json parse_answer(const std::string& line, std::int64_t id, const std::s
   if (!own)
     throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\" without the id " +
                                        std::to_string(id) + " of the request");
-  if (answer.contains("error"))
-    throw Error(ErrorKind::kInput, place + ": " + Field(answer, "answer")["error"].text());
   return answer;
+}
+
+std::optional<std::string> complaint_of(const ordered_json& answer) {
+  if (!answer.contains("error")) return std::nullopt;
+  return Field(answer, "answer")["error"].text();
 }
 
 }  // namespace
@@ -171,18 +173,14 @@ std::string quit_line(std::int64_t id) { return ordered_json{{"id", id}, {"reque
 
 bool is_answer(const std::string& line) { return line.starts_with('{'); }
 
-void read_answer(const std::string& line, std::int64_t id, const std::string& place) {
-  parse_answer(line, id, place);
-}
-
-bool is_complaint(const std::string& line, std::int64_t id) {
-  const ordered_json answer = ordered_json::parse(line, nullptr, false);
-  return answer.is_object() && answer.contains("error") && answer.contains("id") && answer["id"] == id;
+std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& place) {
+  return complaint_of(parse_answer(line, id, place));
 }
 
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
                                    const std::string& place) {
   const ordered_json answer = parse_answer(line, id, place);
+  if (const auto complaint = complaint_of(answer)) throw Error(ErrorKind::kInput, place + ": " + *complaint);
   const Field field(answer, place);
   if (field["protocol"].count() != kWorkerProtocol)
     field["protocol"].fail("is version " + field["protocol"].json().dump() + "; expected " +
@@ -190,10 +188,7 @@ WorkerDescription read_description(const std::string& line, std::int64_t id, con
   WorkerDescription description;
   description.renderer = field["renderer"].text();
   field["renderer"].require(!description.renderer.empty(), "a name and a version");
-  if (answer.contains("meshes")) {
-    field["meshes"].require(answer["meshes"].is_boolean(), "true or false");
-    description.meshes = answer["meshes"].get<bool>();
-  }
+  description.meshes = read_flag(field, "meshes");
   description.models = field["models"].list(1, [&](const Field& model) { return read_model(model, prefix); });
   return description;
 }

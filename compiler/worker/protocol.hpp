@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,9 @@ std::string quit_line(std::int64_t id);
 // Whether a line is meant as an answer; lines before the first answer are banners.
 bool is_answer(const std::string& line);
 
-// Throws kInput, opened by `place`, if the line is not the answer to request `id` or reports an error.
-void read_answer(const std::string& line, std::int64_t id, const std::string& place);
-// Whether the line is the answer to `id` and reports an error.
-bool is_complaint(const std::string& line, std::int64_t id);
+// Returns the error that an answer reports, if it does. Throws kInput, opened by `place`, if the line is not
+// the answer to request `id`.
+std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& place);
 // `prefix`: the part of every model's name before the `/`; empty accepts any.
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
                                    const std::string& place);

@@ -1,7 +1,8 @@
 // Combines all renderers: the built-in one, and workers, which are started when a model with their prefix is
-// first requested.
+// first requested. The workers are those of the command line, the user's own, and those that ship.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -46,5 +47,15 @@ class RendererSet final : public Renderer {
   std::mutex watcher_mutex_;
   std::function<void(const PictureCount&)> watcher_;
 };
+
+// Reads the workers of a JSON file (compiler/adapters/PROTOCOL.md, last section). Throws kInput.
+std::vector<WorkerEntry> read_worker_list(const std::filesystem::path& path);
+
+// Parses `NAME=COMMAND` of the command line. Throws kUsage.
+WorkerEntry parse_worker(const std::string& text);
+
+// Returns all workers by name. Of workers with the same name the first counts, in the order `given`, the
+// user's list, the shipped list. Throws kInput for a list that cannot be read, kUsage for errors in `given`.
+std::vector<WorkerEntry> known_workers(const std::vector<std::string>& given);
 
 }  // namespace remapc

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "remap/error.hpp"
-#include "renderer/shape.hpp"
+#include "renderer/scene.hpp"
 #include "system/files.hpp"
 
 namespace remapc {

@@ -7,7 +7,7 @@
 
 namespace remapc {
 
-// Writes the torus (shape.hpp) as a PLY file: binary, little endian, vertices with normals, triangles
+// Writes the torus (scene.hpp) as a PLY file: binary, little endian, vertices with normals, triangles
 // counter-clockwise from outside. Facets deviate by at most 1e-4 of the sphere's radius. Throws kOutput;
 // throws kUsage for the sphere, which renderers make themselves.
 void write_mesh(Shape shape, const std::filesystem::path& path);

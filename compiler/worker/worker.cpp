@@ -103,15 +103,14 @@ Image Worker::render(const PictureRequest& request) {
   const std::filesystem::path mesh = std::filesystem::path(picture_file_).replace_extension(".ply");
   if (request.shape != Shape::kSphere && !std::filesystem::exists(mesh)) write_mesh(request.shape, mesh);
   const std::string answer = ask(render_line(++last_id_, request, picture_file_, mesh), request.shown);
+  std::optional<std::string> complaint;
   try {
-    read_answer(answer, last_id_, place(request.shown));
+    complaint = read_answer(answer, last_id_, place(request.shown));
   } catch (const Error& error) {
-    // A worker that answers with an error is still usable; after other faults, answers no longer match
-    // requests.
-    const bool in_order = is_complaint(answer, last_id_);
-    if (in_order) throw;
     fail(request.shown, without(place(request.shown) + ": ", error.what()));
   }
+  // The worker is still usable; after other faults, answers no longer match requests.
+  if (complaint) throw Error(ErrorKind::kInput, place(request.shown) + ": " + *complaint);
   return read_picture(request);
 }
 

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "remap/error.hpp"
-#include "renderer/shape.hpp"
+#include "renderer/scene.hpp"
 
 namespace remapc {
 namespace {

@@ -9,7 +9,7 @@
 #include "model/evaluate.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "table/table_record.hpp"
+#include "table/table.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {

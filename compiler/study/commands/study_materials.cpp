@@ -5,15 +5,11 @@
 #include <iostream>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
-#include "command_line/progress.hpp"
 #include "remap/error.hpp"
 #include "study/commands/studies.hpp"
 #include "study/commands/study_options.hpp"
 #include "study/conductors_study.hpp"
 #include "study/dielectrics_study.hpp"
-#include "system/files.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -23,10 +19,9 @@ using remap::Error;
 using remap::ErrorKind;
 
 struct MaterialsCommand {
-  std::filesystem::path output;
   StudyOptions study;
   double diffuse = 0.3;
-  bool json = false, quiet = false;
+  OutputOptions output;
 };
 
 constexpr std::size_t kProgressUnits = 1000;
@@ -43,8 +38,8 @@ void require_alphas(const MaterialsCommand& command) {
 template <typename Study>
 auto run_with_progress(const MaterialsCommand& command, const std::string& label, const Study& study) {
   require_alphas(command);
-  remap::create_parent(command.output / "table.csv");
-  remap::Progress progress(label, kProgressUnits, !command.quiet);
+  create_folder(command.output);
+  remap::Progress progress(label, kProgressUnits, !command.output.quiet);
   StudyOptions options = command.study;
   options.progress = [&](double share) {
     progress.advance_to(static_cast<std::size_t>(share * static_cast<double>(kProgressUnits)));
@@ -52,99 +47,33 @@ auto run_with_progress(const MaterialsCommand& command, const std::string& label
   return study(*make_builtin_renderer(), options);
 }
 
-void report(const MaterialsCommand& command, const std::vector<std::string>& words,
-            const std::vector<std::string>& files, nlohmann::ordered_json figures) {
-  if (command.json) {
-    figures["words"] = words;
-    figures["folder"] = command.output.string();
-    figures["files"] = files;
-    std::cout << figures.dump(2) << "\n";
-    return;
-  }
-  for (const std::string& sentence : words) std::cout << sentence << "\n";
-  for (const std::string& file : files) std::cout << (command.output / file).string() << "\n";
-}
-
-nlohmann::ordered_json conductors_json(const ConductorsStudy& study) {
-  nlohmann::ordered_json curves = nlohmann::ordered_json::array();
-  for (const ConductorCurve& curve : study.curves)
-    curves.push_back({{"alpha", curve.alpha},
-                      {"ok", curve.ok},
-                      {"clamped", curve.clamped},
-                      {"other", curve.other},
-                      {"line_deviation", curve.line_deviation},
-                      {"limit_f0", curve.limit_f0},
-                      {"clamped_alpha_shift", curve.clamped_alpha_shift}});
-  double mean = 0.0, largest = 0.0;
-  for (const FresnelDifference& item : study.fresnel) {
-    mean += item.error / static_cast<double>(study.fresnel.size());
-    largest = std::max(largest, item.error);
-  }
-  return {{"curves", curves},
-          {"round_trip",
-           {{"rows", study.round_trip.rows},
-            {"slope", study.round_trip.slope},
-            {"offset", study.round_trip.offset},
-            {"f0_deviation", study.round_trip.f0_deviation},
-            {"alpha_deviation", study.round_trip.alpha_deviation}}},
-          {"schlick_error", {{"mean", mean}, {"max", largest}}},
-          {"exact_specular_shift", study.exact_specular_shift}};
-}
-
-nlohmann::ordered_json dielectrics_json(const DielectricsStudy& study) {
-  nlohmann::ordered_json curves = nlohmann::ordered_json::array();
-  for (const DielectricCurve& curve : study.curves)
-    curves.push_back({{"stages", curve.stages},
-                      {"alpha", curve.alpha},
-                      {"second_difference", curve.second_difference},
-                      {"largest_step", curve.largest_step},
-                      {"largest_step_ior", curve.step_ior},
-                      {"mean_error", curve.mean_error},
-                      {"max_error", curve.worst_error},
-                      {"unstable", curve.unstable},
-                      {"clamped", curve.clamped},
-                      {"least_highlight", curve.least_highlight},
-                      {"jumps", curve.jumps()}});
-  std::size_t lost = 0, jumping = 0;
-  for (const GuessTrial& trial : study.trials) {
-    lost += trial.lost > 0 ? 1 : 0;
-    jumping += trial.jumps > 0 ? 1 : 0;
-  }
-  return {{"curves", curves},
-          {"guesses", {{"curves", study.trials.size()}, {"lost", lost}, {"jumping", jumping}}},
-          {"three_stages_error_gain", study.error_gain},
-          {"three_stages_specular_move", study.worst_difference}};
+// Prints the findings and the names of the files.
+void show(const MaterialsCommand& command, StudyReport report) {
+  const std::vector<std::string> files = write_report(command.output, report);
+  report.figures["folder"] = command.output.folder.string();
+  report.figures["files"] = files;
+  for (const std::string& file : files) report.summary += (command.output.folder / file).string() + "\n";
+  std::cout << (command.output.json ? report.figures.dump(2) + "\n" : report.summary);
 }
 
 void run_conductors(const MaterialsCommand& command) {
-  const ConductorsStudy study =
-      run_with_progress(command, "conductors", [&](const Renderer& renderer, const StudyOptions& options) {
-        return study_conductors(renderer, options);
-      });
-  std::vector<std::string> files = write_conductors(study, command.output);
-  if (write_plot(command.output / "figure6_7.svg", conductors_plot_script(study)))
-    files.push_back("figure6_7.svg");
-  report(command, conductors_words(study), files, conductors_json(study));
+  show(command, conductors_report(run_with_progress(command, "conductors", study_conductors)));
 }
 
 void run_dielectrics(const MaterialsCommand& command) {
   if (!(command.diffuse >= 0.0 && command.diffuse <= 1.0))
     throw Error(ErrorKind::kUsage,
                 "--diffuse: " + remap::number_text(command.diffuse) + " is out of range (0 to 1)");
-  const DielectricsStudy study =
-      run_with_progress(command, "dielectrics", [&](const Renderer& renderer, const StudyOptions& options) {
-        return study_dielectrics(renderer, options, command.diffuse);
-      });
-  std::vector<std::string> files = write_dielectrics(study, command.output);
-  if (write_plot(command.output / "figure8_10.svg", dielectrics_plot_script(study)))
-    files.push_back("figure8_10.svg");
-  report(command, dielectrics_words(study), files, dielectrics_json(study));
+  show(command, dielectrics_report(run_with_progress(
+                    command, "dielectrics", [&](const Renderer& renderer, const StudyOptions& options) {
+                      return study_dielectrics(renderer, options, command.diffuse);
+                    })));
 }
 
 constexpr int kMostResolution = 4096;
 
 void add_options(remap::Command& app, MaterialsCommand& command) {
-  app.add_option("-o,--output", command.output,
+  app.add_option("-o,--output", command.output.folder,
                  "Write tables and plots to this folder; existing files are replaced")
       ->required();
   app.add_option("--alphas", command.study.alphas, "Source alphas in increasing order")
@@ -154,8 +83,8 @@ void add_options(remap::Command& app, MaterialsCommand& command) {
       ->range(16, kMostResolution)
       ->capture_default_str();
   app.add_option("--jobs", command.study.jobs, "Number of threads; 0: one per core")->capture_default_str();
-  app.add_flag("--json", command.json, "Print the figures and the summary as JSON");
-  app.add_flag("--quiet", command.quiet, "Do not show progress");
+  app.add_flag("--json", command.output.json, "Print the figures and the summary as JSON");
+  app.add_flag("--quiet", command.output.quiet, "Do not show progress");
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 #include "study/commands/study_options.hpp"
 
+#include <iostream>
 #include <utility>
 
 #include "command_line/run_app.hpp"
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "report/gnuplot.hpp"
+#include "system/files.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -34,9 +36,24 @@ std::vector<Environment> read_environments(const EnvironmentOptions& options) {
   return environments;
 }
 
-std::filesystem::path fit_folder_of(const OutputOptions& options) {
+void add_sampling_options(remap::Command& app, SphereSampling& sampling) {
+  app.add_option("--resolution", sampling.resolution, "Width and height of the pictures in pixels")
+      ->capture_default_str();
+  app.add_option("--samples", sampling.samples, "Light directions per pixel")->capture_default_str();
+}
+
+void add_output_options(remap::Command& app, OutputOptions& options, unsigned& jobs,
+                        const OutputTexts& texts) {
+  app.add_option("-o,--output", options.folder, texts.folder);
+  app.add_flag("--pictures", options.pictures, texts.pictures);
+  app.add_option("--jobs", jobs, "Number of threads; 0: one per core. " + texts.jobs)->capture_default_str();
+  app.add_flag("--json", options.json, texts.json);
+  app.add_flag("--quiet", options.quiet, "Do not show progress");
+}
+
+std::filesystem::path fit_folder_of(const std::filesystem::path& given) {
   const std::filesystem::path usual = "fits";
-  if (!options.fit_folder.empty()) return options.fit_folder;
+  if (!given.empty()) return given;
   return std::filesystem::is_directory(usual) ? usual : std::filesystem::path();
 }
 
@@ -45,21 +62,32 @@ void require_folder_for_pictures(const OutputOptions& options) {
     throw remap::Error(remap::ErrorKind::kUsage, "--pictures requires -o FOLDER");
 }
 
-void write_sheets(const std::filesystem::path& folder, const std::string& name,
-                  const std::vector<Environment>& environments, const std::vector<Image>& sheets) {
-  for (std::size_t e = 0; e < sheets.size(); ++e)
-    write_png(folder / (name + "_" + environments[e].name + ".png"), sheets[e]);
+void create_folder(const OutputOptions& options) {
+  if (!options.folder.empty()) remap::create_parent(options.folder / "results");
 }
 
-bool write_plot(const std::filesystem::path& path, const std::string& script) {
-  try {
-    write_svg(path, script);
-    return true;
-  } catch (const remap::Error& error) {
-    remap::print_message("remap-study",
-                         "warning: " + path.filename().string() + " was not drawn: " + error.what());
-    return false;
+std::vector<std::string> write_report(const OutputOptions& options, const StudyReport& report) {
+  std::vector<std::string> names;
+  for (const auto& [name, text] : report.tables) {
+    remap::write_file(options.folder / name, text);
+    names.push_back(name);
   }
+  for (const auto& [name, sheet] : report.sheets) {
+    write_png(options.folder / name, sheet);
+    names.push_back(name);
+  }
+  try {
+    write_svg(options.folder / report.plot_name, report.plot_script);
+    names.push_back(report.plot_name);
+  } catch (const remap::Error& error) {
+    remap::print_message("remap-study", "warning: " + report.plot_name + " was not drawn: " + error.what());
+  }
+  return names;
+}
+
+void show_report(const OutputOptions& options, const StudyReport& report) {
+  if (!options.folder.empty()) write_report(options, report);
+  std::cout << (options.json ? report.figures.dump(2) + "\n" : report.summary);
 }
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// Command line options that several studies share: environment maps, rendering and output files.
+// What the studies share on the command line: environment maps, rendering, progress and output.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,8 @@
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "report/environment.hpp"
+#include "report/lit_sphere.hpp"
+#include "study/study_report.hpp"
 
 namespace remapc {
 
@@ -26,54 +28,47 @@ void add_environment_options(remap::Command& app, EnvironmentOptions& options);
 std::vector<Environment> read_environments(const EnvironmentOptions& options);
 
 struct OutputOptions {
-  std::filesystem::path fit_folder;  // empty: `fits` if that folder exists
-  std::filesystem::path folder;      // of the results; empty: write nothing
+  std::filesystem::path folder;  // of the results; empty: write nothing
   bool pictures = false, json = false, quiet = false;
 };
 
 // Help texts that differ between the studies.
 struct OutputTexts {
-  std::string fits, folder, pictures, json;
+  std::string folder, pictures, jobs, json;
 };
 
-// Adds `--fits`, `-o`, `--pictures`, `--json` and `--quiet` for `options`, and `--resolution`, `--samples`
-// and
-// `--jobs` for `study`. Both must outlive the parsing.
-template <typename Study>
-void add_output_options(remap::Command& app, OutputOptions& options, Study& study, const OutputTexts& texts) {
-  app.add_option("--resolution", study.resolution, "Width and height of the pictures in pixels")
-      ->capture_default_str();
-  app.add_option("--samples", study.samples, "Light directions per pixel")->capture_default_str();
-  app.add_option("--fits", options.fit_folder, texts.fits + "; default: fits, if it exists");
-  app.add_option("-o,--output", options.folder, texts.folder);
-  app.add_flag("--pictures", options.pictures, texts.pictures);
-  app.add_option("--jobs", study.jobs, "Number of threads; 0: one per core. Results do not depend on it")
-      ->capture_default_str();
-  app.add_flag("--json", options.json, texts.json);
-  app.add_flag("--quiet", options.quiet, "Do not show progress");
-}
+// Adds `--resolution` and `--samples`. `sampling` must outlive the parsing.
+void add_sampling_options(remap::Command& app, SphereSampling& sampling);
 
-// The folder of fits to use; empty if there is none.
-std::filesystem::path fit_folder_of(const OutputOptions& options);
+// Adds `-o`, `--pictures`, `--jobs`, `--json` and `--quiet`. `options` and `jobs` must outlive the parsing.
+void add_output_options(remap::Command& app, OutputOptions& options, unsigned& jobs,
+                        const OutputTexts& texts);
+
+// The folder of fits that the user named, else `fits`; empty if that does not exist.
+std::filesystem::path fit_folder_of(const std::filesystem::path& given);
 
 // Throws kUsage if pictures are wanted without an output folder.
 void require_folder_for_pictures(const OutputOptions& options);
 
+// Creates the output folder. Throws kOutput if that fails.
+void create_folder(const OutputOptions& options);
+
 // Runs `study` until it ends or is interrupted, and prints its progress under `name`.
 template <typename Options, typename Study>
-auto run_study(const std::string& name, Options& options, bool quiet, const Study& study) {
+auto run_study(const std::string& name, Options& options, const OutputOptions& output, const Study& study) {
+  create_folder(output);
   remap::watch_interruptions();
-  remap::Progress progress(name, progress_steps(options), !quiet);
+  remap::Progress progress(name, progress_steps(options), !output.quiet);
   options.progress = [&] { progress.advance(); };
   options.cancelled = &remap::interruption();
   return study(options);
 }
 
-// Writes each sheet as `<name>_<environment>.png`.
-void write_sheets(const std::filesystem::path& folder, const std::string& name,
-                  const std::vector<Environment>& environments, const std::vector<Image>& sheets);
+// Writes the files of a report to the output folder and returns their names. Prints a warning if gnuplot is
+// missing or fails, and leaves the plot out.
+std::vector<std::string> write_report(const OutputOptions& options, const StudyReport& report);
 
-// Writes the plot of a gnuplot script. Prints a warning and returns false if gnuplot is missing or fails.
-bool write_plot(const std::filesystem::path& path, const std::string& script);
+// Writes the files, if there is a folder for them, and prints the summary or the figures.
+void show_report(const OutputOptions& options, const StudyReport& report);
 
 }  // namespace remapc

@@ -73,10 +73,10 @@ TEST_CASE("stages: the joint match is a minimum of the whole picture as direct r
   const SweepOptions options = staged(3, {{0.3, 0.3}});
   const TableRow row = sweep(*renderer, options).rows.front();
   const PictureTaker picture_taker(*renderer, options.objective, options.resolution, 1);
-  const auto source = picture_taker.take(find_model(*renderer, "mitsuba/as"), RoleValues{0.3, 0.3, 0.3});
+  const auto source = picture_taker.take(renderer->model("mitsuba/as"), RoleValues{0.3, 0.3, 0.3});
   const auto loss = [&](double alpha, double specular, double diffuse) {
     const auto target =
-        picture_taker.take(find_model(*renderer, "mitsuba/ward"), RoleValues{alpha, specular, diffuse});
+        picture_taker.take(renderer->model("mitsuba/ward"), RoleValues{alpha, specular, diffuse});
     double sum = 0.0;
     for (std::size_t i = 0; i < source.size(); ++i)
       sum += std::pow(static_cast<double>(source[i]) - target[i], 2);
@@ -120,8 +120,8 @@ TEST_CASE("stages: a target whose diffuse does not add is detected and matched b
   SweepOptions options = staged(1, {{0.25, 0.5}}, 0.4);
   options.source = options.target = "mitsuba/ward";
   const PictureTaker picture_taker(renderer, options.objective, 64, 1);
-  CHECK_FALSE(probe_diffuse(picture_taker, find_model(renderer, "mitsuba/ward"), {0.1, 1.0}));
-  CHECK(probe_diffuse(picture_taker, find_model(renderer, "mitsuba/ggx"), {0.1, 1.0}));
+  CHECK_FALSE(probe_diffuse(picture_taker, renderer.model("mitsuba/ward"), {0.1, 1.0}));
+  CHECK(probe_diffuse(picture_taker, renderer.model("mitsuba/ggx"), {0.1, 1.0}));
   const TableRow row = sweep(renderer, options).rows.front();
   CHECK(row.alpha2 == Approx(0.25).epsilon(1e-3));
   CHECK(row.specular2 == Approx(0.5).epsilon(1e-3));

@@ -39,14 +39,14 @@ LawRenderer fresnel_level() {
 
 std::optional<SpecularFamily> family_of(const Renderer& renderer, const std::string& model) {
   const PictureTaker picture_taker(renderer, objective_preset("natural"), 48, 1);
-  return probe_family(picture_taker, find_model(renderer, model), kAlphas);
+  return probe_family(picture_taker, renderer.model(model), kAlphas);
 }
 
 // Returns the largest deviation of the family's pictures from rendered ones, at speculars and widths that
 // were not probed, relative to the brightest pixel at full specular.
 double family_deviation(const Renderer& renderer, const std::string& model, const SpecularFamily& family) {
   const PictureTaker picture_taker(renderer, objective_preset("natural"), 48, 1);
-  const ProbedModel probed_model{find_model(renderer, model), {}, 1.0, family};
+  const ProbedModel probed_model{renderer.model(model), {}, 1.0, family};
   double worst = 0.0;
   for (const double alpha : {0.071, 0.33, 0.79}) {
     const auto pictures = take_family(picture_taker, probed_model, alpha);
@@ -68,8 +68,8 @@ class RenderedLoss {
  public:
   RenderedLoss(const Renderer& renderer, const SweepOptions& options, const RoleValues& source)
       : picture_taker_(renderer, options.objective, options.resolution, 1),
-        target_(find_model(renderer, options.target)),
-        source_(picture_taker_.take(find_model(renderer, options.source), source)),
+        target_(renderer.model(options.target)),
+        source_(picture_taker_.take(renderer.model(options.source), source)),
         weights_(squared_weights(options.objective, source_, picture_taker_.view_cosines())) {}
 
   double operator()(double alpha, double specular) const {
@@ -201,10 +201,10 @@ TEST_CASE("sweep: the family finds what the search by renders finds, with a frac
   CHECK(renderer.pictures() <= 10 + 27 + 2 * 67 + 3);
   const std::size_t before = renderer.pictures();
   const PictureTaker picture_taker(renderer, options.objective, options.resolution, 1);
-  const ModelDescription target = find_model(renderer, "disguised/blend");
+  const ModelDescription target = renderer.model("disguised/blend");
   const RenderedPictures pictures(picture_taker, {target, {}}, kAlphas);
   for (const TableRow& row : table.rows) {
-    auto source = picture_taker.take(find_model(renderer, "mitsuba/ward"), {row.alpha1, row.specular1, 0.0});
+    auto source = picture_taker.take(renderer.model("mitsuba/ward"), {row.alpha1, row.specular1, 0.0});
     auto weights = squared_weights(options.objective, source, picture_taker.view_cosines());
     const JointMatcher matcher(pictures, std::move(source), std::move(weights), {false, false});
     const JointMatch match = matcher.best_match({{row.alpha1, 0.5, 0.0}});
@@ -253,7 +253,7 @@ TEST_CASE("sweep: a source without a law is flat where it is black, whatever its
 TEST_CASE("pictures: those of a family and their derivatives agree with renders") {
   const LawRenderer renderer = fresnel_level();
   const PictureTaker picture_taker(renderer, objective_preset("natural"), 32, 1);
-  const ModelDescription model = find_model(renderer, "disguised/law");
+  const ModelDescription model = renderer.model("disguised/law");
   const ProbedModel target{model, probe_specular(picture_taker, model, kAlphas), 1.0,
                            probe_family(picture_taker, model, kAlphas)};
   REQUIRE(target.family());

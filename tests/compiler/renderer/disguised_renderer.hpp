@@ -73,14 +73,14 @@ class LawRenderer final : public DisguisedRenderer {
 
  private:
   ModelDescription disguise() const override {
-    ModelDescription changed = find_model(builtin(), inner_);
+    ModelDescription changed = builtin().model(inner_);
     changed.name = "disguised/law";
     for (ParameterDescription& parameter : changed.parameters)
       if (parameter.role == ParameterRole::kSpecular) parameter = {"level", parameter.role, range_};
     return changed;
   }
   Image render_disguise(const Material& material, const Scene& scene) const override {
-    const ModelDescription model = find_model(builtin(), inner_);
+    const ModelDescription model = builtin().model(inner_);
     Material inner = material;
     inner.model = inner_;
     inner.parameters.erase("level");
@@ -125,7 +125,7 @@ class BlendRenderer final : public DisguisedRenderer {
     std::vector<double> sums;
     Image image;
     for (const Term& term : terms_) {
-      const ModelDescription model = find_model(builtin(), term.model);
+      const ModelDescription model = builtin().model(term.model);
       image = builtin().render(grey_material(model, alpha * term.width, 1.0, 0.0), scene);
       sums.resize(image.values.size());
       const double weight = term.weight(level);

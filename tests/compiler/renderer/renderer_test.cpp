@@ -176,7 +176,7 @@ TEST_CASE("renderer: conductors take an index and an extinction for each channel
     const Image grey = picture({eta[c]}, {k[c]});
     for (std::size_t i = 0; i < grey.values.size(); ++i) REQUIRE(rgb.values[3 * i + c] == grey.values[i]);
   }
-  CHECK_THROWS_WITH(grey_material(find_model(*renderer, "mitsuba/as-conductor"), 0.3, 0.5, 0.0),
+  CHECK_THROWS_WITH(grey_material(renderer->model("mitsuba/as-conductor"), 0.3, 0.5, 0.0),
                     Catch::Contains("has no parameter for specular"));
 }
 
@@ -311,7 +311,7 @@ TEST_CASE("brdf: Schlick's Fresnel is F0 along the normal and 1 at grazing light
 
 TEST_CASE("renderer: the error for an unknown model names the nearest") {
   const auto renderer = make_builtin_renderer();
-  CHECK_THROWS_WITH(find_model(*renderer, "mitsuba/gxx"), Catch::Contains("did you mean mitsuba/ggx?"));
+  CHECK_THROWS_WITH(renderer->model("mitsuba/gxx"), Catch::Contains("did you mean mitsuba/ggx?"));
 }
 
 TEST_CASE("renderer: parameters out of range, unknown or missing are refused by name") {

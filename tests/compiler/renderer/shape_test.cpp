@@ -1,5 +1,4 @@
 // The torus of the preview, against the definition of a torus.
-#include "renderer/shape.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -37,7 +37,7 @@ class StrangeRenderer final : public DisguisedRenderer {
 
  private:
   ModelDescription disguise() const override {
-    ModelDescription model = find_model(builtin(), "mitsuba/ggx-plain");
+    ModelDescription model = builtin().model("mitsuba/ggx-plain");
     model.name = "strange/ggx";
     model.is_external = true;
     return model;

@@ -1,11 +1,10 @@
 // Previews under an environment: an exact conversion looks like the source, copied numbers do not, and the
 // sheet shows both.
-#include "report/lit_preview.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
 #include "report/contact_sheet.hpp"
+#include "report/preview.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;

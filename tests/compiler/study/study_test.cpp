@@ -37,14 +37,21 @@ StudyOptions small_study(std::vector<double> alphas) {
   return options;
 }
 
-std::size_t line_count(const std::filesystem::path& path) {
-  const std::string text = remap::read_file(path);
+// The table of this file name.
+std::string text_of(const StudyReport& report, const std::string& name) {
+  const auto found = std::find_if(report.tables.begin(), report.tables.end(),
+                                  [&](const auto& table) { return table.first == name; });
+  REQUIRE(found != report.tables.end());
+  return found->second;
+}
+
+std::size_t line_count(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-// The file is the table: tables are written so that doubles read back.
-void check_written(const std::filesystem::path& path, const Table& table) {
-  const Table written = read_table(path);
+// The text is the table: tables are written so that doubles read back.
+void check_written(const std::string& text, const Table& table) {
+  const Table written = parse_table(text, "table.csv");
   REQUIRE(written.rows.size() == table.rows.size());
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     CHECK(written.rows[i].alpha2 == table.rows[i].alpha2);
@@ -102,7 +109,6 @@ TEST_CASE("materials: values equal those of the database", "[needs]") {
 }
 
 TEST_CASE("conductors: specular of Ward is smooth up to 1, flagged beyond, and comes back", "[needs]") {
-  const remap::TemporaryFolder folder;
   const auto renderer = make_builtin_renderer();
   const ConductorsStudy study = study_conductors(*renderer, small_study({0.1, 0.3}));
   CHECK(study.rows.size() == measured_conductors().size() * 3 * 2);
@@ -126,23 +132,21 @@ TEST_CASE("conductors: specular of Ward is smooth up to 1, flagged beyond, and c
   // Exact Fresnel of a metal is lower than Schlick's at oblique light, and equal along the normal.
   for (const ConductorRow& row : study.rows) CHECK(row.by_index.specular1 == row.f0);
   // The words have the figures, the files the rows.
-  std::string words;
-  for (const std::string& sentence : conductors_words(study)) words += sentence + "\n";
+  const StudyReport report = conductors_report(study);
+  const std::string& words = report.summary;
   CHECK(words.find("nan") == std::string::npos);
   for (const ConductorCurve& curve : study.curves)
     for (const std::size_t figure : {curve.ok, curve.clamped})
       CHECK_THAT(words, Catch::Contains(" " + std::to_string(figure) + " "));
   CHECK_THAT(words, Catch::Contains(std::to_string(study.round_trip.rows)));
-  write_conductors(study, folder.path());
-  CHECK(line_count(folder.path() / "conductors.csv") == study.rows.size() + 1);
-  CHECK(line_count(folder.path() / "fresnel.csv") == study.fresnel.size() + 1);
-  check_written(folder.path() / "as_to_ward.csv", study.there);
-  check_written(folder.path() / "ward_to_as.csv", study.back);
-  check_plot(conductors_plot_script(study));
+  CHECK(line_count(text_of(report, "conductors.csv")) == study.rows.size() + 1);
+  CHECK(line_count(text_of(report, "fresnel.csv")) == study.fresnel.size() + 1);
+  check_written(text_of(report, "as_to_ward.csv"), study.there);
+  check_written(text_of(report, "ward_to_as.csv"), study.back);
+  check_plot(report.plot_script);
 }
 
 TEST_CASE("dielectrics: two stages are smooth and stable, three never worse", "[needs][slow]") {
-  const remap::TemporaryFolder folder;
   const auto renderer = make_builtin_renderer();
   StudyOptions options = small_study({0.3});
   options.resolution = 32;
@@ -157,11 +161,10 @@ TEST_CASE("dielectrics: two stages are smooth and stable, three never worse", "[
   CHECK(study.error_gain >= 0.0);
   CHECK_FALSE(study.trials.empty());
   for (const auto& table : study.stages) CHECK(table.has_diffuse);
-  write_dielectrics(study, folder.path());
+  const StudyReport report = dielectrics_report(study);
   for (std::size_t i = 0; i < study.stages.size(); ++i)
-    check_written(folder.path() / ("stages" + std::to_string(i + 1) + ".csv"), study.stages[i]);
-  CHECK(line_count(folder.path() / "guesses.csv") == study.trials.size() + 1);
-  check_plot(dielectrics_plot_script(study));
-  for (const std::string& sentence : dielectrics_words(study))
-    CHECK(sentence.find("nan") == std::string::npos);
+    check_written(text_of(report, "stages" + std::to_string(i + 1) + ".csv"), study.stages[i]);
+  CHECK(line_count(text_of(report, "guesses.csv")) == study.trials.size() + 1);
+  check_plot(report.plot_script);
+  CHECK(report.summary.find("nan") == std::string::npos);
 }

@@ -9,7 +9,7 @@
 #include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "report/shaded_map.hpp"
-#include "study/warp_sheets.hpp"
+#include "study/warp_sets.hpp"
 #include "study/warps_report.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
@@ -102,7 +102,8 @@ TEST_CASE("study warp: figures of results that are known") {
 TEST_CASE("study warp: tables have all rows, pictures all cells", "[slow]") {
   const WarpsOptions& options = small_options();
   const std::size_t variants = warp_variants().size();
-  const std::string csv = warps_csv(options, small_result());
+  const StudyReport report = warps_report(options, small_result());
+  const std::string& csv = report.tables[0].second;
   CHECK_THAT(csv, Contains("set,stroke_set,group,variant,error,rms,median,p95,strokes,used,tears,variation,"
                            "folds,compiled_error,table_difference,bytes,seconds,dimensions\n"));
   CHECK(line_count(csv) == 5 + 2 * variants);
@@ -112,19 +113,18 @@ TEST_CASE("study warp: tables have all rows, pictures all cells", "[slow]") {
     CHECK(std::count(line.begin(), line.end(), ',') == 17);
   }
   // Two variants are copies without a warp; five variants of nodes share one warp.
-  CHECK(line_count(warp_sensitivity_csv(options, small_result())) == 5 + variants - 7);
-  const std::string text = warps_text(options, small_result());
-  CHECK_THAT(text, Contains("Sets leaf, 64 x 64 texels, 2 sets of strokes each"));
-  CHECK_THAT(text, Contains("Mean error: registration "));
-  CHECK_THAT(warps_plot_script(options, small_result()), Contains("$nodes using 1:2"));
-  const std::vector<WarpSheet> sheets = warp_sheets(options, small_result());
+  CHECK(line_count(report.tables[1].second) == 5 + variants - 7);
+  CHECK_THAT(report.summary, Contains("Sets leaf, 64 x 64 texels, 2 sets of strokes each"));
+  CHECK_THAT(report.summary, Contains("Mean error: registration "));
+  CHECK_THAT(report.plot_script, Contains("$nodes using 1:2"));
+  const auto& sheets = report.sheets;
   REQUIRE(sheets.size() == 3);
-  CHECK(sheets[0].name == "warp_methods_leaf");
-  CHECK(sheets[0].picture.width == 7 * 262 + 6);  // pictures of 256 pixels, gaps of 6
-  CHECK(sheets[0].picture.height == 3 * 262 + 6);
-  CHECK(sheets[1].picture.width == 6 * 262 + 6);
-  CHECK(sheets[2].picture.width == 2 * 262 + 6);
-  CHECK(sheets[2].picture.height == 5 * 262 + 6);
+  CHECK(sheets[0].first == "warp_methods_leaf.png");
+  CHECK(sheets[0].second.width == 7 * 262 + 6);  // pictures of 256 pixels, gaps of 6
+  CHECK(sheets[0].second.height == 3 * 262 + 6);
+  CHECK(sheets[1].second.width == 6 * 262 + 6);
+  CHECK(sheets[2].second.width == 2 * 262 + 6);
+  CHECK(sheets[2].second.height == 5 * 262 + 6);
 }
 
 TEST_CASE("study warp: sets from files") {

@@ -134,16 +134,17 @@ TEST_CASE("study workflows: tables, sheets and the same figures for any number o
   const WorkflowsResult result = study_workflows(options);
   CHECK(result.sheets.size() == options.environments.size());
   CHECK(result.sheet_materials.size() == 6);
-  const std::string csv = workflow_materials_csv(options, result);
+  const StudyReport report = workflows_report(options, result, study_family({}, 100, 1, 1), {});
+  const std::string& csv = report.tables[0].second;
   const std::size_t rows = options.materials.size() *
                            (result.comparisons[0].methods.size() + result.comparisons[1].methods.size());
   CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == rows + 6);
-  const std::string text = workflows_text(options, result, study_family({}, 100, 1, 1));
-  CHECK_THAT(text, Contains("above the least that any base color and metallic reach") && !Contains("nan"));
-  CHECK_THAT(workflow_summary_csv(options, result), Contains("plain,projection,paint,"));
-  CHECK_THAT(workflows_plot_script(options, result), Contains("1 - SSIM"));
+  CHECK_THAT(report.summary,
+             Contains("above the least that any base color and metallic reach") && !Contains("nan"));
+  CHECK_THAT(report.tables[1].second, Contains("plain,projection,paint,"));
+  CHECK_THAT(report.plot_script, Contains("1 - SSIM"));
   options.jobs = 1;
-  CHECK(workflow_materials_csv(options, study_workflows(options)) == csv);
+  CHECK(workflows_report(options, study_workflows(options), {}, {}).tables[0].second == csv);
 }
 
 TEST_CASE("study workflows: invalid options are refused") {

@@ -17,7 +17,7 @@ namespace {
 SpecularResponse probe(const Renderer& renderer, const std::string& model,
                        const remap::Range& alphas = {0.05, 1.0}) {
   const PictureTaker picture_taker(renderer, objective_preset("natural"), 64, 1);
-  return probe_specular(picture_taker, find_model(renderer, model), alphas);
+  return probe_specular(picture_taker, renderer.model(model), alphas);
 }
 
 double squared(double level) { return level * level; }
@@ -90,8 +90,8 @@ TEST_CASE("sweep: one and three stages match unknown light, width, specular and 
 TEST_CASE("sweep: diffuse is matched apart from specular") {
   const BothRenderers renderers(0.5);
   const PictureTaker picture_taker(renderers, objective_preset("natural"), 64, 1);
-  const DiffuseMatch match = match_diffuse(picture_taker, find_model(renderers, "mitsuba/ggx"),
-                                           find_model(renderers, "disguised/metal"));
+  const DiffuseMatch match =
+      match_diffuse(picture_taker, renderers.model("mitsuba/ggx"), renderers.model("disguised/metal"));
   CHECK(match.scale == Approx(2.0).epsilon(1e-6));
   CHECK(match.error < 1e-5);
 }
@@ -167,7 +167,7 @@ TEST_CASE("sweep: a target with an index is matched in F0, its own parameter is 
 
 TEST_CASE("sweep: a source with an index is sampled in F0") {
   const LawRenderer renderer("mitsuba/ggx", {1.0, 2.5}, [](double ior) { return normal_reflectance(ior); });
-  const remap::Range speculars = canonical_speculars(renderer, find_model(renderer, "disguised/law"));
+  const remap::Range speculars = canonical_speculars(renderer, renderer.model("disguised/law"));
   CHECK(speculars.min == 0.0);
   CHECK(speculars.max == Approx(9.0 / 49.0));
   const std::vector<SamplePoint> samples = {{0.2, 0.04}, {0.4, 0.1}};

@@ -88,10 +88,10 @@ TEST_CASE("sweep: the result is the minimum of the loss of direct renders") {
   const TableRow row = sweep(*renderer, options).rows.front();
 
   const PictureTaker picture_taker(*renderer, options.objective, options.resolution, 1);
-  const auto source = picture_taker.take(find_model(*renderer, "mitsuba/ggx"), {0.31, 0.37, 0.0});
+  const auto source = picture_taker.take(renderer->model("mitsuba/ggx"), {0.31, 0.37, 0.0});
   const auto weights = squared_weights(options.objective, source, picture_taker.view_cosines());
   const auto loss = [&](double alpha, double specular) {
-    const auto target = picture_taker.take(find_model(*renderer, "mitsuba/beckmann"), {alpha, specular, 0.0});
+    const auto target = picture_taker.take(renderer->model("mitsuba/beckmann"), {alpha, specular, 0.0});
     double sum = 0.0;
     for (std::size_t i = 0; i < source.size(); ++i)
       sum += weights[i] * std::pow(static_cast<double>(source[i]) - target[i], 2);
@@ -161,7 +161,7 @@ TEST_CASE("sweep: several lights are matched together") {
 TEST_CASE("bank: widths cover the range, within the model's, no further apart than the ratio") {
   const auto renderer = make_builtin_renderer();
   const PictureTaker picture_taker(*renderer, objective_preset("paper"), 8, 1);
-  const ModelDescription model = find_model(*renderer, "mitsuba/ggx");
+  const ModelDescription model = renderer->model("mitsuba/ggx");
   const SpecularResponse response = probe_specular(picture_taker, model, {0.1, 1.0});
   // The last range is smaller than a window of the usual steps.
   for (const remap::Range alphas :

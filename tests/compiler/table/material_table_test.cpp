@@ -4,8 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
-#include "table/any_table.hpp"
-#include "table/material_check.hpp"
+#include "table/check.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;
@@ -73,19 +72,19 @@ TEST_CASE("material table: commands that need width and specular refuse it") {
 }
 
 TEST_CASE("material table: the check finds each fault") {
-  CHECK(check_material_table(material_table(20)).empty());
-  CHECK(kinds(check_material_table(material_table(19))) == std::vector<std::string>{"rows"});
+  CHECK(check_table(material_table(20)).empty());
+  CHECK(kinds(check_table(material_table(19))) == std::vector<std::string>{"rows"});
   MaterialTable table = material_table(21);
   table.rows[20].source = table.rows[0].source;
-  CHECK(kinds(check_material_table(table)) == std::vector<std::string>{"contradiction"});
+  CHECK(kinds(check_table(table)) == std::vector<std::string>{"contradiction"});
   table.rows[20].target = table.rows[0].target;
-  CHECK(kinds(check_material_table(table)) == std::vector<std::string>{"duplicate"});
+  CHECK(kinds(check_table(table)) == std::vector<std::string>{"duplicate"});
   table = material_table(21);
   table.rows[3].status = RowStatus::kUnstable;
-  CHECK(kinds(check_material_table(table)) == std::vector<std::string>{"saturation"});
+  CHECK(kinds(check_table(table)) == std::vector<std::string>{"saturation"});
   table.rows[3].target[0] = std::numeric_limits<double>::infinity();
-  CHECK(kinds(check_material_table(table)) == std::vector<std::string>{"range", "saturation"});
+  CHECK(kinds(check_table(table)) == std::vector<std::string>{"range", "saturation"});
   table = material_table(20);
   for (std::size_t i = 0; i < 20; ++i) table.rows[i].source = {0.5, static_cast<double>(i)};
-  CHECK(kinds(check_material_table(table)) == std::vector<std::string>{"gap"});
+  CHECK(kinds(check_table(table)) == std::vector<std::string>{"gap"});
 }

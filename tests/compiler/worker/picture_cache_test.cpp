@@ -4,7 +4,6 @@
 #include "compiler/worker/fake_session.hpp"
 #include "system/parallel.hpp"
 #include "worker/renderer_set.hpp"
-#include "worker/worker_list.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;
@@ -85,10 +84,10 @@ TEST_CASE("picture cache: threads that need the same picture render it once") {
 TEST_CASE("renderer set: a worker is started when one of its models is requested") {
   const FakeSession session;
   const RendererSet renderers({session.entry()}, session.settings());
-  CHECK(find_model(renderers, "mitsuba/ggx").name == "mitsuba/ggx");
+  CHECK(renderers.model("mitsuba/ggx").name == "mitsuba/ggx");
   CHECK(session.log_lines("process").empty());
-  CHECK_THROWS_WITH(find_model(renderers, "fakee/ggx"), Contains("and of the workers"));
-  CHECK(find_model(renderers, "fake/ggx").name == "fake/ggx");
+  CHECK_THROWS_WITH(renderers.model("fakee/ggx"), Contains("and of the workers"));
+  CHECK(renderers.model("fake/ggx").name == "fake/ggx");
   CHECK(session.log_lines("process").size() == 1);
   CHECK(renderers.version_of("fake/ggx") == "Fake 1");
   CHECK_THAT(renderers.version_of("mitsuba/ggx"), Contains("remapc"));

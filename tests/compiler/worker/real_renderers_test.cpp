@@ -12,7 +12,6 @@
 #include "support/skip.hpp"
 #include "sweep/sweep.hpp"
 #include "worker/renderer_set.hpp"
-#include "worker/worker_list.hpp"
 
 using namespace remapc;
 
@@ -27,7 +26,7 @@ WorkerSettings settings() {
 // Where a model of the worker `name` can be rendered. Else skips.
 bool is_here(const RendererSet& renderers, const std::string& name, const std::string& model) {
   try {
-    find_model(renderers, name + "/" + model);
+    renderers.model(name + "/" + model);
     return true;
   } catch (const remap::Error& error) {
     if (error.kind() != remap::ErrorKind::kInput) throw;

@@ -157,8 +157,8 @@ TEST_CASE("worker: materials are checked before a request") {
   material = fake_material();
   material.parameters["speculer"] = {1.0};
   CHECK_THROWS_WITH(renderer.render(material, kSmallScene), Contains("did you mean specular?"));
-  CHECK_THROWS_WITH(find_model(renderer, "fake/gxx"), Contains("did you mean fake/ggx?"));
-  CHECK(grey_material(find_model(renderer, "fake/ggx"), 0.2, 0.5, 0.0).parameters.at("tint")[0] == 0.5);
+  CHECK_THROWS_WITH(renderer.model("fake/gxx"), Contains("did you mean fake/ggx?"));
+  CHECK(grey_material(renderer.model("fake/ggx"), 0.2, 0.5, 0.0).parameters.at("tint")[0] == 0.5);
   CHECK(session.pictures() == 0);
 }
 

@@ -1,0 +1,49 @@
+// What a study found, ready to be printed and written.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "renderer/image.hpp"
+
+namespace remapc {
+
+struct StudyReport {
+  std::string summary;                                      // text for the terminal
+  nlohmann::ordered_json figures;                           // the same for programs
+  std::vector<std::pair<std::string, std::string>> tables;  // file name and CSV text
+  std::string plot_name, plot_script;                       // file name of the SVG, commands for gnuplot
+  std::vector<std::pair<std::string, Image>> sheets;        // file name and display values
+};
+
+// Figures with the names that they have in tables and in JSON.
+class NamedFigures {
+ public:
+  using Entry = std::pair<const char*, double>;
+  NamedFigures(std::initializer_list<Entry> entries) : entries_(entries) {}
+
+  // The names, separated by commas.
+  std::string header() const {
+    std::string text;
+    for (const auto& [name, value] : entries_) text += (text.empty() ? "" : ",") + std::string(name);
+    return text;
+  }
+  std::vector<double> values() const {
+    std::vector<double> all;
+    for (const auto& [name, value] : entries_) all.push_back(value);
+    return all;
+  }
+  nlohmann::ordered_json json() const {
+    nlohmann::ordered_json object;
+    for (const auto& [name, value] : entries_) object[name] = value;
+    return object;
+  }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+}  // namespace remapc
