@@ -87,23 +87,18 @@ void run_invert(const ChainCommand& command) {
 
 void add_new_fit_options(remap::Command& app, ChainCommand& command) {
   app.option_group("Input");
-  app.add_option("--fits", command.fit_folder, "Folder where ids are looked up")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  app.add_option("--fits FOLDER", command.fit_folder, "Folder where ids are looked up");
   app.option_group("Output");
-  app.add_option("-o,--output", command.output, "Folder for the new fit")
-      ->type_name("FOLDER")
-      ->capture_default_str();
-  app.add_option("--id", command.id, "Id of the new fit (default: <source>_to_<target>)")->type_name("ID");
+  app.add_option("-o,--output FOLDER", command.output, "Folder for the new fit");
+  app.add_option("--id ID", command.id, "Id of the new fit (default: <source>_to_<target>)");
   app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
 }
 
 }  // namespace
 
 void add_chain_command(remap::Command& app) {
-  remap::Command* command =
-      app.add_subcommand("chain", "Compose several fits into one, whose header converts in a single pass");
-  command->group(kCompileStage);
+  remap::Command* command = app.add_subcommand(
+      "chain", "Compose several fits into one, whose header converts in a single pass", kCompileStage);
   auto options = std::make_shared<ChainCommand>();
   command->add_option("steps", options->steps, "Fits in order: files, or ids in the folder of fits")
       ->required();
@@ -118,9 +113,8 @@ void add_chain_command(remap::Command& app) {
 }
 
 void add_invert_command(remap::Command& app) {
-  remap::Command* command =
-      app.add_subcommand("invert", "Fit the inverse of a fit: from its target's parameters to its source's");
-  command->group(kCompileStage);
+  remap::Command* command = app.add_subcommand(
+      "invert", "Fit the inverse of a fit: from its target's parameters to its source's", kCompileStage);
   auto options = std::make_shared<ChainCommand>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
   add_new_fit_options(*command, *options);

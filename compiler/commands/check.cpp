@@ -69,8 +69,8 @@ void run(const CheckOptions& options) {
 }  // namespace
 
 void add_check_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand("check", "Look for faults in a table before it is fitted");
-  command->group(kMeasureStage);
+  remap::Command* command =
+      app.add_subcommand("check", "Look for faults in a table before it is fitted", kMeasureStage);
   auto options = std::make_shared<CheckOptions>();
   options->table.add_options(*command);
   command->option_group("Output");

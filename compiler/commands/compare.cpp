@@ -176,17 +176,14 @@ void run(const CompareOptions& options) {
 }  // namespace
 
 void add_compare_command(remap::Command& app) {
-  remap::Command* command =
-      app.add_subcommand("compare", "Compare fits and formulas in common use on the usable rows of a table");
-  command->group(kFitStage);
+  remap::Command* command = app.add_subcommand(
+      "compare", "Compare fits and formulas in common use on the usable rows of a table", kFitStage);
   auto options = std::make_shared<CompareOptions>();
   options->table.add_options(*command);
   command->add_option(
       "fit", options->fits,
       "Fits: files, or ids in the folder of fits (default: all that convert the table's models)");
-  command->add_option("--fits", options->fit_folder, "Folder of fits")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("--fits FOLDER", options->fit_folder, "Folder of fits");
   command->option_group("Output");
   command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
   command->footer(

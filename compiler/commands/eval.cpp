@@ -59,14 +59,11 @@ void run(const EvalOptions& options) {
 
 void add_eval_command(remap::Command& app) {
   remap::Command* command =
-      app.add_subcommand("eval", "Print the errors of a fit on the usable rows of a table");
-  command->group(kLookStage);
+      app.add_subcommand("eval", "Print the errors of a fit on the usable rows of a table", kLookStage);
   auto options = std::make_shared<EvalOptions>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
   options->table.add_options(*command);
-  command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("--fits FOLDER", options->fit_folder, "Folder where ids are looked up");
   command->option_group("Output");
   command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
   command->footer("Example:\n  remapc eval fits/mitsuba_ward_to_mitsuba_as.json other.csv");

@@ -186,54 +186,42 @@ void add_regression_options(remap::Command& app, FitCommand& command) {
          "--model", command.model,
          "parametric: polynomials and exponentials; svr: support vectors; mlp: a small network; auto: the "
          "simplest of them that is as good as the best by cross-validation, in up to a minute")
-      ->one_of({"auto", "parametric", "svr", "mlp"})
-      ->capture_default_str();
+      ->one_of({"auto", "parametric", "svr", "mlp"});
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
                "(remapc sample): a network from specular to metallic");
   app.option_group(remap::kRareOptions);
-  app.add_option("--form", regression.form,
+  app.add_option("--form FORM", regression.form,
                  "Parametric: paper, paper+pole or ROUGHNESS/SPECULAR, see below (default: chosen by "
-                 "cross-validation)")
-      ->type_name("FORM");
+                 "cross-validation)");
   app.add_option("--layers", regression.mlp.hidden, "Network: units of each hidden layer, as 16,16")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->range(1, kMostUnits)
-      ->capture_default_str();
+      ->range(1, kMostUnits);
   app.add_option("--activation", command.activation, "Network: activation function")
-      ->one_of(remap::activation_names())
-      ->capture_default_str();
+      ->one_of(remap::activation_names());
   app.add_option("--starts", regression.mlp.starts, "Network: trainings, of which the best is kept")
-      ->range(1, kMostStarts)
-      ->capture_default_str();
+      ->range(1, kMostStarts);
   app.add_option("--held-out", command.options.held_out_fraction,
-                 "Fraction of the rows held out to measure errors")
-      ->capture_default_str();
+                 "Fraction of the rows held out to measure errors");
   app.add_option("--seed", regression.seed, "Seed of the split, the folds and all other random choices")
-      ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max())
-      ->capture_default_str();
-  app.add_option("--jobs", regression.jobs, "Threads, 0: one per core; the fit does not depend on it")
-      ->capture_default_str();
+      ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
+  app.add_option("--jobs", regression.jobs, "Threads, 0: one per core; the fit does not depend on it");
 }
 
 void add_output_options(remap::Command& app, FitCommand& command) {
   app.option_group("Output");
-  app.add_option("-o,--output", command.folder, "Folder for the fit, <id>.json")
-      ->type_name("FOLDER")
-      ->capture_default_str();
-  app.add_option("--id", command.options.id, "Id of the fit (default: <source>_to_<target>)")
-      ->type_name("ID");
-  app.add_option("--plot", command.plot, "Plot rows, fits and residuals to this SVG file (needs gnuplot)")
-      ->type_name("FILE");
+  app.add_option("-o,--output FOLDER", command.folder, "Folder for the fit, <id>.json");
+  app.add_option("--id ID", command.options.id, "Id of the fit (default: <source>_to_<target>)");
+  app.add_option("--plot FILE", command.plot,
+                 "Plot rows, fits and residuals to this SVG file (needs gnuplot)");
   app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
 }
 
 }  // namespace
 
 void add_fit_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand("fit", "Fit a table and write <id>.json");
-  command->group(kFitStage);
+  remap::Command* command = app.add_subcommand("fit", "Fit a table and write <id>.json", kFitStage);
   auto options = std::make_shared<FitCommand>();
   options->table.add_options(*command);
   add_output_options(*command, *options);

@@ -71,23 +71,18 @@ void run(const ImportCommand& command) {
 }  // namespace
 
 void add_import_command(remap::Command& app) {
-  remap::Command* command =
-      app.add_subcommand("import", "Make a fit from libsvm model files (RBF regressions trained elsewhere)");
-  command->group(kFitStage);
+  remap::Command* command = app.add_subcommand(
+      "import", "Make a fit from libsvm model files (RBF regressions trained elsewhere)", kFitStage);
   auto options = std::make_shared<ImportCommand>();
   command->add_option("description", options->description, "JSON file that describes the models, see below")
       ->required();
   command->option_group("Input");
-  command->add_option("--table", options->table, "Table (CSV) to measure errors on (default: errors unknown)")
-      ->type_name("FILE");
-  command
-      ->add_option("--columns", options->columns,
-                   "Names of columns in the table: sztrajman-2019 (the published table), or OWN=FILE,...")
-      ->type_name("MAP");
+  command->add_option("--table FILE", options->table,
+                      "Table (CSV) to measure errors on (default: errors unknown)");
+  command->add_option("--columns MAP", options->columns,
+                      "Names of columns in the table: sztrajman-2019 (the published table), or OWN=FILE,...");
   command->option_group("Output");
-  command->add_option("-o,--output", options->folder, "Folder for the fit")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("-o,--output FOLDER", options->folder, "Folder for the fit");
   command->add_flag("--json", options->json, "Print a summary as JSON to standard output");
   command->footer(
       "The description holds \"source\", \"target\" and \"domain\" as a fit file does, and for each of "

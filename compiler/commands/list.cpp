@@ -87,15 +87,13 @@ void list_fits(const ListOptions& options) {
 }  // namespace
 
 void add_list_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand("list", "List the fits of a folder, or the built-in models");
-  command->group(kLookStage);
+  remap::Command* command =
+      app.add_subcommand("list", "List the fits of a folder, or the built-in models", kLookStage);
   auto options = std::make_shared<ListOptions>();
   command->option_group("Input");
   command->add_flag("--models", options->models,
                     "List the models of the built-in renderer and their parameters");
-  command->add_option("--fits", options->fit_folder, "Folder of fits")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("--fits FOLDER", options->fit_folder, "Folder of fits");
   command->option_group("Output");
   command->add_flag("--json", options->json, "Print the list as JSON to standard output");
   command->footer("Example:\n  remapc list --models");

@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "probe/objective.hpp"
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
 
@@ -10,22 +11,25 @@ namespace remapc {
 using remap::Error;
 using remap::ErrorKind;
 
-std::vector<double> parse_values(const std::string& option, const std::string& text) {
-  std::vector<double> values;
-  std::istringstream items(text);
-  for (std::string item; std::getline(items, item, ',');) {
-    const auto value = remap::parse_number(item);
-    if (!value) throw Error(ErrorKind::kUsage, option + ": '" + item + "' is not a number");
-    values.push_back(*value);
-  }
-  return values;
-}
-
 ParameterSetting parse_setting(const std::string& option, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos)
     throw Error(ErrorKind::kUsage, option + " " + text + ": '=' missing (write NAME=VALUE or NAME=R,G,B)");
-  return {text.substr(0, equals), parse_values(option + " " + text, text.substr(equals + 1))};
+  ParameterSetting setting{text.substr(0, equals), {}};
+  std::istringstream items(text.substr(equals + 1));
+  for (std::string item; std::getline(items, item, ',');) {
+    const auto value = remap::parse_number(item);
+    if (!value) throw Error(ErrorKind::kUsage, option + " " + text + ": '" + item + "' is not a number");
+    setting.values.push_back(*value);
+  }
+  return setting;
+}
+
+Light parse_light(const std::string& text, double distance) {
+  const std::vector<Light> lights = parse_lights(text, distance);
+  if (lights.size() != 1)
+    throw Error(ErrorKind::kUsage, "--light: " + std::to_string(lights.size()) + " lights given (give one)");
+  return lights.front();
 }
 
 }  // namespace remapc

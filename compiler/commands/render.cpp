@@ -51,15 +51,13 @@ void run(const RenderOptions& options) {
   const auto renderer = make_renderers(options.renderers);
   const ModelDescription model = renderer->model(options.model);
   const Material material = parse_material(model, options.settings);
-  const std::vector<Light> lights = parse_lights(options.light, options.distance);
-  if (lights.size() != 1)
-    throw Error(ErrorKind::kUsage, "--light: " + std::to_string(lights.size()) + " lights given (give one)");
-  const Scene scene{options.resolution, options.pixel_samples, lights.front(), options.seed};
+  const Light light = parse_light(options.light, options.distance);
+  const Scene scene{options.resolution, options.pixel_samples, light, options.seed};
   const Image image = renderer->render(material, scene);
 
   std::map<std::string, std::string> attributes = {{"remap:renderer", renderer->version_of(model.name)},
                                                    {"remap:model", model.name},
-                                                   {"remap:light", light_name(lights.front())}};
+                                                   {"remap:light", light_name(light)}};
   for (const auto& [name, values] : material.parameters) {
     std::string text;
     for (const double value : values) text += (text.empty() ? "" : ",") + remap::number_text(value);
@@ -71,36 +69,28 @@ void run(const RenderOptions& options) {
 }  // namespace
 
 void add_render_command(remap::Command& app) {
-  remap::Command* command =
-      app.add_subcommand("render", "Render one picture of the sweep scene: a sphere under a point light");
-  command->group(kMeasureStage);
+  remap::Command* command = app.add_subcommand(
+      "render", "Render one picture of the sweep scene: a sphere under a point light", kMeasureStage);
   auto options = std::make_shared<RenderOptions>();
   command->option_group("Material");
   command
-      ->add_option("--model", options->model,
+      ->add_option("--model MODEL", options->model,
                    "Model, as mitsuba/ward; remapc list --models and remapc renderers list them")
-      ->type_name("MODEL")
       ->required();
-  command->add_option("--set", options->settings, "Parameter of the model; may be repeated")
-      ->type_name("NAME=VALUE or NAME=R,G,B")
+  command
+      ->add_option("--set NAME=VALUE or NAME=R,G,B", options->settings,
+                   "Parameter of the model; may be repeated")
       ->allow_extra_args(false);
   command->option_group("Output");
-  command->add_option("-o,--output", options->output, "EXR file to write, linear float")
-      ->type_name("FILE")
-      ->required();
+  command->add_option("-o,--output FILE", options->output, "EXR file to write, linear float")->required();
   command->option_group("Picture");
-  command->add_option("--light", options->light, "Light: headlight, or degrees from the camera")
-      ->type_name("LIGHT")
-      ->capture_default_str();
-  command->add_option("--resolution", options->resolution, "Width and height in pixels")
-      ->capture_default_str();
-  command
-      ->add_option("--pixel-samples", options->pixel_samples, "N x N samples per pixel; 1: the pixel center")
-      ->capture_default_str();
+  command->add_option("--light LIGHT", options->light, "Light: headlight, or degrees from the camera");
+  command->add_option("--resolution", options->resolution, "Width and height in pixels");
+  command->add_option("--pixel-samples", options->pixel_samples,
+                      "N x N samples per pixel; 1: the pixel center");
   command->option_group(remap::kRareOptions);
-  command->add_option("--distance", options->distance, "Distance of the light, in sphere radii")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of renderers with noise")->capture_default_str();
+  command->add_option("--distance", options->distance, "Distance of the light, in sphere radii");
+  command->add_option("--seed", options->seed, "Seed of renderers with noise");
   add_renderer_options(*command, options->renderers);
   command->footer(
       "Example:\n"

@@ -9,19 +9,15 @@ namespace remapc {
 void add_renderer_options(remap::Command& app, RendererOptions& options) {
   app.option_group("Rare: external renderers (remapc renderers lists them)");
   app.add_option(
-         "--worker", options.workers,
+         "--worker NAME=COMMAND", options.workers,
          "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; may be "
          "repeated")
-      ->type_name("NAME=COMMAND")
       ->allow_extra_args(false);
-  app.add_option("--worker-processes", options.processes, "Processes per worker, 0: one per core")
-      ->capture_default_str();
+  app.add_option("--worker-processes", options.processes, "Processes per worker, 0: one per core");
   app.add_option("--worker-timeout", options.seconds, "Seconds to wait for an answer of a worker")
-      ->positive()
-      ->capture_default_str();
-  app.add_option("--cache", options.cache,
-                 "Folder for pictures of workers (default: remap/pictures in the user's cache)")
-      ->type_name("FOLDER");
+      ->positive();
+  app.add_option("--cache FOLDER", options.cache,
+                 "Folder for pictures of workers (default: remap/pictures in the user's cache)");
   app.add_flag("--no-cache", options.no_cache, "Render every picture and keep none");
 }
 

@@ -72,8 +72,8 @@ void run(const RenderersCommand& command) {
 
 void add_renderers_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
-      "renderers", "List the external renderers on this machine: versions, models, parameters");
-  command->group(kRendererStage);
+      "renderers", "List the external renderers on this machine: versions, models, parameters",
+      kRendererStage);
   auto options = std::make_shared<RenderersCommand>();
   command->option_group("Output");
   command->add_flag("--json", options->json,

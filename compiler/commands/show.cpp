@@ -265,14 +265,11 @@ void show(const ShowOptions& options) {
 
 void add_show_command(remap::Command& app) {
   remap::Command* command =
-      app.add_subcommand("show", "Show a fit: models, domain, errors, mapping and its table");
-  command->group(kLookStage);
+      app.add_subcommand("show", "Show a fit: models, domain, errors, mapping and its table", kLookStage);
   auto options = std::make_shared<ShowOptions>();
   command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
   command->option_group("Input");
-  command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("--fits FOLDER", options->fit_folder, "Folder where ids are looked up");
   command->option_group("Output");
   command->add_flag("--json", options->json, "Print the fit file itself");
   command->footer("Example:\n  remapc show mitsuba_ward_to_mitsuba_as");

@@ -10,11 +10,10 @@ namespace remapc {
 void TableInput::add_options(remap::Command& app) {
   app.add_option("table", path, "CSV table, of remapc sweep or of another program")->required();
   app.option_group("Input");
-  app.add_option("--columns", columns,
-                 "Names of columns in the file: sztrajman-2019 (the published table), or OWN=FILE,...")
-      ->type_name("MAP");
-  app.add_option("--source", source, "Source model (default: as the table names it)")->type_name("MODEL");
-  app.add_option("--target", target, "Target model (default: as the table names it)")->type_name("MODEL");
+  app.add_option("--columns MAP", columns,
+                 "Names of columns in the file: sztrajman-2019 (the published table), or OWN=FILE,...");
+  app.add_option("--source MODEL", source, "Source model (default: as the table names it)");
+  app.add_option("--target MODEL", target, "Target model (default: as the table names it)");
 }
 
 Table TableInput::read(std::string* bytes) const {

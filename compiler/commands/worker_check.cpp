@@ -88,18 +88,14 @@ void run(const WorkerCheck& check) {
 
 void add_worker_check_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
-      "worker-check", "Render known scenes with a worker and report what is wrong with its pictures");
-  command->group(kRendererStage);
+      "worker-check", "Render known scenes with a worker and report what is wrong with its pictures",
+      kRendererStage);
   auto options = std::make_shared<WorkerCheck>();
   command->add_option("command", options->command, "Command of the worker, or the name of a registered one")
       ->required();
   command->option_group("Pictures");
-  command->add_option("--resolution", options->resolution, "Width and height in pixels")
-      ->range(16, 1024)
-      ->capture_default_str();
-  command->add_option("--worker-timeout", options->seconds, "Seconds to wait for an answer")
-      ->positive()
-      ->capture_default_str();
+  command->add_option("--resolution", options->resolution, "Width and height in pixels")->range(16, 1024);
+  command->add_option("--worker-timeout", options->seconds, "Seconds to wait for an answer")->positive();
   command->option_group("Output");
   command->add_flag("--json", options->json, "Print the findings as JSON to standard output");
   command->footer("Example:\n  remapc worker-check \"python3 examples/lambert_worker.py\"");

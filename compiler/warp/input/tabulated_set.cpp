@@ -77,15 +77,6 @@ ProfileLayout profile_layout(const std::vector<std::string>& names, const std::s
   return layout;
 }
 
-std::vector<float> channel_values(remap::ImageReader& image, std::size_t channel,
-                                  const std::vector<std::byte>& texels) {
-  const remap::ImageLayout& layout = image.layout();
-  const remap::Channel& own = layout.channels[channel];
-  std::vector<float> values(static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.height));
-  remap::load_values(own.type, texels.data() + own.offset, layout.texel_bytes, values.size(), values.data());
-  return values;
-}
-
 void set_size(TabulatedSet& set, const remap::ImageLayout& layout) {
   set.width = static_cast<std::size_t>(layout.width);
   set.height = static_cast<std::size_t>(layout.height);
@@ -103,7 +94,7 @@ void read_profile_map(TabulatedSet& set) {
   material.samples.resize(static_cast<Eigen::Index>(layout.columns.size()),
                           static_cast<Eigen::Index>(set.width * set.height));
   for (std::size_t row = 0; row < layout.columns.size(); ++row) {
-    const std::vector<float> values = channel_values(image, layout.columns[row], texels);
+    const std::vector<float> values = channel_values(image.layout(), layout.columns[row], texels);
     material.samples.row(static_cast<Eigen::Index>(row)) =
         Eigen::Map<const Eigen::RowVectorXf>(values.data(), static_cast<Eigen::Index>(values.size()));
   }
@@ -180,7 +171,7 @@ void read_index_map(const fs::path& folder, TabulatedSet& set) {
   set_size(set, layout);
   const auto entries = static_cast<double>(set.material.samples.cols());
   const double largest = largest_of(layout.channels[0].type);
-  for (const float value : channel_values(image, 0, texels_of(image))) {
+  for (const float value : channel_values(layout, 0, texels_of(image))) {
     const double entry = std::round(static_cast<double>(value) * largest);
     const bool is_entry = entry >= 0.0 && entry < entries;  // also false for NaN
     set.material.entries.push_back(is_entry ? static_cast<std::uint32_t>(entry) : kNoEntry);

@@ -1,14 +1,45 @@
-#include "warp/input/stroke_masks.hpp"
+// Strokes in masks and boxes, and the images of strokes.
+#include "warp/input/strokes.hpp"
 
 #include <sstream>
 
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
-#include "warp/input/stroke_image.hpp"
+#include "warp/input/image_texels.hpp"
 
 namespace remapc {
+namespace {
+
 using remap::Error;
 using remap::ErrorKind;
+
+// For example `96x64`.
+std::string size_text(std::size_t width, std::size_t height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+void read_stroke_image(const std::filesystem::path& image, const MapFrame& material,
+                       const StrokeChannel& use) {
+  remap::ImageReader reader(image);
+  const remap::ImageLayout& layout = reader.layout();
+  const auto width = static_cast<std::size_t>(layout.width), height = static_cast<std::size_t>(layout.height);
+  if (width != material.width || height != material.height)
+    throw Error(ErrorKind::kInput, image.string() + ": size " + size_text(width, height) +
+                                       " does not match the maps of " + material.name + " (" +
+                                       size_text(material.width, material.height) + ")");
+  const std::vector<std::byte> texels = texels_of(reader);
+  for (std::size_t c = 0; c < layout.channels.size(); ++c)
+    use(channel_values(layout, c, texels), static_cast<int>(c) == layout.alpha_channel);
+}
+
+void require_background(const std::filesystem::path& image, std::size_t marked, const MapFrame& material) {
+  if (4 * marked > 3 * material.width * material.height)
+    throw Error(ErrorKind::kInput, image.string() +
+                                       ": strokes cover more than three quarters of the image (check whether "
+                                       "it is inverted)");
+}
 
 std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MapFrame& material) {
   std::vector<char> marked(material.width * material.height, 0);
