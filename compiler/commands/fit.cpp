@@ -3,12 +3,10 @@
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <memory>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/share_progress.hpp"
@@ -18,16 +16,13 @@
 #include "fit/parametric/parametric_form.hpp"
 #include "fit/rows/split.hpp"
 #include "fit_file/fit_json.hpp"
-#include "remap/error.hpp"
 #include "report/fit_plot.hpp"
 #include "system/files.hpp"
 #include "table/domain.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 // Larger values are assumed to be typos: the networks of the paper have 300 units.
 constexpr int kMostUnits = 4096, kMostStarts = 1000;
@@ -47,8 +42,8 @@ struct FitCommand {
 void require_consistent(const FitCommand& command, const remap::Command& app) {
   const auto require_model = [&](const std::string& option, const std::string& model) {
     if (app.count(option) != 0 && command.model != "auto" && command.model != model)
-      throw Error(ErrorKind::kUsage,
-                  option + " cannot be used with --model " + command.model + " (use " + model + " or auto)");
+      throw usage_error(option + " cannot be used with --model " + command.model + " (use " + model +
+                        " or auto)");
   };
   require_model("--form", "parametric");
   for (const std::string option : {"--layers", "--activation", "--starts"}) require_model(option, "mlp");
@@ -86,15 +81,12 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
 // A table of metallic materials can only be fitted from specular to metallic, by a network.
 void require_material_options(const FitCommand& command) {
   if (!command.swap)
-    throw Error(ErrorKind::kUsage,
-                command.table.path +
-                    ": metallic to specular is exact by equation (2) and needs no fit (use "
-                    "--swap to fit the inverse)");
+    throw usage_error(
+        command.table.path +
+        ": metallic to specular is exact by equation (2) and needs no fit (use --swap to fit the inverse)");
   if (command.model != "auto" && command.model != "mlp")
-    throw Error(ErrorKind::kUsage,
-                "--model " + command.model + ": not available for a table of materials (use mlp)");
-  if (!command.plot.empty())
-    throw Error(ErrorKind::kUsage, "--plot: not available for a table of materials (remove it)");
+    throw usage_error("--model " + command.model + ": not available for a table of materials (use mlp)");
+  if (!command.plot.empty()) throw usage_error("--plot: not available for a table of materials (remove it)");
 }
 
 MaterialNetworkOptions network_options(const FitCommand& command, const remap::Command& app) {
@@ -136,11 +128,10 @@ void require_output_folder(const std::filesystem::path& folder) {
     existing = existing.parent_path();
   if (!std::filesystem::exists(existing)) existing = ".";
   if (!std::filesystem::is_directory(existing))
-    throw Error(ErrorKind::kOutput,
-                folder.string() + ": cannot be made a folder (" + existing.string() + " is not a folder)");
+    throw output_error(folder.string() + ": cannot be made a folder (" + existing.string() +
+                       " is not a folder)");
   if (::access(existing.c_str(), W_OK) != 0)
-    throw Error(ErrorKind::kOutput,
-                folder.string() + ": cannot be written (" + existing.string() + " is read-only)");
+    throw output_error(folder.string() + ": cannot be written (" + existing.string() + " is read-only)");
 }
 
 void run_on(const MaterialTable& table, const std::string& bytes, const FitCommand& command,
@@ -191,9 +182,9 @@ void add_regression_options(remap::Command& app, FitCommand& command) {
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
                "(remapc sample): a network from specular to metallic");
   app.option_group(remap::kRareOptions);
-  app.add_option("--form FORM", regression.form,
-                 "Parametric: paper, paper+pole or ROUGHNESS/SPECULAR, see below (default: chosen by "
-                 "cross-validation)");
+  app.add_option(
+      "--form FORM", regression.form,
+      "Parametric: paper, paper+pole or ROUGHNESS/SPECULAR, see below (default: chosen by cross-validation)");
   app.add_option("--layers", regression.mlp.hidden, "Network: units of each hidden layer, as 16,16")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -222,12 +213,12 @@ void add_output_options(remap::Command& app, FitCommand& command) {
 
 void add_fit_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand("fit", "Fit a table and write <id>.json", kFitStage);
-  auto options = std::make_shared<FitCommand>();
-  options->table.add_options(*command);
-  add_output_options(*command, *options);
-  add_regression_options(*command, *options);
+  FitCommand& options =
+      set_work<FitCommand>(*command, [command](const FitCommand& given) { run(given, *command); });
+  options.table.add_options(*command);
+  add_output_options(*command, options);
+  add_regression_options(*command, options);
   command->footer(form_list() + "\nExample:\n  remapc fit ward_to_as.csv -o fits --plot fits/ward_to_as.svg");
-  command->callback([options, command] { run(*options, *command); });
 }
 
 }  // namespace remapc

@@ -5,17 +5,21 @@
 
 #include "command_line/interruption.hpp"
 #include "commands/parameter_setting.hpp"
-#include "remap/error.hpp"
 #include "system/files.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
-
 std::string one_decimal(double value) { return remap::number_text(std::round(10.0 * value) / 10.0); }
+
+// `, 12 pictures rendered and 30 from the cache`; empty if no worker was used.
+std::string pictures_text(const PictureCount& pictures) {
+  if (pictures.rendered + pictures.cached == 0) return "";
+  return ", " + std::to_string(pictures.rendered) + " pictures rendered and " +
+         std::to_string(pictures.cached) + " from the cache";
+}
 
 }  // namespace
 
@@ -38,8 +42,8 @@ ParameterRoles RoleOptions::roles(const std::string& side) const {
     const std::string option = "--" + side + "-set";
     const ParameterSetting setting = parse_setting(option, text);
     if (setting.values.size() != 1)
-      throw Error(ErrorKind::kUsage, option + " " + text + ": " + std::to_string(setting.values.size()) +
-                                         " values given (give one: sweeps are grey)");
+      throw usage_error(option + " " + text + ": " + std::to_string(setting.values.size()) +
+                        " values given (give one: sweeps are grey)");
     roles.fixed[setting.name] = setting.values[0];
   }
   return roles;
@@ -103,15 +107,18 @@ Measurement::Measurement(const MeasurementOptions& options) : options_(options) 
 
 SweepExecution Measurement::start(const std::string& label, std::size_t rows) {
   if (!options_.force && std::filesystem::exists(options_.output))
-    throw Error(ErrorKind::kOutput, options_.output.string() + ": already exists (--force overwrites)");
+    throw output_error(options_.output.string() + ": already exists (--force overwrites)");
   remap::create_parent(options_.output);
-  progress_.emplace(renderer_.get(), label + " " + options_.pair.source + " -> " + options_.pair.target, rows,
-                    !options_.quiet);
+  const std::string models = label + " " + options_.pair.source + " -> " + options_.pair.target;
+  progress_.emplace(models, rows, !options_.quiet);
+  renderer_->watch(
+      [this, models](const PictureCount& pictures) { progress_->relabel(models + pictures_text(pictures)); });
   return {options_.jobs, [this](std::size_t done, std::size_t) { progress_->advance_to(done); },
           &remap::interruption()};
 }
 
 void Measurement::write(const std::string& table) {
+  renderer_->watch(nullptr);
   progress_.reset();
   remap::write_file(options_.output, table);
   for (const std::string& remark : renderer_->remarks()) std::cerr << "remapc: " << remark << "\n";

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "command_line/progress.hpp"
 #include "commands/renderer_options.hpp"
 #include "sweep/sweep_options.hpp"
 #include "table/table.hpp"
@@ -77,8 +78,8 @@ class Measurement {
 
   const MeasurementOptions& options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::optional<remap::Progress> progress_;  // of rows; its label also counts the pictures of workers
   std::unique_ptr<RendererSet> renderer_;
-  std::optional<PictureProgress> progress_;
 };
 
 }  // namespace remapc

@@ -3,23 +3,20 @@
 #include <sstream>
 
 #include "probe/objective.hpp"
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 
-using remap::Error;
-using remap::ErrorKind;
-
 ParameterSetting parse_setting(const std::string& option, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos)
-    throw Error(ErrorKind::kUsage, option + " " + text + ": '=' missing (write NAME=VALUE or NAME=R,G,B)");
+    throw usage_error(option + " " + text + ": '=' missing (write NAME=VALUE or NAME=R,G,B)");
   ParameterSetting setting{text.substr(0, equals), {}};
   std::istringstream items(text.substr(equals + 1));
   for (std::string item; std::getline(items, item, ',');) {
     const auto value = remap::parse_number(item);
-    if (!value) throw Error(ErrorKind::kUsage, option + " " + text + ": '" + item + "' is not a number");
+    if (!value) throw usage_error(option + " " + text + ": '" + item + "' is not a number");
     setting.values.push_back(*value);
   }
   return setting;
@@ -28,7 +25,7 @@ ParameterSetting parse_setting(const std::string& option, const std::string& tex
 Light parse_light(const std::string& text, double distance) {
   const std::vector<Light> lights = parse_lights(text, distance);
   if (lights.size() != 1)
-    throw Error(ErrorKind::kUsage, "--light: " + std::to_string(lights.size()) + " lights given (give one)");
+    throw usage_error("--light: " + std::to_string(lights.size()) + " lights given (give one)");
   return lights.front();
 }
 

@@ -3,19 +3,17 @@
 
 #include <iomanip>
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/parameter_setting.hpp"
 #include "commands/renderer_options.hpp"
 #include "manifest/fit_folder.hpp"
-#include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "report/lit_preview.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -142,7 +140,7 @@ void add_environment_options(remap::Command& command, PreviewCommand& options) {
 void require_environment(const remap::Command& command, const PreviewCommand& options) {
   for (const char* option : {"--exposure", "--diffuse", "--directions"})
     if (options.environment.empty() && command.count(option) > 0)
-      throw remap::Error(remap::ErrorKind::kUsage, std::string(option) + " needs --environment");
+      throw usage_error(std::string(option) + " needs --environment");
 }
 
 }  // namespace
@@ -151,47 +149,46 @@ void add_preview_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
       "preview", "Render a source model and its conversion side by side, and print their similarity",
       kLookStage);
-  auto options = std::make_shared<PreviewCommand>();
-  command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
+  PreviewCommand& options = set_work<PreviewCommand>(*command, [command](const PreviewCommand& given) {
+    require_environment(*command, given);
+    run(given);
+  });
+  command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
   command->option_group("Input");
-  command->add_option("--fits FOLDER", options->fit_folder, "Folder where ids are looked up");
+  command->add_option("--fits FOLDER", options.fit_folder, "Folder where ids are looked up");
   command->option_group("Output");
   command->add_option(
-      "-o,--output FILE", options->output,
+      "-o,--output FILE", options.output,
       "PNG to write: a column per alpha; source, conversion, and their difference times four");
-  command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
+  command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->option_group("Materials and pictures");
   command
-      ->add_option("--alpha ALPHA,...", options->options.alphas,
+      ->add_option("--alpha ALPHA,...", options.options.alphas,
                    "Alphas of the source, comma-separated (default: four values of the fit's domain)")
       ->delimiter(',');
   command
-      ->add_option("--specular VALUE or R,G,B", options->options.specular,
+      ->add_option("--specular VALUE or R,G,B", options.options.specular,
                    "Specular of the source (default: half the maximum of the fit's domain)")
       ->delimiter(',');
-  command->add_option("--shape SHAPE,...", options->shapes, "Shapes, comma-separated: sphere, torus")
+  command->add_option("--shape SHAPE,...", options.shapes, "Shapes, comma-separated: sphere, torus")
       ->delimiter(',');
-  command->add_option("--light LIGHT", options->light, "Light: headlight, or degrees from the camera");
-  command->add_option("--resolution", options->options.resolution, "Width and height of each picture")
+  command->add_option("--light LIGHT", options.light, "Light: headlight, or degrees from the camera");
+  command->add_option("--resolution", options.options.resolution, "Width and height of each picture")
       ->range(16, 2048);
-  add_environment_options(*command, *options);
+  add_environment_options(*command, options);
   command->option_group(remap::kRareOptions);
-  command->add_option("--distance", options->distance, "Distance of the light, in sphere radii");
+  command->add_option("--distance", options.distance, "Distance of the light, in sphere radii");
   command
-      ->add_option("--pixel-samples", options->options.samples_per_axis,
+      ->add_option("--pixel-samples", options.options.samples_per_axis,
                    "N x N samples per pixel; 1: the pixel center")
       ->range(1, 16);
-  add_renderer_options(*command, options->renderers);
+  add_renderer_options(*command, options.renderers);
   command->footer(
       "Example:\n"
       "  remapc preview mitsuba_ward_to_mitsuba_ggx --specular 0.4,0.3,0.1 \\\n"
       "    -o preview.png\n"
       "  remapc preview mitsuba_ward_to_mitsuba_as --environment studio \\\n"
       "    -o preview.png");
-  command->callback([options, command] {
-    require_environment(*command, *options);
-    run(*options);
-  });
 }
 
 }  // namespace remapc

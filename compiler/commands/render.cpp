@@ -1,21 +1,16 @@
 // `remapc render` renders one picture of the sweep scene.
-#include <memory>
 
-#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "commands/parameter_setting.hpp"
 #include "commands/renderer_options.hpp"
 #include "probe/objective.hpp"
-#include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/renderer.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 struct RenderOptions {
   std::string model;
@@ -40,8 +35,8 @@ Material parse_material(const ModelDescription& model, const std::vector<std::st
     const bool has_standard =
         parameter.role == ParameterRole::kDiffuse || parameter.role == ParameterRole::kOther;
     if (!has_standard)
-      throw Error(ErrorKind::kUsage, model.name + ": parameter " + parameter.name + " is required (--set " +
-                                         parameter.name + "=VALUE)");
+      throw usage_error(model.name + ": parameter " + parameter.name + " is required (--set " +
+                        parameter.name + "=VALUE)");
     material.parameters[parameter.name] = {parameter.standard};
   }
   return material;
@@ -71,32 +66,31 @@ void run(const RenderOptions& options) {
 void add_render_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
       "render", "Render one picture of the sweep scene: a sphere under a point light", kMeasureStage);
-  auto options = std::make_shared<RenderOptions>();
+  RenderOptions& options = set_work<RenderOptions>(*command, run);
   command->option_group("Material");
   command
-      ->add_option("--model MODEL", options->model,
+      ->add_option("--model MODEL", options.model,
                    "Model, as mitsuba/ward; remapc list --models and remapc renderers list them")
       ->required();
   command
-      ->add_option("--set NAME=VALUE or NAME=R,G,B", options->settings,
+      ->add_option("--set NAME=VALUE or NAME=R,G,B", options.settings,
                    "Parameter of the model; may be repeated")
       ->allow_extra_args(false);
   command->option_group("Output");
-  command->add_option("-o,--output FILE", options->output, "EXR file to write, linear float")->required();
+  command->add_option("-o,--output FILE", options.output, "EXR file to write, linear float")->required();
   command->option_group("Picture");
-  command->add_option("--light LIGHT", options->light, "Light: headlight, or degrees from the camera");
-  command->add_option("--resolution", options->resolution, "Width and height in pixels");
-  command->add_option("--pixel-samples", options->pixel_samples,
+  command->add_option("--light LIGHT", options.light, "Light: headlight, or degrees from the camera");
+  command->add_option("--resolution", options.resolution, "Width and height in pixels");
+  command->add_option("--pixel-samples", options.pixel_samples,
                       "N x N samples per pixel; 1: the pixel center");
   command->option_group(remap::kRareOptions);
-  command->add_option("--distance", options->distance, "Distance of the light, in sphere radii");
-  command->add_option("--seed", options->seed, "Seed of renderers with noise");
-  add_renderer_options(*command, options->renderers);
+  command->add_option("--distance", options.distance, "Distance of the light, in sphere radii");
+  command->add_option("--seed", options.seed, "Seed of renderers with noise");
+  add_renderer_options(*command, options.renderers);
   command->footer(
       "Example:\n"
       "  remapc render --model mitsuba/ward --set alpha=0.2 \\\n"
       "    --set specular=0.9,0.6,0.2 --light 45 -o sphere.exr");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

@@ -8,10 +8,9 @@ namespace remapc {
 
 void add_renderer_options(remap::Command& app, RendererOptions& options) {
   app.option_group("Rare: external renderers (remapc renderers lists them)");
-  app.add_option(
-         "--worker NAME=COMMAND", options.workers,
-         "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; may be "
-         "repeated")
+  app.add_option("--worker NAME=COMMAND", options.workers,
+                 "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; "
+                 "may be repeated")
       ->allow_extra_args(false);
   app.add_option("--worker-processes", options.processes, "Processes per worker, 0: one per core");
   app.add_option("--worker-timeout", options.seconds, "Seconds to wait for an answer of a worker")
@@ -29,21 +28,6 @@ WorkerSettings worker_settings(const RendererOptions& options) {
   settings.limits.cancelled = &remap::interruption();
   return settings;
 }
-
-std::string pictures_text(const PictureCount& pictures) {
-  if (pictures.rendered + pictures.cached == 0) return "";
-  return ", " + std::to_string(pictures.rendered) + " pictures rendered and " +
-         std::to_string(pictures.cached) + " from the cache";
-}
-
-PictureProgress::PictureProgress(RendererSet* renderers, const std::string& label, std::size_t total,
-                                 bool shown)
-    : renderers_(renderers), progress_(label, total, shown) {
-  renderers_->watch(
-      [this, label](const PictureCount& pictures) { progress_.relabel(label + pictures_text(pictures)); });
-}
-
-PictureProgress::~PictureProgress() { renderers_->watch(nullptr); }
 
 std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options) {
   return std::make_unique<RendererSet>(known_workers(options.workers), worker_settings(options));

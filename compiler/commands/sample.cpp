@@ -1,11 +1,10 @@
 // `remapc sample` matches random materials of a model and writes a table of named parameters.
-#include <memory>
 
 #include "commands/commands.hpp"
 #include "commands/measurement.hpp"
 #include "commands/parameter_setting.hpp"
-#include "remap/error.hpp"
 #include "sweep/material_sample.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
@@ -21,8 +20,7 @@ MaterialSampleOptions chosen_sample(const SampleCommand& command) {
   for (const std::string& text : command.ranges) {
     const ParameterSetting setting = parse_setting("--range", text);
     if (setting.values.size() != 2 || !(setting.values[0] < setting.values[1]))
-      throw remap::Error(remap::ErrorKind::kUsage,
-                         "--range " + text + ": not a range (write NAME=MIN,MAX with MIN below MAX)");
+      throw usage_error("--range " + text + ": not a range (write NAME=MIN,MAX with MIN below MAX)");
     options.ranges[setting.name] = {setting.values[0], setting.values[1]};
   }
   return options;
@@ -46,16 +44,16 @@ void add_options(remap::Command& app, SampleCommand& command) {
   app.option_group("Materials");
   app.add_option("--count", sample.count, "Number of random materials")->range(std::size_t{1}, kMostSamples);
   app.add_option("--seed", sample.seed, "Seed of the random materials");
-  app.add_option("--vary NAME", sample.varied,
-                 "Vary this parameter of the source in addition to roughness, specular and diffuse; may be "
-                 "repeated")
+  app.add_option(
+         "--vary NAME", sample.varied,
+         "Vary this parameter of the source in addition to roughness, specular and diffuse; may be repeated")
       ->allow_extra_args(false);
   app.add_option("--range NAME=MIN,MAX", command.ranges,
                  "Range of a parameter of the source, in its own unit; may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--search NAME", sample.searched,
-                 "Match this parameter of the target in addition to roughness, specular and diffuse; may be "
-                 "repeated")
+  app.add_option(
+         "--search NAME", sample.searched,
+         "Match this parameter of the target in addition to roughness, specular and diffuse; may be repeated")
       ->allow_extra_args(false);
   app.add_flag("--grey", sample.grey, "Use grey materials, with one value per color");
   command.add_picture_options(app);
@@ -68,16 +66,15 @@ void add_sample_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
       "sample", "Match random materials of many parameters with the target model, and write the table",
       kMeasureStage);
-  auto options = std::make_shared<SampleCommand>();
-  options->pair.resolution = 128;
-  add_options(*command, *options);
+  SampleCommand& options = set_work<SampleCommand>(*command, run);
+  options.pair.resolution = 128;
+  add_options(*command, options);
   command->footer(
       "Example:\n"
       "  remapc sample --source mitsuba/ggx-metallic --target mitsuba/ggx \\\n"
       "    --vary metallic --vary specular --count 1000 --seed 7 -o metallic_to_ggx.csv\n"
       "  remapc sample --source mitsuba/ggx --target mitsuba/ggx-metallic \\\n"
       "    --search metallic --grey -o ggx_to_metallic.csv");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

@@ -2,41 +2,38 @@
 #include "sweep/sweep.hpp"
 
 #include <iostream>
-#include <memory>
 
 #include "commands/commands.hpp"
 #include "commands/measurement.hpp"
-#include "remap/error.hpp"
+#include "commands/table_input.hpp"
 #include "sweep/provenance.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
 using remap::number_text;
 
 struct SweepCommand : MeasurementOptions {
   SweepOptions sweep;  // without the pair and the samples
   std::size_t roughness_samples = 30, specular_samples = 30;
   std::vector<double> roughness_range = {0.01, 1.0}, specular_range;
-  std::string samples_of, columns;
+  TableInput samples_of;  // without a path: a grid
 };
 
 remap::Range parse_range(const std::string& option, const std::vector<double>& values) {
   if (values.size() != 2 || !(values[0] <= values[1]))
-    throw Error(ErrorKind::kUsage, option + ": not a range (write MIN,MAX with MIN not above MAX)");
+    throw usage_error(option + ": not a range (write MIN,MAX with MIN not above MAX)");
   return {values[0], values[1]};
 }
 
 void choose_samples(const SweepCommand& command, const Renderer& renderer, SweepOptions* options) {
-  if (!command.samples_of.empty()) {
-    const Table table =
-        read_table(command.samples_of, command.columns.empty() ? ColumnMap{} : column_map(command.columns));
+  if (!command.samples_of.path.empty()) {
+    const Table table = command.samples_of.read();
     for (const TableRow& row : table.rows) options->samples.push_back({row.alpha1, row.specular1});
     options->sampling = std::to_string(table.rows.size()) + " of " +
-                        std::filesystem::path(command.samples_of).filename().string();
+                        std::filesystem::path(command.samples_of.path).filename().string();
     return;
   }
   const remap::Range alphas = parse_range("--roughness-range", command.roughness_range);
@@ -86,7 +83,8 @@ void add_sample_options(remap::Command& app, SweepCommand& command) {
       ->delimiter(',')
       ->expected(1, 2);
   app.add_option("--diffuse", command.sweep.diffuse, "Diffuse reflectance of the source in every sample");
-  app.add_option("--samples-of FILE", command.samples_of, "Use the samples of this table instead of a grid");
+  app.add_option("--samples-of FILE", command.samples_of.path,
+                 "Use the samples of this table instead of a grid");
 }
 
 void add_options(remap::Command& app, SweepCommand& command) {
@@ -94,12 +92,11 @@ void add_options(remap::Command& app, SweepCommand& command) {
   add_sample_options(app, command);
   command.add_picture_options(app);
   app.option_group(remap::kRareOptions);
-  app.add_option("--columns MAP", command.columns,
+  app.add_option("--columns MAP", command.samples_of.columns,
                  "Names of columns in the table of --samples-of: sztrajman-2019, or OWN=FILE,...");
-  app.add_option(
-         "--stages", command.sweep.stages,
-         "2: match diffuse, then specular; 1: all at once from a fixed start; 3: all at once from the "
-         "result of 2")
+  app.add_option("--stages", command.sweep.stages,
+                 "2: match diffuse, then specular; 1: all at once from a fixed start; 3: all at once from "
+                 "the result of 2")
       ->range(1, 3);
   command.add_execution_options(app);
 }
@@ -109,8 +106,8 @@ void add_options(remap::Command& app, SweepCommand& command) {
 void add_sweep_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
       "sweep", "Match a grid of source materials with the target model, and write the table", kMeasureStage);
-  auto options = std::make_shared<SweepCommand>();
-  add_options(*command, *options);
+  SweepCommand& options = set_work<SweepCommand>(*command, run);
+  add_options(*command, options);
   command->footer(
       "Example:\n"
       "  remapc sweep --source mitsuba/ward --target mitsuba/as -o ward_to_as.csv\n"
@@ -118,7 +115,6 @@ void add_sweep_command(remap::Command& app) {
       "    --resolution 256 -o radiance_to_ggx.csv\n"
       "  remapc sweep --source mitsuba/ggx-metallic --source-set metallic=0.5 \\\n"
       "    --target mitsuba/ggx -o half_metal.csv");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

@@ -4,21 +4,18 @@
 
 #include <chrono>
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "fit_file/fit_json.hpp"
-#include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "report/warp_report.hpp"
 #include "system/files.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
-#include "warp/copy_error.hpp"
 #include "warp/input/copied_set.hpp"
 #include "warp/input/strokes.hpp"
 #include "warp/input/tabulated_set.hpp"
@@ -26,9 +23,6 @@
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 struct WarpCommand {
   std::string source, target;
@@ -54,17 +48,16 @@ std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& s
          read_color_strokes(command.paintings[i], source, command.paintings[i + 1], target))
       strokes.push_back(std::move(pair));
   if (strokes.empty())
-    throw Error(
-        ErrorKind::kUsage,
-        "no strokes given (use --strokes SOURCE_IMAGE TEMPLATE_IMAGE, --stroke SOURCE_MASK TEMPLATE_MASK, "
-        "or --box SOURCE_BOX TEMPLATE_BOX)");
+    throw usage_error(
+        "no strokes given (use --strokes SOURCE_IMAGE TEMPLATE_IMAGE, --stroke SOURCE_MASK TEMPLATE_MASK, or "
+        "--box SOURCE_BOX TEMPLATE_BOX)");
   return strokes;
 }
 
 WarpOptions options_of(const WarpCommand& command, AppearanceDistance usual) {
   WarpOptions options = command.options;
-  options.method = *method_from_name(command.method);
-  options.distance = distance_from_name(command.distance).value_or(usual);
+  options.method = *remap::value_named(kWarpMethods, command.method);
+  options.distance = remap::value_named(kAppearanceDistances, command.distance).value_or(usual);
   return options;
 }
 
@@ -135,11 +128,10 @@ void print_words(const std::filesystem::path& name, const WarpDiagnostics& found
 
 void require_outputs(const WarpCommand& command) {
   if (command.output.empty() && command.copy.empty())
-    throw Error(ErrorKind::kUsage, "--output is required (or --copy FOLDER)");
+    throw usage_error("--output is required (or --copy FOLDER)");
   if (!command.output.empty() && !remap::is_valid_id(command.output.stem().string()))
-    throw Error(ErrorKind::kUsage,
-                "--output: " + command.output.string() +
-                    " is not usable as an id (use letters, digits and single underscores before .json)");
+    throw usage_error("--output: " + command.output.string() +
+                      " is not usable as an id (use letters, digits and single underscores before .json)");
   if (!command.report.empty()) require_report_path(command.report);
 }
 
@@ -208,11 +200,9 @@ MapFrame frame_of(const MaterialSet& set) {
 void require_copy_alone(const WarpCommand& command) {
   const std::string table = is_tabulated_folder(command.source) ? command.source : command.target;
   if (!command.output.empty() || command.copy.empty())
-    throw Error(ErrorKind::kUsage,
-                table + ": a table cannot be fitted (use --copy FOLDER instead of --output)");
+    throw usage_error(table + ": a table cannot be fitted (use --copy FOLDER instead of --output)");
   if (!command.report.empty())
-    throw Error(ErrorKind::kUsage,
-                "--report: not available for tables such as " + table + " (remove this option)");
+    throw usage_error("--report: not available for tables such as " + table + " (remove this option)");
 }
 
 // Tables have no parameters to fit, so texels are copied.
@@ -247,8 +237,7 @@ void add_stroke_options(remap::Command& app, WarpCommand& command) {
   app.option_group("Strokes");
   app.add_option(
          "--strokes SOURCE_IMAGE TEMPLATE_IMAGE", command.paintings,
-         "Two images with a color for each region, on a transparent background or on the most frequent "
-         "color")
+         "Two images with a color for each region, on a transparent background or on the most frequent color")
       ->type_size(2);
   app.add_option("--stroke SOURCE_MASK TEMPLATE_MASK", command.masks,
                  "Two masks that mark one region; may be repeated")
@@ -266,10 +255,11 @@ void add_method_options(remap::Command& app, WarpCommand& command) {
                  "BRDF model of the template's maps and of the result");
   app.add_flag("--exact", command.options.exact, "Copy texels of the template instead of blending them");
   app.option_group(remap::kRareOptions);
-  app.add_option("--method", command.method, "Method that finds the warp")->one_of(method_names());
+  app.add_option("--method", command.method, "Method that finds the warp")
+      ->one_of(remap::names_of(kWarpMethods));
   app.add_option("--distance", command.distance,
                  "Distance between reflectances (default: relative; plain for scattering profiles)")
-      ->one_of(distance_names());
+      ->one_of(remap::names_of(kAppearanceDistances));
   app.add_option("--dimensions", command.options.dimensions,
                  "Dimensions of appearance space, 0: as many as needed")
       ->range(0, 3);
@@ -281,29 +271,27 @@ void add_warp_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
       "warp", "Give one texture set the reflectance of another, guided by strokes (An et al. 2011)",
       kWarpStage);
-  auto options = std::make_shared<WarpCommand>();
+  WarpCommand& options = set_work<WarpCommand>(*command, run);
   command
-      ->add_option("source", options->source,
+      ->add_option("source", options.source,
                    "Folder of the set that keeps its pattern; may hold a diffuse map only")
       ->required();
-  command->add_option("template", options->target, "Folder of the set whose reflectance is used")->required();
-  add_stroke_options(*command, *options);
+  command->add_option("template", options.target, "Folder of the set whose reflectance is used")->required();
+  add_stroke_options(*command, options);
   command->option_group("Output");
-  command->add_option("-o,--output FILE", options->output, "File for the fit; its name is the fit's id");
-  command->add_option("--copy FOLDER", options->copy,
+  command->add_option("-o,--output FILE", options.output, "File for the fit; its name is the fit's id");
+  command->add_option("--copy FOLDER", options.copy,
                       "Folder for the exact copy: maps of texels copied from the template, and an index map");
   command->add_option(
-      "--report FILE", options->report,
-      "Pictures of materials, strokes, appearance spaces and result: .html with the diagnostics, or "
-      ".png");
-  command->add_flag("--json", options->json, "Print the diagnostics as JSON to standard output");
-  add_method_options(*command, *options);
+      "--report FILE", options.report,
+      "Pictures of materials, strokes, appearance spaces and result: .html with the diagnostics, or .png");
+  command->add_flag("--json", options.json, "Print the diagnostics as JSON to standard output");
+  add_method_options(*command, options);
   command->footer(
       "Example:\n"
       "  remapc warp brown_leaf green_leaf \\\n"
       "    --stroke brown_stem.png green_stem.png \\\n"
       "    --stroke brown_body.png green_body.png -o leaf.json");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

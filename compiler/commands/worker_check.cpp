@@ -2,15 +2,14 @@
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
-#include "remap/error.hpp"
+#include "text/errors.hpp"
+#include "text/named_values.hpp"
 #include "worker/conformance.hpp"
 #include "worker/worker_list.hpp"
 
@@ -24,17 +23,9 @@ struct WorkerCheck {
   bool json = false;
 };
 
-const char* verdict_word(WorkerFinding::Verdict verdict) {
-  switch (verdict) {
-    case WorkerFinding::Verdict::kGood:
-      return "good";
-    case WorkerFinding::Verdict::kRemark:
-      return "remark";
-    case WorkerFinding::Verdict::kWrong:
-      return "wrong";
-  }
-  return "";
-}
+using Verdict = WorkerFinding::Verdict;
+constexpr remap::NamedValues<Verdict, 3> kVerdicts = {
+    {{Verdict::kGood, "good"}, {Verdict::kRemark, "remark"}, {Verdict::kWrong, "wrong"}}};
 
 // The registered worker of that name, or else a worker with that command.
 WorkerEntry entry_of(const std::string& command) {
@@ -48,7 +39,7 @@ void print(const std::vector<WorkerFinding>& findings) {
   for (const WorkerFinding& finding : findings) {
     if (finding.model != model) std::cout << finding.model << "\n";
     model = finding.model;
-    std::cout << "  " << std::left << std::setw(8) << verdict_word(finding.verdict) << std::setw(16)
+    std::cout << "  " << std::left << std::setw(8) << name_of(kVerdicts, finding.verdict) << std::setw(16)
               << finding.check << finding.words << "\n";
   }
 }
@@ -62,14 +53,14 @@ void run(const WorkerCheck& check) {
   Worker worker(entry_of(check.command), settings.limits, folder.path() / "picture.f32");
   const std::vector<WorkerFinding> findings = check_worker(worker, check.resolution);
   const auto wrong = std::count_if(findings.begin(), findings.end(), [](const WorkerFinding& finding) {
-    return finding.verdict == WorkerFinding::Verdict::kWrong;
+    return finding.verdict == Verdict::kWrong;
   });
   if (check.json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const WorkerFinding& finding : findings)
       list.push_back({{"model", finding.model},
                       {"check", finding.check},
-                      {"verdict", verdict_word(finding.verdict)},
+                      {"verdict", name_of(kVerdicts, finding.verdict)},
                       {"words", finding.words}});
     const nlohmann::ordered_json json = {
         {"renderer", worker.description().renderer}, {"wrong", wrong}, {"findings", list}};
@@ -79,9 +70,8 @@ void run(const WorkerCheck& check) {
     print(findings);
   }
   if (wrong != 0)
-    throw remap::Error(remap::ErrorKind::kInput, "worker " + check.command + ": " + std::to_string(wrong) +
-                                                     " of " + std::to_string(findings.size()) +
-                                                     " checks failed");
+    throw input_error("worker " + check.command + ": " + std::to_string(wrong) + " of " +
+                      std::to_string(findings.size()) + " checks failed");
 }
 
 }  // namespace
@@ -90,16 +80,15 @@ void add_worker_check_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
       "worker-check", "Render known scenes with a worker and report what is wrong with its pictures",
       kRendererStage);
-  auto options = std::make_shared<WorkerCheck>();
-  command->add_option("command", options->command, "Command of the worker, or the name of a registered one")
+  WorkerCheck& options = set_work<WorkerCheck>(*command, run);
+  command->add_option("command", options.command, "Command of the worker, or the name of a registered one")
       ->required();
   command->option_group("Pictures");
-  command->add_option("--resolution", options->resolution, "Width and height in pixels")->range(16, 1024);
-  command->add_option("--worker-timeout", options->seconds, "Seconds to wait for an answer")->positive();
+  command->add_option("--resolution", options.resolution, "Width and height in pixels")->range(16, 1024);
+  command->add_option("--worker-timeout", options.seconds, "Seconds to wait for an answer")->positive();
   command->option_group("Output");
-  command->add_flag("--json", options->json, "Print the findings as JSON to standard output");
+  command->add_flag("--json", options.json, "Print the findings as JSON to standard output");
   command->footer("Example:\n  remapc worker-check \"python3 examples/lambert_worker.py\"");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

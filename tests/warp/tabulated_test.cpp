@@ -9,7 +9,7 @@
 #include "remap/error.hpp"
 #include "study/warp_sets.hpp"
 #include "warp/space/quadrature.hpp"
-#include "warp/space/sampled_features.hpp"
+#include "warp/space/features.hpp"
 #include "warp/warp.hpp"
 
 namespace {

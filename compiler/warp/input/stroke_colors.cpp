@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 #include "text/report_text.hpp"
 #include "warp/input/strokes.hpp"
 
@@ -13,8 +13,6 @@ namespace remapc {
 namespace {
 
 namespace fs = std::filesystem;
-using remap::Error;
-using remap::ErrorKind;
 
 using Color = std::uint32_t;  // 0xRRGGBB
 constexpr Color kTransparent = Color{1} << 24;
@@ -207,10 +205,9 @@ struct ColorStroke {
 };
 
 [[noreturn]] void fail_not_flat(const Painting& painting, const std::string& what) {
-  throw Error(ErrorKind::kInput,
-              painting.path.string() + ": " + what +
-                  " (paint strokes in a few flat colors with a hard brush, on black, white "
-                  "or transparent, without a picture below)");
+  throw input_error(painting.path.string() + ": " + what +
+                    " (paint strokes in a few flat colors with a hard brush, on black, white or transparent, "
+                    "without a picture below)");
 }
 
 // Removes the clusters that are edges of strokes. `first_stroke`: the index of the first cluster after the
@@ -275,10 +272,9 @@ void require_partners(const std::vector<ColorStroke>& strokes, const fs::path& i
     if (nearest_stroke(strokes, nearest.color) == k &&
         distance(nearest.color, strokes[k].color) <= kPairRadius)
       continue;
-    throw Error(ErrorKind::kInput, other_image.string() + ": has no stroke with color " +
-                                       text_of(strokes[k].color) + " of " + image.string() +
-                                       " (the nearest is " + text_of(nearest.color) +
-                                       "; every color must be in both images)");
+    throw input_error(other_image.string() + ": has no stroke with color " + text_of(strokes[k].color) +
+                      " of " + image.string() + " (the nearest is " + text_of(nearest.color) +
+                      "; every color must be in both images)");
   }
 }
 

@@ -3,15 +3,12 @@
 
 #include <sstream>
 
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 #include "warp/input/image_texels.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 // For example `96x64`.
 std::string size_text(std::size_t width, std::size_t height) {
@@ -26,9 +23,8 @@ void read_stroke_image(const std::filesystem::path& image, const MapFrame& mater
   const remap::ImageLayout& layout = reader.layout();
   const auto width = static_cast<std::size_t>(layout.width), height = static_cast<std::size_t>(layout.height);
   if (width != material.width || height != material.height)
-    throw Error(ErrorKind::kInput, image.string() + ": size " + size_text(width, height) +
-                                       " does not match the maps of " + material.name + " (" +
-                                       size_text(material.width, material.height) + ")");
+    throw input_error(image.string() + ": size " + size_text(width, height) + " does not match the maps of " +
+                      material.name + " (" + size_text(material.width, material.height) + ")");
   const std::vector<std::byte> texels = texels_of(reader);
   for (std::size_t c = 0; c < layout.channels.size(); ++c)
     use(channel_values(layout, c, texels), static_cast<int>(c) == layout.alpha_channel);
@@ -36,9 +32,8 @@ void read_stroke_image(const std::filesystem::path& image, const MapFrame& mater
 
 void require_background(const std::filesystem::path& image, std::size_t marked, const MapFrame& material) {
   if (4 * marked > 3 * material.width * material.height)
-    throw Error(ErrorKind::kInput, image.string() +
-                                       ": strokes cover more than three quarters of the image (check whether "
-                                       "it is inverted)");
+    throw input_error(image.string() +
+                      ": strokes cover more than three quarters of the image (check whether it is inverted)");
 }
 
 std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const MapFrame& material) {
@@ -51,17 +46,16 @@ std::vector<std::uint32_t> read_stroke(const std::filesystem::path& mask, const 
   for (std::uint32_t i = 0; i < marked.size(); ++i)
     if (marked[i] != 0) stroke.push_back(i);
   if (stroke.empty())
-    throw Error(ErrorKind::kInput,
-                mask.string() + ": the mask marks no texel (paint strokes brighter than 0.5)");
+    throw input_error(mask.string() + ": the mask marks no texel (paint strokes brighter than 0.5)");
   require_background(mask, stroke.size(), material);
   return stroke;
 }
 
 std::vector<std::uint32_t> box_stroke(const std::string& box, const MapFrame& material) {
   const auto fail = [&] {
-    throw Error(ErrorKind::kUsage, "--box: '" + box + "' is not a box within " +
-                                       size_text(material.width, material.height) +
-                                       " texels (use x0,y0,x1,y1 with x0 < x1 and y0 < y1)");
+    throw usage_error("--box: '" + box + "' is not a box within " +
+                      size_text(material.width, material.height) +
+                      " texels (use x0,y0,x1,y1 with x0 < x1 and y0 < y1)");
   };
   std::vector<std::size_t> corner;
   std::istringstream parts(box);
