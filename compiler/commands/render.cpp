@@ -1,9 +1,7 @@
 // `remapc render` renders one picture of the sweep scene.
-
 #include "commands/commands.hpp"
 #include "commands/parameter_setting.hpp"
 #include "commands/renderer_options.hpp"
-#include "probe/objective.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/renderer.hpp"
 #include "text/errors.hpp"
@@ -17,9 +15,7 @@ struct RenderOptions {
   std::vector<std::string> settings;  // NAME=VALUE or NAME=R,G,B
   std::string light = "headlight";
   double distance = 3.0;
-  int resolution = 512;
-  int pixel_samples = 1;
-  int seed = 0;
+  Scene scene;  // without the light
   std::string output;
   RendererOptions renderers;
 };
@@ -46,13 +42,13 @@ void run(const RenderOptions& options) {
   const auto renderer = make_renderers(options.renderers);
   const ModelDescription model = renderer->model(options.model);
   const Material material = parse_material(model, options.settings);
-  const Light light = parse_light(options.light, options.distance);
-  const Scene scene{options.resolution, options.pixel_samples, light, options.seed};
+  Scene scene = options.scene;
+  scene.light = parse_light(options.light, options.distance);
   const Image image = renderer->render(material, scene);
 
   std::map<std::string, std::string> attributes = {{"remap:renderer", renderer->version_of(model.name)},
                                                    {"remap:model", model.name},
-                                                   {"remap:light", light_name(light)}};
+                                                   {"remap:light", light_name(scene.light)}};
   for (const auto& [name, values] : material.parameters) {
     std::string text;
     for (const double value : values) text += (text.empty() ? "" : ",") + remap::number_text(value);
@@ -80,12 +76,12 @@ void add_render_command(remap::Command& app) {
   command->add_option("-o,--output FILE", options.output, "EXR file to write, linear float")->required();
   command->option_group("Picture");
   command->add_option("--light LIGHT", options.light, "Light: headlight, or degrees from the camera");
-  command->add_option("--resolution", options.resolution, "Width and height in pixels");
-  command->add_option("--pixel-samples", options.pixel_samples,
+  command->add_option("--resolution", options.scene.resolution, "Width and height in pixels");
+  command->add_option("--pixel-samples", options.scene.samples_per_axis,
                       "N x N samples per pixel; 1: the pixel center");
   command->option_group(remap::kRareOptions);
   command->add_option("--distance", options.distance, "Distance of the light, in sphere radii");
-  command->add_option("--seed", options.seed, "Seed of renderers with noise");
+  command->add_option("--seed", options.scene.seed, "Seed of renderers with noise");
   add_renderer_options(*command, options.renderers);
   command->footer(
       "Example:\n"

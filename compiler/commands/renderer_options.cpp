@@ -12,8 +12,9 @@ void add_renderer_options(remap::Command& app, RendererOptions& options) {
                  "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; "
                  "may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--worker-processes", options.processes, "Processes per worker, 0: one per core");
-  app.add_option("--worker-timeout", options.seconds, "Seconds to wait for an answer of a worker")
+  app.add_option("--worker-processes", options.settings.processes, "Processes per worker, 0: one per core");
+  app.add_option("--worker-timeout", options.settings.limits.seconds,
+                 "Seconds to wait for an answer of a worker")
       ->positive();
   app.add_option("--cache FOLDER", options.cache,
                  "Folder for pictures of workers (default: remap/pictures in the user's cache)");
@@ -21,10 +22,8 @@ void add_renderer_options(remap::Command& app, RendererOptions& options) {
 }
 
 WorkerSettings worker_settings(const RendererOptions& options) {
-  WorkerSettings settings;
+  WorkerSettings settings = options.settings;
   if (!options.no_cache) settings.cache = options.cache.empty() ? default_cache_folder() : options.cache;
-  settings.processes = options.processes;
-  settings.limits.seconds = options.seconds;
   settings.limits.cancelled = &remap::interruption();
   return settings;
 }

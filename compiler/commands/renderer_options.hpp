@@ -16,8 +16,7 @@ struct RendererOptions {
   std::vector<std::string> workers;  // NAME=COMMAND
   std::filesystem::path cache;       // empty: the default folder
   bool no_cache = false;
-  unsigned processes = 0;
-  double seconds = WorkerLimits{}.seconds;
+  WorkerSettings settings;  // without the cache
 };
 
 // Adds the options as a rare group. `options` must outlive the callback of `app`.

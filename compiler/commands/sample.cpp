@@ -1,5 +1,4 @@
 // `remapc sample` matches random materials of a model and writes a table of named parameters.
-
 #include "commands/commands.hpp"
 #include "commands/measurement.hpp"
 #include "commands/parameter_setting.hpp"

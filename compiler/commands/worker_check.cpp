@@ -19,7 +19,7 @@ namespace {
 struct WorkerCheck {
   std::string command;
   int resolution = 48;
-  double seconds = WorkerLimits{}.seconds;
+  WorkerLimits limits;
   bool json = false;
 };
 
@@ -46,11 +46,10 @@ void print(const std::vector<WorkerFinding>& findings) {
 
 void run(const WorkerCheck& check) {
   remap::watch_interruptions();
-  WorkerSettings settings;
-  settings.limits.seconds = check.seconds;
-  settings.limits.cancelled = &remap::interruption();
+  WorkerLimits limits = check.limits;
+  limits.cancelled = &remap::interruption();
   const PrivateFolder folder;
-  Worker worker(entry_of(check.command), settings.limits, folder.path() / "picture.f32");
+  Worker worker(entry_of(check.command), limits, folder.path() / "picture.f32");
   const std::vector<WorkerFinding> findings = check_worker(worker, check.resolution);
   const auto wrong = std::count_if(findings.begin(), findings.end(), [](const WorkerFinding& finding) {
     return finding.verdict == Verdict::kWrong;
@@ -85,7 +84,8 @@ void add_worker_check_command(remap::Command& app) {
       ->required();
   command->option_group("Pictures");
   command->add_option("--resolution", options.resolution, "Width and height in pixels")->range(16, 1024);
-  command->add_option("--worker-timeout", options.seconds, "Seconds to wait for an answer")->positive();
+  command->add_option("--worker-timeout", options.limits.seconds, "Seconds to wait for an answer")
+      ->positive();
   command->option_group("Output");
   command->add_flag("--json", options.json, "Print the findings as JSON to standard output");
   command->footer("Example:\n  remapc worker-check \"python3 examples/lambert_worker.py\"");

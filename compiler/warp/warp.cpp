@@ -179,11 +179,11 @@ Matched matched(const MaterialRef& source, const MaterialRef& target, const std:
   return result;
 }
 
-// The material with at most `limit` texels, all of them finite.
-WarpMaterial thinned(const WarpMaterial& material, std::size_t limit) {
+// The material with these texels only, all of them in 0 to 1.
+WarpMaterial reduced(const WarpMaterial& material, const std::vector<std::uint32_t>& texels) {
   WarpMaterial result{material.name, material.model, {}, material.is_dielectric};
-  for (const std::uint32_t texel : sample_texels(material, limit))
-    result.texels.push_back(held(material.texels[texel]));
+  result.texels.reserve(texels.size());
+  for (const std::uint32_t texel : texels) result.texels.push_back(held(material.texels[texel]));
   return result;
 }
 
@@ -201,13 +201,9 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
   fit.compiled.coordinates = std::get<remap::AppearanceCoordinates>(fit.source.coordinates);
   const std::size_t nodes =
       options.nodes != 0 ? options.nodes : default_nodes(fit.diagnostics.dimensions, options.exact);
-  WarpMaterial chosen{target.name, target.model, {}, target.is_dielectric};
-  chosen.texels.reserve(matched_texels.target.texels.size());
-  for (const std::uint32_t texel : matched_texels.target.texels)
-    chosen.texels.push_back(held(target.texels[texel]));
   fit.compiled.table =
       compile_table(fit.warp, matched_texels.source_positions, NearestTexel(matched_texels.target_positions),
-                    chosen, nodes, options.exact);
+                    reduced(target, matched_texels.target.texels), nodes, options.exact);
   return fit;
 }
 
@@ -227,7 +223,8 @@ std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const Mate
 }
 
 double copy_rms_error(const WarpFit& fit, const WarpMaterial& source, const WarpMaterial& target) {
-  const WarpMaterial from = thinned(source, kMostSampledSources), to = thinned(target, kMostCopies);
+  const WarpMaterial from = reduced(source, sample_texels(source, kMostSampledSources)),
+                     to = reduced(target, sample_texels(target, kMostCopies));
   std::vector<remap::WarpTexel> copied, compiled;
   for (const std::uint32_t texel : copy_exactly(fit, from, to)) copied.push_back(to.texels[texel]);
   for (const remap::WarpTexel& texel : from.texels)

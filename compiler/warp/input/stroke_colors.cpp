@@ -1,5 +1,4 @@
 // Strokes in two painted images, with one color for each pair.
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,4 @@
 // Features by samples, for every model, table and distance without a closed form.
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
