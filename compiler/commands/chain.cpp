@@ -1,10 +1,8 @@
 // `remapc chain` and `remapc invert` make a fit from other fits.
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/fit_table.hpp"
@@ -87,47 +85,39 @@ void run_invert(const ChainCommand& command) {
 
 void add_new_fit_options(remap::Command& app, ChainCommand& command) {
   app.option_group("Input");
-  app.add_option("--fits", command.fit_folder, "Folder where ids are looked up")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  app.add_option("--fits FOLDER", command.fit_folder, "Folder where ids are looked up");
   app.option_group("Output");
-  app.add_option("-o,--output", command.output, "Folder for the new fit")
-      ->type_name("FOLDER")
-      ->capture_default_str();
-  app.add_option("--id", command.id, "Id of the new fit (default: <source>_to_<target>)")->type_name("ID");
+  app.add_option("-o,--output FOLDER", command.output, "Folder for the new fit");
+  app.add_option("--id ID", command.id, "Id of the new fit (default: <source>_to_<target>)");
   app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
 }
 
 }  // namespace
 
 void add_chain_command(remap::Command& app) {
-  remap::Command* command =
-      app.add_subcommand("chain", "Compose several fits into one, whose header converts in a single pass");
-  command->group(kCompileStage);
-  auto options = std::make_shared<ChainCommand>();
-  command->add_option("steps", options->steps, "Fits in order: files, or ids in the folder of fits")
+  remap::Command* command = app.add_subcommand(
+      "chain", "Compose several fits into one, whose header converts in a single pass", kCompileStage);
+  ChainCommand& options = set_work<ChainCommand>(*command, run_chain);
+  command->add_option("steps", options.steps, "Fits in order: files, or ids in the folder of fits")
       ->required();
-  add_new_fit_options(*command, *options);
+  add_new_fit_options(*command, options);
   command->footer(
       "The domain of the new fit is where every step is inside its own. Its errors are those of the steps, "
       "propagated to the end.\n\n"
       "Example:\n"
       "  remapc chain mitsuba_ward_to_mitsuba_ggx mitsuba_ggx_to_cycles_2_7_ggx \\\n"
       "    -o mine");
-  command->callback([options] { run_chain(*options); });
 }
 
 void add_invert_command(remap::Command& app) {
-  remap::Command* command =
-      app.add_subcommand("invert", "Fit the inverse of a fit: from its target's parameters to its source's");
-  command->group(kCompileStage);
-  auto options = std::make_shared<ChainCommand>();
-  command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
-  add_new_fit_options(*command, *options);
+  remap::Command* command = app.add_subcommand(
+      "invert", "Fit the inverse of a fit: from its target's parameters to its source's", kCompileStage);
+  ChainCommand& options = set_work<ChainCommand>(*command, run_invert);
+  command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
+  add_new_fit_options(*command, options);
   command->footer(
       "If the measured table is at hand, `remapc fit --swap` is closer to the measurement.\n\n"
       "Example:\n  remapc invert mitsuba_ggx_to_cycles_2_7_ggx -o mine");
-  command->callback([options] { run_invert(*options); });
 }
 
 }  // namespace remapc

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
-#include "remap/error.hpp"
+#include "table/material_check.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
@@ -52,9 +51,8 @@ void run(const CheckOptions& options) {
       std::count_if(checked.findings.begin(), checked.findings.end(),
                     [](const Finding& finding) { return finding.severity == Severity::kError; });
   if (errors != 0)
-    throw remap::Error(remap::ErrorKind::kInput, checked.name + ": " + std::to_string(errors) +
-                                                     (errors == 1 ? " error prevents" : " errors prevent") +
-                                                     " a fit");
+    throw input_error(checked.name + ": " + std::to_string(errors) +
+                      (errors == 1 ? " error prevents" : " errors prevent") + " a fit");
   if (!options.json)
     std::cout << checked.name << ": " << checked.rows << " rows, can be fitted"
               << (checked.findings.empty() ? ""
@@ -66,15 +64,14 @@ void run(const CheckOptions& options) {
 }  // namespace
 
 void add_check_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand("check", "Look for faults in a table before it is fitted");
-  command->group(kMeasureStage);
-  auto options = std::make_shared<CheckOptions>();
-  options->table.add_options(*command);
+  remap::Command* command =
+      app.add_subcommand("check", "Look for faults in a table before it is fitted", kMeasureStage);
+  CheckOptions& options = set_work<CheckOptions>(*command, run);
+  options.table.add_options(*command);
   command->option_group("Output");
-  command->add_flag("--json", options->json, "Print the findings as JSON to standard output");
+  command->add_flag("--json", options.json, "Print the findings as JSON to standard output");
   command->footer(
       "The exit code is 1 if the table cannot be fitted.\n\nExample:\n  remapc check ward_to_as.csv");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

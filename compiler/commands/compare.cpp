@@ -1,11 +1,9 @@
 // `remapc compare` prints the errors of fits and of formulas in common use on one table.
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
@@ -14,14 +12,11 @@
 #include "fit/fit_table.hpp"
 #include "fit/rows/split.hpp"
 #include "manifest/fit_folder.hpp"
-#include "remap/error.hpp"
 #include "report/fit_plot.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 struct CompareOptions {
   TableInput table;
@@ -38,13 +33,8 @@ struct NamedFit {
 // The errors of a fit or a formula on the rows of the table.
 struct Entry {
   remap::Candidate candidate;
-  bool is_fit = false;
-  bool applies = true;
-  std::string file;              // of a fit
-  bool own_table = false;        // fitted from this table
-  std::size_t outside_rows = 0;  // outside its domain, not counted
-  std::string formula;           // of a baseline
-  std::string why_not;           // if it does not apply
+  nlohmann::ordered_json origin;  // where it comes from, for JSON
+  std::string why_not;            // why a formula does not apply; empty if it does
 };
 
 bool converts(const remap::Fit& fit, const Table& table) {
@@ -58,9 +48,8 @@ std::vector<NamedFit> chosen_fits(const CompareOptions& options, const Table& ta
   for (const std::string& name : options.fits) {
     const remap::Fit fit = find_fit(name, options.fit_folder);
     if (!converts(fit, table))
-      throw Error(ErrorKind::kInput, name + ": converts " + fit.source.model + " to " + fit.target.model +
-                                         ", but the table is of " + table.source.model + " to " +
-                                         table.target.model);
+      throw input_error(name + ": converts " + fit.source.model + " to " + fit.target.model +
+                        ", but the table is of " + table.source.model + " to " + table.target.model);
     fits.push_back({fit, std::filesystem::is_regular_file(name) ? name : file_of(name)});
   }
   if (options.fits.empty() && std::filesystem::is_directory(options.fit_folder))
@@ -76,46 +65,41 @@ std::string shown_name(const NamedFit& one, const std::vector<NamedFit>& all) {
   return same > 1 ? one.file : one.fit.id;
 }
 
-Entry entry_of(const NamedFit& named, const std::vector<TableRow>& rows, const std::string& digest) {
+Entry entry_of(const NamedFit& named, const std::string& name, const std::vector<TableRow>& rows,
+               const std::string& digest) {
   const remap::Fit& fit = named.fit;
-  Entry entry;
-  entry.is_fit = true;
-  entry.file = named.file;
-  entry.own_table = fit.table.sha256 == digest;
-  entry.candidate.number_count = remap::number_count(fit.mapping);
+  const bool own_table = fit.table.sha256 == digest;
   const std::vector<TableRow> inside = rows_inside(rows, fit.domain);
-  entry.outside_rows = rows.size() - inside.size();
+  const std::size_t outside = rows.size() - inside.size();
   const RowErrors errors = row_errors(fit, inside);
-  entry.candidate.alpha = errors.alpha;
-  entry.candidate.specular = errors.specular;
-  entry.candidate.chroma_shift = look_beyond(fit.mapping, fit.domain).chroma_shift;
-  if (entry.own_table) entry.candidate.verdict = "fitted from this table, training rows included";
-  if (entry.outside_rows != 0)
-    entry.candidate.verdict += (entry.own_table ? "; " : "") + std::to_string(entry.outside_rows) +
-                               " rows outside its domain skipped";
-  return entry;
+  remap::Candidate candidate;
+  candidate.name = name + " (" + fit_label(fit) + ")";
+  candidate.number_count = remap::number_count(fit.mapping);
+  candidate.alpha = errors.alpha;
+  candidate.specular = errors.specular;
+  candidate.chroma_shift = look_beyond(fit.mapping, fit.domain).chroma_shift;
+  if (own_table) candidate.verdict = "fitted from this table, training rows included";
+  if (outside != 0)
+    candidate.verdict +=
+        (own_table ? "; " : "") + std::to_string(outside) + " rows outside its domain skipped";
+  return {candidate,
+          {{"kind", "fit"},
+           {"file", named.file},
+           {"fitted_from_this_table", own_table},
+           {"rows_outside_domain", outside}},
+          ""};
 }
 
 Entry entry_of(const Baseline& baseline, const std::vector<TableRow>& rows) {
-  Entry entry;
-  entry.candidate.name = baseline.name;
-  entry.formula = baseline.formula;
-  if (!baseline.map) {
-    entry.applies = false;
-    entry.why_not = baseline.why_not;
-    entry.candidate.verdict = "does not apply: " + baseline.why_not;
-    return entry;
+  remap::Candidate candidate;
+  candidate.name = baseline.name;
+  candidate.verdict = baseline.map ? baseline.formula : "does not apply: " + baseline.why_not;
+  if (baseline.map) {
+    const Residuals residuals = residuals_of(rows, baseline.map);
+    candidate.alpha = error_figures(residuals.alpha);
+    candidate.specular = error_figures(residuals.specular);
   }
-  std::vector<double> alpha, specular;
-  for (const TableRow& row : rows) {
-    const remap::MappedTexel texel = baseline.map(row.alpha1, row.specular1);
-    alpha.push_back(texel.alpha - row.alpha2);
-    specular.push_back(texel.specular - row.specular2);
-  }
-  entry.candidate.alpha = error_figures(std::move(alpha));
-  entry.candidate.specular = error_figures(std::move(specular));
-  entry.candidate.verdict = baseline.formula;
-  return entry;
+  return {candidate, {{"kind", "baseline"}, {"formula", baseline.formula}}, baseline.why_not};
 }
 
 void print_json(const Table& table, std::size_t row_count, const std::vector<Entry>& entries) {
@@ -123,14 +107,7 @@ void print_json(const Table& table, std::size_t row_count, const std::vector<Ent
       {"table", table.name}, {"rows", row_count}, {"entries", nlohmann::json::array()}};
   for (const Entry& entry : entries) {
     nlohmann::ordered_json one = candidate_json(entry.candidate);
-    one["kind"] = entry.is_fit ? "fit" : "baseline";
-    if (entry.is_fit) {
-      one["file"] = entry.file;
-      one["fitted_from_this_table"] = entry.own_table;
-      one["rows_outside_domain"] = entry.outside_rows;
-    } else {
-      one["formula"] = entry.formula;
-    }
+    one.update(entry.origin);
     json["entries"].push_back(std::move(one));
   }
   std::cout << json.dump(2) << "\n";
@@ -140,7 +117,7 @@ void print_json(const Table& table, std::size_t row_count, const std::vector<Ent
 std::string why_not_text(const std::vector<Entry>& entries) {
   std::string text, reason;
   for (const Entry& entry : entries) {
-    if (entry.applies) continue;
+    if (entry.why_not.empty()) continue;
     if (!text.empty()) text += entry.why_not == reason ? ", " : " (" + reason + "); ";
     text += entry.candidate.name;
     reason = entry.why_not;
@@ -152,14 +129,11 @@ void run(const CompareOptions& options) {
   std::string bytes;
   const Table table = options.table.read(&bytes);
   const std::vector<TableRow> rows = usable_rows(table);
-  if (rows.empty()) throw Error(ErrorKind::kInput, table.name + ": no usable rows");
+  if (rows.empty()) throw input_error(table.name + ": no usable rows");
   std::vector<Entry> entries;
   const std::vector<NamedFit> fits = chosen_fits(options, table);
   const std::string digest = sha256(bytes);
-  for (const NamedFit& fit : fits) {
-    entries.push_back(entry_of(fit, rows, digest));
-    entries.back().candidate.name = shown_name(fit, fits) + " (" + fit_label(fit.fit) + ")";
-  }
+  for (const NamedFit& fit : fits) entries.push_back(entry_of(fit, shown_name(fit, fits), rows, digest));
   for (const Baseline& baseline : baselines(table.source, table.target))
     entries.push_back(entry_of(baseline, rows));
   if (options.json) {
@@ -168,7 +142,7 @@ void run(const CompareOptions& options) {
   }
   std::vector<remap::Candidate> candidates;
   for (const Entry& entry : entries)
-    if (entry.applies) candidates.push_back(entry.candidate);
+    if (entry.why_not.empty()) candidates.push_back(entry.candidate);
   std::cout << table.name << ": " << rows.size() << " usable rows\n"
             << candidate_text(candidates, table.target.specular) << why_not_text(entries);
 }
@@ -176,25 +150,21 @@ void run(const CompareOptions& options) {
 }  // namespace
 
 void add_compare_command(remap::Command& app) {
-  remap::Command* command =
-      app.add_subcommand("compare", "Compare fits and formulas in common use on the usable rows of a table");
-  command->group(kFitStage);
-  auto options = std::make_shared<CompareOptions>();
-  options->table.add_options(*command);
+  remap::Command* command = app.add_subcommand(
+      "compare", "Compare fits and formulas in common use on the usable rows of a table", kFitStage);
+  CompareOptions& options = set_work<CompareOptions>(*command, run);
+  options.table.add_options(*command);
   command->add_option(
-      "fit", options->fits,
+      "fit", options.fits,
       "Fits: files, or ids in the folder of fits (default: all that convert the table's models)");
-  command->add_option("--fits", options->fit_folder, "Folder of fits")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("--fits FOLDER", options.fit_folder, "Folder of fits");
   command->option_group("Output");
-  command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
+  command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->footer(
       "max is the largest error over all usable rows; chroma shift is the change of color beyond the domain. "
       "`remapc fit --model auto` prints the same table with cross-validation and errors at the domain's "
       "edge.\n\n"
       "Example:\n  remapc compare ward_to_as.csv mitsuba_ward_to_mitsuba_as");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

@@ -1,17 +1,15 @@
 // `remapc eval` prints how well a fit follows a table.
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/rows/split.hpp"
 #include "manifest/fit_folder.hpp"
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
@@ -29,8 +27,7 @@ void run(const EvalOptions& options) {
   const Table table = options.table.read(&bytes);
   const std::vector<TableRow> usable = usable_rows(table), rows = rows_inside(usable, fit.domain);
   const std::size_t outside = usable.size() - rows.size();
-  if (rows.empty())
-    throw remap::Error(remap::ErrorKind::kInput, table.name + ": no usable rows in the domain of " + fit.id);
+  if (rows.empty()) throw input_error(table.name + ": no usable rows in the domain of " + fit.id);
   const RowErrors errors = row_errors(fit, rows);
   const bool same_table = sha256(bytes) == fit.table.sha256;
   if (options.json) {
@@ -59,18 +56,14 @@ void run(const EvalOptions& options) {
 
 void add_eval_command(remap::Command& app) {
   remap::Command* command =
-      app.add_subcommand("eval", "Print the errors of a fit on the usable rows of a table");
-  command->group(kLookStage);
-  auto options = std::make_shared<EvalOptions>();
-  command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
-  options->table.add_options(*command);
-  command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+      app.add_subcommand("eval", "Print the errors of a fit on the usable rows of a table", kLookStage);
+  EvalOptions& options = set_work<EvalOptions>(*command, run);
+  command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
+  options.table.add_options(*command);
+  command->add_option("--fits FOLDER", options.fit_folder, "Folder where ids are looked up");
   command->option_group("Output");
-  command->add_flag("--json", options->json, "Print the figures as JSON to standard output");
+  command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
   command->footer("Example:\n  remapc eval fits/mitsuba_ward_to_mitsuba_as.json other.csv");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

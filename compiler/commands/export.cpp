@@ -2,11 +2,9 @@
 #include <functional>
 #include <iostream>
 #include <map>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "commands/share_progress.hpp"
 #include "emit/lookup_table.hpp"
@@ -97,49 +95,37 @@ const char* const kFormat =
     "                           each column, at lookup_error_samples points\n"
     "A row of names follows, then a row per sample: axes, then columns, in the models' own parameters. For a "
     "colored specular, look the width up at its largest channel. The table has one axis if no column depends "
-    "on "
-    "specular; --only can leave out the one that does.\n\n";
+    "on specular; --only can leave out the one that does.\n\n";
 
 }  // namespace
 
 void add_export_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
-      "export", "Write a fit as a lookup table (CSV), for tools that cannot use the header");
-  command->group(kCompileStage);
-  auto options = std::make_shared<ExportCommand>();
-  command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
+      "export", "Write a fit as a lookup table (CSV), for tools that cannot use the header", kCompileStage);
+  ExportCommand& options = set_work<ExportCommand>(*command, run);
+  command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
   command->option_group("Input");
-  command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("--fits FOLDER", options.fit_folder, "Folder where ids are looked up");
   command->option_group("Table");
-  command->add_option("--size", options->options.size, "Samples on the axis of the source's width")
-      ->range(2, static_cast<int>(kMostLookupRows))
-      ->capture_default_str();
+  command->add_option("--size", options.options.size, "Samples on the axis of the source's width")
+      ->range(2, static_cast<int>(kMostLookupRows));
   command
-      ->add_option("--size-specular", options->options.specular_size,
+      ->add_option("--size-specular", options.options.specular_size,
                    "Samples on the axis of the source's specular, if the table has it")
-      ->range(2, static_cast<int>(kMostLookupRows))
-      ->capture_default_str();
-  command->add_option("--only", options->only, "Output to write")
-      ->one_of({"both", "roughness", "specular"})
-      ->capture_default_str();
-  command->add_flag(
-      "--canonical", options->options.canonical,
-      "Write widths as alpha instead of the models' own parameters; needed for exponents, where "
-      "even steps put most materials into the first cell");
+      ->range(2, static_cast<int>(kMostLookupRows));
+  command->add_option("--only", options.only, "Output to write")->one_of({"both", "roughness", "specular"});
+  command->add_flag("--canonical", options.options.canonical,
+                    "Write widths as alpha instead of the models' own parameters; needed for exponents, "
+                    "where even steps put most materials into the first cell");
   command->option_group("Output");
-  command->add_option("-o,--output", options->output, "Table to write (default: <id>.csv)")
-      ->type_name("FILE");
-  command->add_flag("--json", options->json, "Print axes, columns and errors as JSON to standard output");
+  command->add_option("-o,--output FILE", options.output, "Table to write (default: <id>.csv)");
+  command->add_flag("--json", options.json, "Print axes, columns and errors as JSON to standard output");
   command
-      ->add_option("--jobs", options->options.jobs,
+      ->add_option("--jobs", options.options.jobs,
                    "Threads, 0: one per core; the table does not depend on it")
-      ->group(remap::kRareOptions)
-      ->capture_default_str();
+      ->group(remap::kRareOptions);
   command->footer(std::string(kFormat) +
                   "Example:\n  remapc export mitsuba_ward_to_mitsuba_as --size 129 -o ward_to_as.csv");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

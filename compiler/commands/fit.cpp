@@ -3,12 +3,10 @@
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <memory>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/share_progress.hpp"
@@ -17,17 +15,14 @@
 #include "fit/network/material_network.hpp"
 #include "fit/parametric/parametric_form.hpp"
 #include "fit/rows/split.hpp"
-#include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "report/fit_plot.hpp"
 #include "system/files.hpp"
 #include "table/domain.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 // Larger values are assumed to be typos: the networks of the paper have 300 units.
 constexpr int kMostUnits = 4096, kMostStarts = 1000;
@@ -47,8 +42,8 @@ struct FitCommand {
 void require_consistent(const FitCommand& command, const remap::Command& app) {
   const auto require_model = [&](const std::string& option, const std::string& model) {
     if (app.count(option) != 0 && command.model != "auto" && command.model != model)
-      throw Error(ErrorKind::kUsage,
-                  option + " cannot be used with --model " + command.model + " (use " + model + " or auto)");
+      throw usage_error(option + " cannot be used with --model " + command.model + " (use " + model +
+                        " or auto)");
   };
   require_model("--form", "parametric");
   for (const std::string option : {"--layers", "--activation", "--starts"}) require_model(option, "mlp");
@@ -86,15 +81,12 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
 // A table of metallic materials can only be fitted from specular to metallic, by a network.
 void require_material_options(const FitCommand& command) {
   if (!command.swap)
-    throw Error(ErrorKind::kUsage,
-                command.table.path +
-                    ": metallic to specular is exact by equation (2) and needs no fit (use "
-                    "--swap to fit the inverse)");
+    throw usage_error(
+        command.table.path +
+        ": metallic to specular is exact by equation (2) and needs no fit (use --swap to fit the inverse)");
   if (command.model != "auto" && command.model != "mlp")
-    throw Error(ErrorKind::kUsage,
-                "--model " + command.model + ": not available for a table of materials (use mlp)");
-  if (!command.plot.empty())
-    throw Error(ErrorKind::kUsage, "--plot: not available for a table of materials (remove it)");
+    throw usage_error("--model " + command.model + ": not available for a table of materials (use mlp)");
+  if (!command.plot.empty()) throw usage_error("--plot: not available for a table of materials (remove it)");
 }
 
 MaterialNetworkOptions network_options(const FitCommand& command, const remap::Command& app) {
@@ -136,11 +128,10 @@ void require_output_folder(const std::filesystem::path& folder) {
     existing = existing.parent_path();
   if (!std::filesystem::exists(existing)) existing = ".";
   if (!std::filesystem::is_directory(existing))
-    throw Error(ErrorKind::kOutput,
-                folder.string() + ": cannot be made a folder (" + existing.string() + " is not a folder)");
+    throw output_error(folder.string() + ": cannot be made a folder (" + existing.string() +
+                       " is not a folder)");
   if (::access(existing.c_str(), W_OK) != 0)
-    throw Error(ErrorKind::kOutput,
-                folder.string() + ": cannot be written (" + existing.string() + " is read-only)");
+    throw output_error(folder.string() + ": cannot be written (" + existing.string() + " is read-only)");
 }
 
 void run_on(const MaterialTable& table, const std::string& bytes, const FitCommand& command,
@@ -186,60 +177,48 @@ void add_regression_options(remap::Command& app, FitCommand& command) {
          "--model", command.model,
          "parametric: polynomials and exponentials; svr: support vectors; mlp: a small network; auto: the "
          "simplest of them that is as good as the best by cross-validation, in up to a minute")
-      ->one_of({"auto", "parametric", "svr", "mlp"})
-      ->capture_default_str();
+      ->one_of({"auto", "parametric", "svr", "mlp"});
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
                "(remapc sample): a network from specular to metallic");
   app.option_group(remap::kRareOptions);
-  app.add_option("--form", regression.form,
-                 "Parametric: paper, paper+pole or ROUGHNESS/SPECULAR, see below (default: chosen by "
-                 "cross-validation)")
-      ->type_name("FORM");
+  app.add_option(
+      "--form FORM", regression.form,
+      "Parametric: paper, paper+pole or ROUGHNESS/SPECULAR, see below (default: chosen by cross-validation)");
   app.add_option("--layers", regression.mlp.hidden, "Network: units of each hidden layer, as 16,16")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->range(1, kMostUnits)
-      ->capture_default_str();
+      ->range(1, kMostUnits);
   app.add_option("--activation", command.activation, "Network: activation function")
-      ->one_of(remap::activation_names())
-      ->capture_default_str();
+      ->one_of(remap::activation_names());
   app.add_option("--starts", regression.mlp.starts, "Network: trainings, of which the best is kept")
-      ->range(1, kMostStarts)
-      ->capture_default_str();
+      ->range(1, kMostStarts);
   app.add_option("--held-out", command.options.held_out_fraction,
-                 "Fraction of the rows held out to measure errors")
-      ->capture_default_str();
+                 "Fraction of the rows held out to measure errors");
   app.add_option("--seed", regression.seed, "Seed of the split, the folds and all other random choices")
-      ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max())
-      ->capture_default_str();
-  app.add_option("--jobs", regression.jobs, "Threads, 0: one per core; the fit does not depend on it")
-      ->capture_default_str();
+      ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
+  app.add_option("--jobs", regression.jobs, "Threads, 0: one per core; the fit does not depend on it");
 }
 
 void add_output_options(remap::Command& app, FitCommand& command) {
   app.option_group("Output");
-  app.add_option("-o,--output", command.folder, "Folder for the fit, <id>.json")
-      ->type_name("FOLDER")
-      ->capture_default_str();
-  app.add_option("--id", command.options.id, "Id of the fit (default: <source>_to_<target>)")
-      ->type_name("ID");
-  app.add_option("--plot", command.plot, "Plot rows, fits and residuals to this SVG file (needs gnuplot)")
-      ->type_name("FILE");
+  app.add_option("-o,--output FOLDER", command.folder, "Folder for the fit, <id>.json");
+  app.add_option("--id ID", command.options.id, "Id of the fit (default: <source>_to_<target>)");
+  app.add_option("--plot FILE", command.plot,
+                 "Plot rows, fits and residuals to this SVG file (needs gnuplot)");
   app.add_flag("--json", command.json, "Print a summary as JSON to standard output");
 }
 
 }  // namespace
 
 void add_fit_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand("fit", "Fit a table and write <id>.json");
-  command->group(kFitStage);
-  auto options = std::make_shared<FitCommand>();
-  options->table.add_options(*command);
-  add_output_options(*command, *options);
-  add_regression_options(*command, *options);
+  remap::Command* command = app.add_subcommand("fit", "Fit a table and write <id>.json", kFitStage);
+  FitCommand& options =
+      set_work<FitCommand>(*command, [command](const FitCommand& given) { run(given, *command); });
+  options.table.add_options(*command);
+  add_output_options(*command, options);
+  add_regression_options(*command, options);
   command->footer(form_list() + "\nExample:\n  remapc fit ward_to_as.csv -o fits --plot fits/ward_to_as.svg");
-  command->callback([options, command] { run(*options, *command); });
 }
 
 }  // namespace remapc

@@ -1,37 +1,33 @@
 // `remapc import` makes a fit from a regression that was trained elsewhere.
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
+#include "commands/table_input.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/svr/svr_import.hpp"
-#include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "system/files.hpp"
-#include "table/table.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
 
 struct ImportCommand {
   std::string description;
-  std::string table, columns;  // empty table: errors are unknown
+  TableInput table;  // without a path: errors are unknown
   std::filesystem::path folder = "fits";
   bool json = false;
 };
 
 // Measures the errors of `fit` on all usable rows of the table: which of them trained it is unknown.
 void judge(remap::Fit& fit, const ImportCommand& command) {
-  const std::string bytes = remap::read_file(command.table);
-  const Table table =
-      parse_table(bytes, command.table, command.columns.empty() ? ColumnMap{} : column_map(command.columns));
+  std::string bytes;
+  const Table table = command.table.read(&bytes);
   const std::vector<TableRow> rows = rows_inside(usable_rows(table), fit.domain);
-  if (rows.empty())
-    throw remap::Error(remap::ErrorKind::kInput, table.name + ": no usable rows in the domain of " + fit.id);
+  if (rows.empty()) throw input_error(table.name + ": no usable rows in the domain of " + fit.id);
   const RowErrors errors = row_errors(fit, rows);
   fit.alpha_error = errors.alpha;
   fit.specular_error = errors.specular;
@@ -44,7 +40,7 @@ void judge(remap::Fit& fit, const ImportCommand& command) {
 
 void run(const ImportCommand& command) {
   remap::Fit fit = import_svr(command.description);
-  const bool is_judged = !command.table.empty();
+  const bool is_judged = !command.table.path.empty();
   if (is_judged) judge(fit, command);
   const std::filesystem::path path = command.folder / (fit.id + ".json");
   remap::write_file(path, remap::fit_to_json(fit));
@@ -71,38 +67,30 @@ void run(const ImportCommand& command) {
 }  // namespace
 
 void add_import_command(remap::Command& app) {
-  remap::Command* command =
-      app.add_subcommand("import", "Make a fit from libsvm model files (RBF regressions trained elsewhere)");
-  command->group(kFitStage);
-  auto options = std::make_shared<ImportCommand>();
-  command->add_option("description", options->description, "JSON file that describes the models, see below")
+  remap::Command* command = app.add_subcommand(
+      "import", "Make a fit from libsvm model files (RBF regressions trained elsewhere)", kFitStage);
+  ImportCommand& options = set_work<ImportCommand>(*command, run);
+  command->add_option("description", options.description, "JSON file that describes the models, see below")
       ->required();
   command->option_group("Input");
-  command->add_option("--table", options->table, "Table (CSV) to measure errors on (default: errors unknown)")
-      ->type_name("FILE");
-  command
-      ->add_option("--columns", options->columns,
-                   "Names of columns in the table: sztrajman-2019 (the published table), or OWN=FILE,...")
-      ->type_name("MAP");
+  command->add_option("--table FILE", options.table.path,
+                      "Table (CSV) to measure errors on (default: errors unknown)");
+  command->add_option("--columns MAP", options.table.columns,
+                      "Names of columns in the table: sztrajman-2019 (the published table), or OWN=FILE,...");
   command->option_group("Output");
-  command->add_option("-o,--output", options->folder, "Folder for the fit")
-      ->type_name("FOLDER")
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "Print a summary as JSON to standard output");
+  command->add_option("-o,--output FOLDER", options.folder, "Folder for the fit");
+  command->add_flag("--json", options.json, "Print a summary as JSON to standard output");
   command->footer(
       "The description holds \"source\", \"target\" and \"domain\" as a fit file does, and for each of "
-      "\"alpha\" and "
-      "\"specular\":\n"
+      "\"alpha\" and \"specular\":\n"
       "  {\"model_file\": \"alpha.model\",\n"
       "   \"inputs\": [{\"name\": \"alpha\", \"offset\": 0.02, \"scale\": 1.02}],\n"
       "   \"output\": {\"offset\": 0, \"scale\": 1}}\n"
       "where normalised = (value - offset) * scale. From scikit-learn's MinMaxScaler: scale = scale_, offset "
       "= "
       "-min_ / scale_; from StandardScaler: scale = 1 / scale_, offset = mean_. Alpha is the microfacet "
-      "width, "
-      "whatever the models' own parameters are.\n\n"
+      "width, whatever the models' own parameters are.\n\n"
       "Example:\n  remapc import my_svr.json --table ward_to_as.csv -o fits");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

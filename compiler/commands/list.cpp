@@ -1,11 +1,9 @@
 // `remapc list` prints the fits of a folder or the built-in models.
 #include <iomanip>
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "manifest/fit_folder.hpp"
@@ -43,63 +41,56 @@ void list_models(bool json) {
 
 void list_fits(const ListOptions& options) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  const FitFolder folder = load_fit_folder(options.fit_folder);
-  const std::vector<remap::Fit>& fits = folder.fits;
-  if (fits.empty() && folder.analytic.empty() && folder.warps.empty())
-    std::cerr << options.fit_folder.string() << ": no fits (*.json) in this folder\n";
-  for (const remap::Fit& fit : fits) {
-    list.push_back({{"id", fit.id},
-                    {"source", fit.source.model},
-                    {"target", fit.target.model},
-                    {"kind", kind_name(fit.mapping)},
-                    {"alpha_rms_error", fit.alpha_error.rms},
-                    {"specular_rms_error", fit.specular_error.rms}});
+  const auto add = [&](const nlohmann::ordered_json& fit, const std::string& text) {
+    list.push_back(fit);
     if (!options.json)
-      std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << kind_name(fit.mapping)
-                << errors_text(fit, "held out") << "\n";
-  }
+      std::cout << std::left << std::setw(40) << fit["id"].get<std::string>() << " " << std::setw(11)
+                << fit["kind"].get<std::string>() << text << "\n";
+  };
+  const FitFolder folder = load_fit_folder(options.fit_folder);
+  for (const remap::Fit& fit : folder.fits)
+    add({{"id", fit.id},
+         {"source", fit.source.model},
+         {"target", fit.target.model},
+         {"kind", kind_name(fit.mapping)},
+         {"alpha_rms_error", fit.alpha_error.rms},
+         {"specular_rms_error", fit.specular_error.rms}},
+        errors_text(fit, "held out"));
   for (const remap::WorkflowFit& fit : folder.analytic) {
     const std::string formula(formula_name(fit.conversion.formula));
-    list.push_back({{"id", fit.id},
-                    {"source", fit.conversion.source_model()},
-                    {"target", fit.conversion.target_model()},
-                    {"kind", remap::material_kind(fit)},
-                    {"formula", formula}});
-    if (!options.json)
-      std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << remap::material_kind(fit)
-                << formula << ", whole materials\n";
+    add({{"id", fit.id},
+         {"source", fit.conversion.source_model()},
+         {"target", fit.conversion.target_model()},
+         {"kind", remap::material_kind(fit)},
+         {"formula", formula}},
+        formula + ", whole materials");
   }
-  for (const remap::WarpMapFit& fit : folder.warps) {
-    list.push_back({{"id", fit.id},
-                    {"source", fit.source_model},
-                    {"target", fit.template_model},
-                    {"kind", remap::kWarpKind},
-                    {"copy_rms_error", fit.copy_rms_error}});
-    const std::string error =
-        fit.copy_rms_error < 0.0 ? "" : "; " + percent(fit.copy_rms_error) + " from an exact copy";
-    if (!options.json)
-      std::cout << std::left << std::setw(40) << fit.id << " " << std::setw(11) << remap::kWarpKind
-                << "appearance of a template, whole materials" << error << "\n";
-  }
+  for (const remap::WarpMapFit& fit : folder.warps)
+    add({{"id", fit.id},
+         {"source", fit.source_model},
+         {"target", fit.template_model},
+         {"kind", remap::kWarpKind},
+         {"copy_rms_error", fit.copy_rms_error}},
+        "appearance of a template, whole materials" +
+            (fit.copy_rms_error < 0.0 ? "" : "; " + percent(fit.copy_rms_error) + " from an exact copy"));
+  if (list.empty()) std::cerr << options.fit_folder.string() << ": no fits (*.json) in this folder\n";
   if (options.json) std::cout << list.dump(2) << "\n";
 }
 
 }  // namespace
 
 void add_list_command(remap::Command& app) {
-  remap::Command* command = app.add_subcommand("list", "List the fits of a folder, or the built-in models");
-  command->group(kLookStage);
-  auto options = std::make_shared<ListOptions>();
+  remap::Command* command =
+      app.add_subcommand("list", "List the fits of a folder, or the built-in models", kLookStage);
+  ListOptions& options = set_work<ListOptions>(
+      *command, [](const ListOptions& given) { given.models ? list_models(given.json) : list_fits(given); });
   command->option_group("Input");
-  command->add_flag("--models", options->models,
+  command->add_flag("--models", options.models,
                     "List the models of the built-in renderer and their parameters");
-  command->add_option("--fits", options->fit_folder, "Folder of fits")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("--fits FOLDER", options.fit_folder, "Folder of fits");
   command->option_group("Output");
-  command->add_flag("--json", options->json, "Print the list as JSON to standard output");
+  command->add_flag("--json", options.json, "Print the list as JSON to standard output");
   command->footer("Example:\n  remapc list --models");
-  command->callback([options] { options->models ? list_models(options->json) : list_fits(*options); });
 }
 
 }  // namespace remapc

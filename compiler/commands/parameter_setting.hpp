@@ -1,8 +1,10 @@
-// Reads `NAME=VALUE` and `NAME=R,G,B`, which set parameters of a model on the command line.
+// Reads values of the command line: parameters of a model, and a light.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "renderer/scene.hpp"
 
 namespace remapc {
 
@@ -11,10 +13,10 @@ struct ParameterSetting {
   std::vector<double> values;
 };
 
-// `option` is named in errors. Throws kUsage.
+// Reads `NAME=VALUE` or `NAME=R,G,B`. `option` is named in errors. Throws kUsage.
 ParameterSetting parse_setting(const std::string& option, const std::string& text);
 
-// The comma-separated numbers in `text`. Throws kUsage.
-std::vector<double> parse_values(const std::string& option, const std::string& text);
+// Reads the one light of --light. Throws kUsage.
+Light parse_light(const std::string& text, double distance);
 
 }  // namespace remapc

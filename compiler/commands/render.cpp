@@ -1,30 +1,21 @@
 // `remapc render` renders one picture of the sweep scene.
-#include <memory>
-
-#include "command_line/command.hpp"
 #include "commands/commands.hpp"
 #include "commands/parameter_setting.hpp"
 #include "commands/renderer_options.hpp"
-#include "probe/objective.hpp"
-#include "remap/error.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/renderer.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 struct RenderOptions {
   std::string model;
   std::vector<std::string> settings;  // NAME=VALUE or NAME=R,G,B
   std::string light = "headlight";
   double distance = 3.0;
-  int resolution = 512;
-  int pixel_samples = 1;
-  int seed = 0;
+  Scene scene;  // without the light
   std::string output;
   RendererOptions renderers;
 };
@@ -40,8 +31,8 @@ Material parse_material(const ModelDescription& model, const std::vector<std::st
     const bool has_standard =
         parameter.role == ParameterRole::kDiffuse || parameter.role == ParameterRole::kOther;
     if (!has_standard)
-      throw Error(ErrorKind::kUsage, model.name + ": parameter " + parameter.name + " is required (--set " +
-                                         parameter.name + "=VALUE)");
+      throw usage_error(model.name + ": parameter " + parameter.name + " is required (--set " +
+                        parameter.name + "=VALUE)");
     material.parameters[parameter.name] = {parameter.standard};
   }
   return material;
@@ -51,15 +42,13 @@ void run(const RenderOptions& options) {
   const auto renderer = make_renderers(options.renderers);
   const ModelDescription model = renderer->model(options.model);
   const Material material = parse_material(model, options.settings);
-  const std::vector<Light> lights = parse_lights(options.light, options.distance);
-  if (lights.size() != 1)
-    throw Error(ErrorKind::kUsage, "--light: " + std::to_string(lights.size()) + " lights given (give one)");
-  const Scene scene{options.resolution, options.pixel_samples, lights.front(), options.seed};
+  Scene scene = options.scene;
+  scene.light = parse_light(options.light, options.distance);
   const Image image = renderer->render(material, scene);
 
   std::map<std::string, std::string> attributes = {{"remap:renderer", renderer->version_of(model.name)},
                                                    {"remap:model", model.name},
-                                                   {"remap:light", light_name(lights.front())}};
+                                                   {"remap:light", light_name(scene.light)}};
   for (const auto& [name, values] : material.parameters) {
     std::string text;
     for (const double value : values) text += (text.empty() ? "" : ",") + remap::number_text(value);
@@ -71,42 +60,33 @@ void run(const RenderOptions& options) {
 }  // namespace
 
 void add_render_command(remap::Command& app) {
-  remap::Command* command =
-      app.add_subcommand("render", "Render one picture of the sweep scene: a sphere under a point light");
-  command->group(kMeasureStage);
-  auto options = std::make_shared<RenderOptions>();
+  remap::Command* command = app.add_subcommand(
+      "render", "Render one picture of the sweep scene: a sphere under a point light", kMeasureStage);
+  RenderOptions& options = set_work<RenderOptions>(*command, run);
   command->option_group("Material");
   command
-      ->add_option("--model", options->model,
+      ->add_option("--model MODEL", options.model,
                    "Model, as mitsuba/ward; remapc list --models and remapc renderers list them")
-      ->type_name("MODEL")
       ->required();
-  command->add_option("--set", options->settings, "Parameter of the model; may be repeated")
-      ->type_name("NAME=VALUE or NAME=R,G,B")
+  command
+      ->add_option("--set NAME=VALUE or NAME=R,G,B", options.settings,
+                   "Parameter of the model; may be repeated")
       ->allow_extra_args(false);
   command->option_group("Output");
-  command->add_option("-o,--output", options->output, "EXR file to write, linear float")
-      ->type_name("FILE")
-      ->required();
+  command->add_option("-o,--output FILE", options.output, "EXR file to write, linear float")->required();
   command->option_group("Picture");
-  command->add_option("--light", options->light, "Light: headlight, or degrees from the camera")
-      ->type_name("LIGHT")
-      ->capture_default_str();
-  command->add_option("--resolution", options->resolution, "Width and height in pixels")
-      ->capture_default_str();
-  command
-      ->add_option("--pixel-samples", options->pixel_samples, "N x N samples per pixel; 1: the pixel center")
-      ->capture_default_str();
+  command->add_option("--light LIGHT", options.light, "Light: headlight, or degrees from the camera");
+  command->add_option("--resolution", options.scene.resolution, "Width and height in pixels");
+  command->add_option("--pixel-samples", options.scene.samples_per_axis,
+                      "N x N samples per pixel; 1: the pixel center");
   command->option_group(remap::kRareOptions);
-  command->add_option("--distance", options->distance, "Distance of the light, in sphere radii")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of renderers with noise")->capture_default_str();
-  add_renderer_options(*command, options->renderers);
+  command->add_option("--distance", options.distance, "Distance of the light, in sphere radii");
+  command->add_option("--seed", options.scene.seed, "Seed of renderers with noise");
+  add_renderer_options(*command, options.renderers);
   command->footer(
       "Example:\n"
       "  remapc render --model mitsuba/ward --set alpha=0.2 \\\n"
       "    --set specular=0.9,0.6,0.2 --light 45 -o sphere.exr");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

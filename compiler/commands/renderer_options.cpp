@@ -8,46 +8,25 @@ namespace remapc {
 
 void add_renderer_options(remap::Command& app, RendererOptions& options) {
   app.option_group("Rare: external renderers (remapc renderers lists them)");
-  app.add_option(
-         "--worker", options.workers,
-         "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; may be "
-         "repeated")
-      ->type_name("NAME=COMMAND")
+  app.add_option("--worker NAME=COMMAND", options.workers,
+                 "Command of a worker for models NAME/..., as compiler/adapters/PROTOCOL.md describes it; "
+                 "may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--worker-processes", options.processes, "Processes per worker, 0: one per core")
-      ->capture_default_str();
-  app.add_option("--worker-timeout", options.seconds, "Seconds to wait for an answer of a worker")
-      ->positive()
-      ->capture_default_str();
-  app.add_option("--cache", options.cache,
-                 "Folder for pictures of workers (default: remap/pictures in the user's cache)")
-      ->type_name("FOLDER");
+  app.add_option("--worker-processes", options.settings.processes, "Processes per worker, 0: one per core");
+  app.add_option("--worker-timeout", options.settings.limits.seconds,
+                 "Seconds to wait for an answer of a worker")
+      ->positive();
+  app.add_option("--cache FOLDER", options.cache,
+                 "Folder for pictures of workers (default: remap/pictures in the user's cache)");
   app.add_flag("--no-cache", options.no_cache, "Render every picture and keep none");
 }
 
 WorkerSettings worker_settings(const RendererOptions& options) {
-  WorkerSettings settings;
+  WorkerSettings settings = options.settings;
   if (!options.no_cache) settings.cache = options.cache.empty() ? default_cache_folder() : options.cache;
-  settings.processes = options.processes;
-  settings.limits.seconds = options.seconds;
   settings.limits.cancelled = &remap::interruption();
   return settings;
 }
-
-std::string pictures_text(const PictureCount& pictures) {
-  if (pictures.rendered + pictures.cached == 0) return "";
-  return ", " + std::to_string(pictures.rendered) + " pictures rendered and " +
-         std::to_string(pictures.cached) + " from the cache";
-}
-
-PictureProgress::PictureProgress(RendererSet* renderers, const std::string& label, std::size_t total,
-                                 bool shown)
-    : renderers_(renderers), progress_(label, total, shown) {
-  renderers_->watch(
-      [this, label](const PictureCount& pictures) { progress_.relabel(label + pictures_text(pictures)); });
-}
-
-PictureProgress::~PictureProgress() { renderers_->watch(nullptr); }
 
 std::unique_ptr<RendererSet> make_renderers(const RendererOptions& options) {
   return std::make_unique<RendererSet>(known_workers(options.workers), worker_settings(options));

@@ -1,11 +1,9 @@
 // `remapc renderers` lists the external renderers that work on this machine, and their models.
 #include <iomanip>
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
@@ -72,15 +70,14 @@ void run(const RenderersCommand& command) {
 
 void add_renderers_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
-      "renderers", "List the external renderers on this machine: versions, models, parameters");
-  command->group(kRendererStage);
-  auto options = std::make_shared<RenderersCommand>();
+      "renderers", "List the external renderers on this machine: versions, models, parameters",
+      kRendererStage);
+  RenderersCommand& options = set_work<RenderersCommand>(*command, run);
   command->option_group("Output");
-  command->add_flag("--json", options->json,
+  command->add_flag("--json", options.json,
                     "Print the list as JSON to standard output, with reasons for missing renderers");
-  add_renderer_options(*command, options->renderers);
+  add_renderer_options(*command, options.renderers);
   command->footer("Example:\n  remapc renderers");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

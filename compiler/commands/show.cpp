@@ -2,9 +2,7 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
-#include <memory>
 
-#include "command_line/command.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/rows/split.hpp"
@@ -32,8 +30,16 @@ std::string side_text(const remap::ModelSide& side) {
   return side.model + " (" + std::string(remap::convention_name(side.roughness)) + ", " + side.specular + ")";
 }
 
-std::string figures_text(const remap::ErrorFigures& f) {
-  return "rms " + error_text(f.rms) + ", 99 % " + error_text(f.p99) + ", max " + error_text(f.max);
+std::string figures_text(const remap::ErrorFigures& f, const std::string& p99 = "99 %") {
+  return "rms " + error_text(f.rms) + ", " + p99 + " " + error_text(f.p99) + ", max " + error_text(f.max);
+}
+
+void print_entries(const std::map<std::string, std::string>& entries) {
+  for (const auto& [key, value] : entries) std::cout << "  " << key << ": " << value << "\n";
+}
+
+void print_remarks(const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) std::cout << "  " << remark << "\n";
 }
 
 // ` + c` or ` - c`; the number itself at the start of a sum.
@@ -107,7 +113,7 @@ struct PrintMapping {
 
 void print_method(const remap::Fit& fit) {
   if (!fit.method.empty()) std::cout << "Method\n";
-  for (const auto& [key, value] : fit.method) std::cout << "  " << key << ": " << value << "\n";
+  print_entries(fit.method);
   if (!fit.candidates.empty())
     std::cout << "Compared with\n" << candidate_text(fit.candidates, fit.target.specular);
 }
@@ -184,7 +190,7 @@ void show_card(const remap::Fit& fit, const ShowOptions& options) {
             << "  covers  alpha " << range_text(fit.domain.alpha) << ", " << fit.source.specular << " "
             << range_text(fit.domain.specular) << "\n"
             << "  kind    " << kind_name(fit.mapping) << ", by remapc " << fit.tool_version << "\n";
-  for (const std::string& remark : fit.remarks) std::cout << "  " << remark << "\n";
+  print_remarks(fit.remarks);
   print_trust(fit);
   print_round_trip(fit, options.fit_folder);
   std::cout << "Mapping\n";
@@ -192,7 +198,7 @@ void show_card(const remap::Fit& fit, const ShowOptions& options) {
   print_method(fit);
   std::cout << (fit.table.name.empty() ? "No table" : "Table " + fit.table.name) << "\n";
   if (!fit.table.sha256.empty()) std::cout << "  sha256 " << fit.table.sha256 << "\n";
-  for (const auto& [key, value] : fit.table.comments) std::cout << "  " << key << ": " << value << "\n";
+  print_entries(fit.table.comments);
 }
 
 void print_parameters(const std::string& title, const std::vector<remap::MaterialParameter>& parameters) {
@@ -203,16 +209,12 @@ void print_parameters(const std::string& title, const std::vector<remap::Materia
 }
 
 void print_training(const remap::NetworkTraining& training) {
-  const auto figures = [](const remap::ErrorFigures& errors) {
-    return "rms " + error_text(errors.rms) + ", p99 " + error_text(errors.p99) + ", max " +
-           error_text(errors.max);
-  };
   std::cout << "Errors on " << training.split.held_out_rows << " rows held out of training (seed "
-            << training.split.seed << ")\n  base color  " << figures(training.base_color)
-            << "\n  metallic     " << figures(training.metallic) << "\nTraining\n";
-  for (const auto& [key, value] : training.method) std::cout << "  " << key << ": " << value << "\n";
+            << training.split.seed << ")\n  base color  " << figures_text(training.base_color, "p99")
+            << "\n  metallic     " << figures_text(training.metallic, "p99") << "\nTraining\n";
+  print_entries(training.method);
   std::cout << "Table " << training.table.name << ", sha256 " << training.table.sha256 << "\n";
-  for (const auto& [key, value] : training.table.comments) std::cout << "  " << key << ": " << value << "\n";
+  print_entries(training.table.comments);
 }
 
 void show_card(const remap::WorkflowFit& fit, const ShowOptions&) {
@@ -224,7 +226,7 @@ void show_card(const remap::WorkflowFit& fit, const ShowOptions&) {
             << "  F0 of a dielectric " << number_text(conversion.metallic.dielectric_f0) << "; diffuse "
             << diffuse_convention_name(conversion.specular.diffuse) << " in the specular workflow, "
             << diffuse_convention_name(conversion.metallic.diffuse) << " in the metallic one\n";
-  for (const std::string& remark : fit.remarks) std::cout << "  " << remark << "\n";
+  print_remarks(fit.remarks);
   print_parameters("Takes", source_parameters(conversion));
   print_parameters("Gives", target_parameters(conversion));
   std::cout << "Mapping\n  " << formula_text(conversion.formula) << "\n";
@@ -235,7 +237,7 @@ void show_card(const remap::WarpMapFit& fit, const ShowOptions&) {
   const remap::ParameterTable& table = fit.warp.table;
   std::cout << fit.id << "\n  from    " << fit.source_model << "\n  to      " << fit.template_model
             << "\n  kind    " << remap::kWarpKind << ", by remapc " << fit.tool_version << "\n";
-  for (const std::string& remark : fit.remarks) std::cout << "  " << remark << "\n";
+  print_remarks(fit.remarks);
   const bool quadratic = std::holds_alternative<remap::QuadraticTerms>(fit.warp.coordinates.terms),
              copied = std::holds_alternative<remap::CopiedNodes>(table.entries);
   std::cout << "Mapping\n  " << fit.warp.coordinates.dimension << " appearance coordinates, "
@@ -245,7 +247,7 @@ void show_card(const remap::WarpMapFit& fit, const ShowOptions&) {
     std::cout << "  " << percent(fit.copy_rms_error)
               << " of the template's spread: difference to an exact copy (RMS)\n";
   std::cout << "Method\n";
-  for (const auto& [key, value] : fit.method) std::cout << "  " << key << ": " << value << "\n";
+  print_entries(fit.method);
 }
 
 void show(const ShowOptions& options) {
@@ -264,18 +266,14 @@ void show(const ShowOptions& options) {
 
 void add_show_command(remap::Command& app) {
   remap::Command* command =
-      app.add_subcommand("show", "Show a fit: models, domain, errors, mapping and its table");
-  command->group(kLookStage);
-  auto options = std::make_shared<ShowOptions>();
-  command->add_option("fit", options->fit, "Fit: file, or id in the folder of fits")->required();
+      app.add_subcommand("show", "Show a fit: models, domain, errors, mapping and its table", kLookStage);
+  ShowOptions& options = set_work<ShowOptions>(*command, show);
+  command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
   command->option_group("Input");
-  command->add_option("--fits", options->fit_folder, "Folder where ids are looked up")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("--fits FOLDER", options.fit_folder, "Folder where ids are looked up");
   command->option_group("Output");
-  command->add_flag("--json", options->json, "Print the fit file itself");
+  command->add_flag("--json", options.json, "Print the fit file itself");
   command->footer("Example:\n  remapc show mitsuba_ward_to_mitsuba_as");
-  command->callback([options] { show(*options); });
 }
 
 }  // namespace remapc

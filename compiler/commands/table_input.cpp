@@ -10,23 +10,24 @@ namespace remapc {
 void TableInput::add_options(remap::Command& app) {
   app.add_option("table", path, "CSV table, of remapc sweep or of another program")->required();
   app.option_group("Input");
-  app.add_option("--columns", columns,
-                 "Names of columns in the file: sztrajman-2019 (the published table), or OWN=FILE,...")
-      ->type_name("MAP");
-  app.add_option("--source", source, "Source model (default: as the table names it)")->type_name("MODEL");
-  app.add_option("--target", target, "Target model (default: as the table names it)")->type_name("MODEL");
+  app.add_option("--columns MAP", columns,
+                 "Names of columns in the file: sztrajman-2019 (the published table), or OWN=FILE,...");
+  app.add_option("--source MODEL", source, "Source model (default: as the table names it)");
+  app.add_option("--target MODEL", target, "Target model (default: as the table names it)");
 }
+
+ColumnMap TableInput::column_names() const { return columns.empty() ? ColumnMap{} : column_map(columns); }
 
 Table TableInput::read(std::string* bytes) const {
   std::string content = remap::read_file(path);
-  Table table = with_models(parse_table(content, path, columns.empty() ? ColumnMap{} : column_map(columns)));
+  Table table = with_models(parse_table(content, path, column_names()));
   if (bytes != nullptr) *bytes = std::move(content);
   return table;
 }
 
 AnyTable TableInput::read_any(std::string* bytes) const {
   std::string content = remap::read_file(path);
-  AnyTable table = parse_any_table(content, path, columns.empty() ? ColumnMap{} : column_map(columns));
+  AnyTable table = parse_any_table(content, path, column_names());
   if (Table* sweep = std::get_if<Table>(&table)) *sweep = with_models(std::move(*sweep));
   if (bytes != nullptr) *bytes = std::move(content);
   return table;

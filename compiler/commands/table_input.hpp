@@ -22,6 +22,7 @@ struct TableInput {
   AnyTable read_any(std::string* bytes = nullptr) const;
 
  private:
+  ColumnMap column_names() const;
   Table with_models(Table table) const;
 };
 

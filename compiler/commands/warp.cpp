@@ -1,31 +1,65 @@
-// `remapc warp` gives one texture set the reflectance of another, guided by strokes.
+// `remapc warp` gives one texture set the reflectance of another, guided by strokes. Pairs of texture sets
+// get a converter; where a table (measured BRDFs or profiles) takes part, texels are copied.
+#include "warp/warp.hpp"
+
 #include <chrono>
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
-#include "commands/warp_command.hpp"
-#include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "remap/version.hpp"
 #include "report/warp_report.hpp"
 #include "system/files.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
-#include "warp/copy_error.hpp"
 #include "warp/input/copied_set.hpp"
+#include "warp/input/strokes.hpp"
 #include "warp/input/tabulated_set.hpp"
 #include "warp/input/texture_material.hpp"
 
 namespace remapc {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
+struct WarpCommand {
+  std::string source, target;
+  std::string source_model = "mitsuba/ggx", target_model = "mitsuba/ggx";
+  std::vector<std::string> masks, boxes, paintings;  // source, template, source, template ...
+  std::string method = "registration";
+  std::string distance;  // empty: relative, plain where both are profiles
+  WarpOptions options;   // without method and distance
+  std::filesystem::path output, copy, report;
+  bool json = false;
+};
+
+// The stroke pairs of all options, at least one.
+std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& source,
+                                   const MapFrame& target) {
+  std::vector<StrokePair> strokes;
+  for (std::size_t i = 0; i + 1 < command.masks.size(); i += 2)
+    strokes.push_back({read_stroke(command.masks[i], source), read_stroke(command.masks[i + 1], target)});
+  for (std::size_t i = 0; i + 1 < command.boxes.size(); i += 2)
+    strokes.push_back({box_stroke(command.boxes[i], source), box_stroke(command.boxes[i + 1], target)});
+  for (std::size_t i = 0; i + 1 < command.paintings.size(); i += 2)
+    for (StrokePair& pair :
+         read_color_strokes(command.paintings[i], source, command.paintings[i + 1], target))
+      strokes.push_back(std::move(pair));
+  if (strokes.empty())
+    throw usage_error(
+        "no strokes given (use --strokes SOURCE_IMAGE TEMPLATE_IMAGE, --stroke SOURCE_MASK TEMPLATE_MASK, or "
+        "--box SOURCE_BOX TEMPLATE_BOX)");
+  return strokes;
+}
+
+WarpOptions options_of(const WarpCommand& command, AppearanceDistance usual) {
+  WarpOptions options = command.options;
+  options.method = *remap::value_named(kWarpMethods, command.method);
+  options.distance = remap::value_named(kAppearanceDistances, command.distance).value_or(usual);
+  return options;
+}
 
 remap::WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::size_t stroke_count) {
   remap::WarpMapFit file;
@@ -63,44 +97,41 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::
       static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
 }
 
-// A finished fit and the files that were written.
-struct WarpOutcome {
-  remap::WarpMapFit file;
-  double seconds = 0.0;
-  std::vector<std::filesystem::path> copies;
-};
-
-void print_json(const WarpCommand& command, const WarpFit& fit, const WarpOutcome& outcome) {
-  nlohmann::ordered_json json;
-  if (!command.output.empty()) json["fit"] = command.output.string();
-  for (const std::filesystem::path& file : outcome.copies) json["copies"].push_back(file.string());
-  json["bytes"] = byte_count(fit.compiled);
-  json["seconds"] = outcome.seconds;
-  json["copy_rms_error"] = outcome.file.copy_rms_error;
-  json["diagnostics"] = report_of(fit.diagnostics);
-  json["warnings"] = outcome.file.remarks;
-  std::cout << json.dump(2) << "\n";
+nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
+  return {{"dimensions", found.dimensions},
+          {"source_dimensions", found.source_dimensions},
+          {"template_dimensions", found.target_dimensions},
+          {"source_stress", found.source_stress},
+          {"template_stress", found.target_stress},
+          {"fixed_directions", found.fixed_directions},
+          {"fold_share", found.fold_share},
+          {"template_used", found.coverage},
+          {"stroke_distance", found.stroke_distance},
+          {"stroke_distance_affine", found.stroke_contradiction},
+          {"strokes", found.strokes},
+          {"worst_stroke", found.worst_stroke + 1},
+          {"largest_overlap", found.shared.overlap.share},
+          {"source_texels_left_out", found.source_left_out},
+          {"template_texels_left_out", found.target_left_out}};
 }
 
-void print_words(const WarpCommand& command, const WarpFit& fit, const WarpOutcome& outcome, bool is_albedo) {
-  const std::filesystem::path& name = command.output.empty() ? command.copy : command.output;
-  std::cerr << name.string() << ": " << summary_of(fit.diagnostics) << "  compiled to "
-            << byte_count(fit.compiled) << " bytes; RMS difference to an exact copy "
-            << percent(outcome.file.copy_rms_error) << " of the template's spread\n";
-  if (is_albedo)
-    std::cerr << "  the source has a diffuse map only: specular 0 and alpha 1 assumed, materials "
-                 "distinguished by color\n";
-  for (const std::string& warning : outcome.file.remarks)
-    remap::print_message("remapc", "warning: " + warning);
+// Prints the diagnostics and warnings in words. `name`: the main file that was written.
+void print_words(const std::filesystem::path& name, const WarpDiagnostics& found,
+                 const std::string& more = "") {
+  std::cerr << name.string() << ": warp in " << found.dimensions << " dimensions from "
+            << found.strokes.size() << " stroke pairs\n  template used " << percent(found.coverage)
+            << ", folds " << percent(found.fold_share) << ", distance of strokes "
+            << percent(found.stroke_distance) << " of the template's spread\n"
+            << more;
+  for (const std::string& warning : warnings_of(found)) remap::print_message("remapc", "warning: " + warning);
 }
 
 void require_outputs(const WarpCommand& command) {
   if (command.output.empty() && command.copy.empty())
-    throw Error(ErrorKind::kUsage, "--output is required (or --copy FOLDER)");
+    throw usage_error("--output is required (or --copy FOLDER)");
   if (!command.output.empty() && !remap::is_valid_id(command.output.stem().string()))
-    throw Error(ErrorKind::kUsage,
-                "--output: " + command.output.string() +
-                    " is not usable as an id (use letters, digits and single underscores before .json)");
+    throw usage_error("--output: " + command.output.string() +
+                      " is not usable as an id (use letters, digits and single underscores before .json)");
   if (!command.report.empty()) require_report_path(command.report);
 }
 
@@ -113,22 +144,86 @@ void warp_textures(const WarpCommand& command) {
   const auto start = std::chrono::steady_clock::now();
   const WarpFit fit =
       fit_warp(source.material, target.material, strokes, options_of(command, AppearanceDistance::kRelative));
-  WarpOutcome outcome;
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  outcome.file = fit_file(command, fit, strokes.size());
-  if (source.is_albedo) outcome.file.method[remap::kWarpSourceMaps] = remap::kDiffuseAlone;
-  outcome.file.copy_rms_error = remap::rounded_up(copy_rms_error(fit, source.material, target.material), 3);
-  if (!command.output.empty()) remap::write_file(command.output, fit_to_json(outcome.file));
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  remap::WarpMapFit file = fit_file(command, fit, strokes.size());
+  if (source.is_albedo) file.method[remap::kWarpSourceMaps] = remap::kDiffuseAlone;
+  file.copy_rms_error = remap::rounded_up(copy_rms_error(fit, source.material, target.material), 3);
+
+  nlohmann::ordered_json json;
+  if (!command.output.empty()) {
+    remap::write_file(command.output, fit_to_json(file));
+    json["fit"] = command.output.string();
+  }
   if (!command.copy.empty())
-    outcome.copies = write_copied_set(command.copy, copy_exactly(fit, source.material, target.material),
-                                      source.frame(), {target.material, target.frame(), {}});
+    for (const std::filesystem::path& copy :
+         write_copied_set(command.copy, copy_exactly(fit, source.material, target.material), source.frame(),
+                          {target.material, target.frame(), {}}))
+      json["copies"].push_back(copy.string());
   if (!command.report.empty())
     write_warp_report(command.report, warp_pictures(source, target, strokes, fit),
-                      words_of(command, fit, outcome.file));
-  if (command.json)
-    print_json(command, fit, outcome);
-  else
-    print_words(command, fit, outcome, source.is_albedo);
+                      words_of(command, fit, file));
+  if (command.json) {
+    json.update({{"bytes", byte_count(fit.compiled)},
+                 {"seconds", seconds},
+                 {"copy_rms_error", file.copy_rms_error},
+                 {"diagnostics", report_of(fit.diagnostics)},
+                 {"warnings", file.remarks}});
+    std::cout << json.dump(2) << "\n";
+    return;
+  }
+  std::string more = "  compiled to " + std::to_string(byte_count(fit.compiled)) +
+                     " bytes; RMS difference to an exact copy " + percent(file.copy_rms_error) +
+                     " of the template's spread\n";
+  if (source.is_albedo)
+    more +=
+        "  the source has a diffuse map only: specular 0 and alpha 1 assumed, materials distinguished by "
+        "color\n";
+  print_words(command.output.empty() ? command.copy : command.output, fit.diagnostics, more);
+}
+
+// A texture set or a table.
+using MaterialSet = std::variant<TextureMaterial, TabulatedSet>;
+
+MaterialSet read_material_set(const std::string& folder, const std::string& model) {
+  if (is_tabulated_folder(folder)) return read_tabulated_set(folder);
+  return read_texture_material(folder, model);
+}
+
+MaterialRef ref_of(const MaterialSet& set) {
+  return std::visit([](const auto& kind) { return MaterialRef(kind.material); }, set);
+}
+
+MapFrame frame_of(const MaterialSet& set) {
+  return std::visit([](const auto& kind) { return kind.frame(); }, set);
+}
+
+void require_copy_alone(const WarpCommand& command) {
+  const std::string table = is_tabulated_folder(command.source) ? command.source : command.target;
+  if (!command.output.empty() || command.copy.empty())
+    throw usage_error(table + ": a table cannot be fitted (use --copy FOLDER instead of --output)");
+  if (!command.report.empty())
+    throw usage_error("--report: not available for tables such as " + table + " (remove this option)");
+}
+
+// Tables have no parameters to fit, so texels are copied.
+void warp_tables(const WarpCommand& command) {
+  require_copy_alone(command);
+  const MaterialSet source = read_material_set(command.source, command.source_model),
+                    target = read_material_set(command.target, command.target_model);
+  const MaterialRef from = ref_of(source), to = ref_of(target);
+  const AppearanceDistance usual =
+      from.is_profiles() ? AppearanceDistance::kPlain : AppearanceDistance::kRelative;
+  const AppearanceMatch match = match_appearances(
+      from, to, strokes_of(command, frame_of(source), frame_of(target)), options_of(command, usual));
+  const auto* table = std::get_if<TabulatedSet>(&target);
+  const auto files =
+      write_copied_set(command.copy, copy_exactly(match, from, to), frame_of(source),
+                       {to, frame_of(target), table != nullptr ? table->table : std::filesystem::path()});
+  if (!command.json) return print_words(command.copy, match.diagnostics);
+  nlohmann::ordered_json json = {{"diagnostics", report_of(match.diagnostics)},
+                                 {"warnings", warnings_of(match.diagnostics)}};
+  for (const std::filesystem::path& file : files) json["files"].push_back(file.string());
+  std::cout << json.dump(2) << "\n";
 }
 
 void run(const WarpCommand& command) {
@@ -141,77 +236,62 @@ void run(const WarpCommand& command) {
 void add_stroke_options(remap::Command& app, WarpCommand& command) {
   app.option_group("Strokes");
   app.add_option(
-         "--strokes", command.paintings,
-         "Two images with a color for each region, on a transparent background or on the most frequent "
-         "color")
-      ->type_size(2)
-      ->type_name("SOURCE_IMAGE TEMPLATE_IMAGE");
-  app.add_option("--stroke", command.masks, "Two masks that mark one region; may be repeated")
-      ->type_size(2)
-      ->type_name("SOURCE_MASK TEMPLATE_MASK");
-  app.add_option("--box", command.boxes,
+         "--strokes SOURCE_IMAGE TEMPLATE_IMAGE", command.paintings,
+         "Two images with a color for each region, on a transparent background or on the most frequent color")
+      ->type_size(2);
+  app.add_option("--stroke SOURCE_MASK TEMPLATE_MASK", command.masks,
+                 "Two masks that mark one region; may be repeated")
+      ->type_size(2);
+  app.add_option("--box SOURCE_BOX TEMPLATE_BOX", command.boxes,
                  "Two boxes of texels, each x0,y0,x1,y1, that mark one region; may be repeated")
       ->type_size(2)
-      ->delimiter(' ')
-      ->type_name("SOURCE_BOX TEMPLATE_BOX");
+      ->delimiter(' ');
 }
 
 void add_method_options(remap::Command& app, WarpCommand& command) {
   app.option_group("Models and method");
-  app.add_option("--source-model", command.source_model, "BRDF model of the source's maps")
-      ->type_name("MODEL")
-      ->capture_default_str();
-  app.add_option("--template-model", command.target_model,
-                 "BRDF model of the template's maps and of the result")
-      ->type_name("MODEL")
-      ->capture_default_str();
-  app.add_flag("--exact", command.exact, "Copy texels of the template instead of blending them");
+  app.add_option("--source-model MODEL", command.source_model, "BRDF model of the source's maps");
+  app.add_option("--template-model MODEL", command.target_model,
+                 "BRDF model of the template's maps and of the result");
+  app.add_flag("--exact", command.options.exact, "Copy texels of the template instead of blending them");
   app.option_group(remap::kRareOptions);
   app.add_option("--method", command.method, "Method that finds the warp")
-      ->one_of(method_names())
-      ->capture_default_str();
+      ->one_of(remap::names_of(kWarpMethods));
   app.add_option("--distance", command.distance,
                  "Distance between reflectances (default: relative; plain for scattering profiles)")
-      ->one_of(distance_names());
-  app.add_option("--dimensions", command.dimensions, "Dimensions of appearance space, 0: as many as needed")
-      ->range(0, 3)
-      ->capture_default_str();
+      ->one_of(remap::names_of(kAppearanceDistances));
+  app.add_option("--dimensions", command.options.dimensions,
+                 "Dimensions of appearance space, 0: as many as needed")
+      ->range(0, 3);
 }
 
 }  // namespace
 
 void add_warp_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
-      "warp", "Give one texture set the reflectance of another, guided by strokes (An et al. 2011)");
-  command->group(kWarpStage);
-  auto options = std::make_shared<WarpCommand>();
+      "warp", "Give one texture set the reflectance of another, guided by strokes (An et al. 2011)",
+      kWarpStage);
+  WarpCommand& options = set_work<WarpCommand>(*command, run);
   command
-      ->add_option("source", options->source,
+      ->add_option("source", options.source,
                    "Folder of the set that keeps its pattern; may hold a diffuse map only")
       ->required();
-  command->add_option("template", options->target, "Folder of the set whose reflectance is used")->required();
-  add_stroke_options(*command, *options);
+  command->add_option("template", options.target, "Folder of the set whose reflectance is used")->required();
+  add_stroke_options(*command, options);
   command->option_group("Output");
-  command->add_option("-o,--output", options->output, "File for the fit; its name is the fit's id")
-      ->type_name("FILE");
-  command
-      ->add_option("--copy", options->copy,
-                   "Folder for the exact copy: maps of texels copied from the template, and an index map")
-      ->type_name("FOLDER");
-  command
-      ->add_option(
-          "--report", options->report,
-          "Pictures of materials, strokes, appearance spaces and result: .html with the diagnostics, or "
-          ".png")
-      ->type_name("FILE");
-  command->add_flag("--json", options->json, "Print the diagnostics as JSON to standard output");
-  add_method_options(*command, *options);
+  command->add_option("-o,--output FILE", options.output, "File for the fit; its name is the fit's id");
+  command->add_option("--copy FOLDER", options.copy,
+                      "Folder for the exact copy: maps of texels copied from the template, and an index map");
+  command->add_option(
+      "--report FILE", options.report,
+      "Pictures of materials, strokes, appearance spaces and result: .html with the diagnostics, or .png");
+  command->add_flag("--json", options.json, "Print the diagnostics as JSON to standard output");
+  add_method_options(*command, options);
   command->footer(
       "Example:\n"
       "  remapc warp brown_leaf green_leaf \\\n"
       "    --stroke brown_stem.png green_stem.png \\\n"
       "    --stroke brown_body.png green_body.png -o leaf.json");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

@@ -2,15 +2,14 @@
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
-#include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
-#include "remap/error.hpp"
+#include "remap/named_values.hpp"
+#include "text/errors.hpp"
 #include "worker/conformance.hpp"
 #include "worker/renderer_set.hpp"
 
@@ -20,21 +19,13 @@ namespace {
 struct WorkerCheck {
   std::string command;
   int resolution = 48;
-  double seconds = WorkerLimits{}.seconds;
+  WorkerLimits limits;
   bool json = false;
 };
 
-const char* verdict_word(WorkerFinding::Verdict verdict) {
-  switch (verdict) {
-    case WorkerFinding::Verdict::kGood:
-      return "good";
-    case WorkerFinding::Verdict::kRemark:
-      return "remark";
-    case WorkerFinding::Verdict::kWrong:
-      return "wrong";
-  }
-  return "";
-}
+using Verdict = WorkerFinding::Verdict;
+constexpr remap::NamedValues<Verdict, 3> kVerdicts = {
+    {{Verdict::kGood, "good"}, {Verdict::kRemark, "remark"}, {Verdict::kWrong, "wrong"}}};
 
 // The registered worker of that name, or else a worker with that command.
 WorkerEntry entry_of(const std::string& command) {
@@ -48,28 +39,27 @@ void print(const std::vector<WorkerFinding>& findings) {
   for (const WorkerFinding& finding : findings) {
     if (finding.model != model) std::cout << finding.model << "\n";
     model = finding.model;
-    std::cout << "  " << std::left << std::setw(8) << verdict_word(finding.verdict) << std::setw(16)
+    std::cout << "  " << std::left << std::setw(8) << name_of(kVerdicts, finding.verdict) << std::setw(16)
               << finding.check << finding.words << "\n";
   }
 }
 
 void run(const WorkerCheck& check) {
   remap::watch_interruptions();
-  WorkerSettings settings;
-  settings.limits.seconds = check.seconds;
-  settings.limits.cancelled = &remap::interruption();
+  WorkerLimits limits = check.limits;
+  limits.cancelled = &remap::interruption();
   const PrivateFolder folder;
-  Worker worker(entry_of(check.command), settings.limits, folder.path() / "picture.f32");
+  Worker worker(entry_of(check.command), limits, folder.path() / "picture.f32");
   const std::vector<WorkerFinding> findings = check_worker(worker, check.resolution);
   const auto wrong = std::count_if(findings.begin(), findings.end(), [](const WorkerFinding& finding) {
-    return finding.verdict == WorkerFinding::Verdict::kWrong;
+    return finding.verdict == Verdict::kWrong;
   });
   if (check.json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const WorkerFinding& finding : findings)
       list.push_back({{"model", finding.model},
                       {"check", finding.check},
-                      {"verdict", verdict_word(finding.verdict)},
+                      {"verdict", name_of(kVerdicts, finding.verdict)},
                       {"words", finding.words}});
     const nlohmann::ordered_json json = {
         {"renderer", worker.description().renderer}, {"wrong", wrong}, {"findings", list}};
@@ -79,31 +69,26 @@ void run(const WorkerCheck& check) {
     print(findings);
   }
   if (wrong != 0)
-    throw remap::Error(remap::ErrorKind::kInput, "worker " + check.command + ": " + std::to_string(wrong) +
-                                                     " of " + std::to_string(findings.size()) +
-                                                     " checks failed");
+    throw input_error("worker " + check.command + ": " + std::to_string(wrong) + " of " +
+                      std::to_string(findings.size()) + " checks failed");
 }
 
 }  // namespace
 
 void add_worker_check_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
-      "worker-check", "Render known scenes with a worker and report what is wrong with its pictures");
-  command->group(kRendererStage);
-  auto options = std::make_shared<WorkerCheck>();
-  command->add_option("command", options->command, "Command of the worker, or the name of a registered one")
+      "worker-check", "Render known scenes with a worker and report what is wrong with its pictures",
+      kRendererStage);
+  WorkerCheck& options = set_work<WorkerCheck>(*command, run);
+  command->add_option("command", options.command, "Command of the worker, or the name of a registered one")
       ->required();
   command->option_group("Pictures");
-  command->add_option("--resolution", options->resolution, "Width and height in pixels")
-      ->range(16, 1024)
-      ->capture_default_str();
-  command->add_option("--worker-timeout", options->seconds, "Seconds to wait for an answer")
-      ->positive()
-      ->capture_default_str();
+  command->add_option("--resolution", options.resolution, "Width and height in pixels")->range(16, 1024);
+  command->add_option("--worker-timeout", options.limits.seconds, "Seconds to wait for an answer")
+      ->positive();
   command->option_group("Output");
-  command->add_flag("--json", options->json, "Print the findings as JSON to standard output");
+  command->add_flag("--json", options.json, "Print the findings as JSON to standard output");
   command->footer("Example:\n  remapc worker-check \"python3 examples/lambert_worker.py\"");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

@@ -46,73 +46,52 @@ double pbrt_alpha(double roughness) {
   return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
 }
 
-Baseline copied_alpha() {
-  return {"copy", "alpha and specular unchanged (MDL distiller, MaterialX)",
-          [](double alpha, double specular) {
-            return MappedTexel{alpha, specular};
-          },
-          ""};
-}
-
-// The formula of Walter et al. (2007), section 5.2, which Mitsuba and Cycles use. Canonical coordinates use
-// the same formula, so it copies alpha.
-Baseline walter(const ModelSide& source, const ModelSide& target) {
-  Baseline baseline{"exponent", "n = 2 / alpha^2 - 2 (Walter et al. 2007)", {}, ""};
-  if ((source.roughness == Convention::kExponent) != (target.roughness == Convention::kExponent))
-    baseline.map = [](double alpha, double specular) { return MappedTexel{alpha, specular}; };
-  else
-    baseline.why_not = source.roughness == Convention::kExponent ? "both models have an exponent"
-                                                                 : "neither model has an exponent";
-  return baseline;
-}
-
-// Confuses alpha and sqrt(alpha): the parameter value is copied although the conventions differ.
-Baseline copied_number(const ModelSide& source, const ModelSide& target) {
-  Baseline baseline{
-      "copy number", "the parameter value unchanged, although one is alpha and one sqrt(alpha)", {}, ""};
+// Why the number of one model's parameter is not copied to the other's; empty if it is.
+std::string why_number_is_not_copied(const ModelSide& source, const ModelSide& target) {
   const auto is_width = [](const ModelSide& side) {
     return side.roughness == Convention::kAlpha || side.roughness == Convention::kRoughness;
   };
-  if (!is_width(source) || !is_width(target))
-    baseline.why_not = width_text(is_width(source) ? target : source);
-  else if (source.roughness == target.roughness)
-    baseline.why_not = "both models have " + std::string(remap::convention_name(source.roughness));
-  else
-    baseline.map = [from = source.roughness, to = target.roughness](double alpha, double specular) {
-      return MappedTexel{remap::to_alpha(to, remap::from_alpha(from, alpha)), specular};
-    };
-  return baseline;
-}
-
-Baseline pbrt(const ModelSide& source) {
-  Baseline baseline{"pbrt-v3", "alpha = quartic of ln(roughness)", {}, ""};
-  if (source.roughness == Convention::kRoughness)
-    baseline.map = [](double alpha, double specular) {
-      return MappedTexel{pbrt_alpha(remap::from_alpha(Convention::kRoughness, alpha)), specular};
-    };
-  else
-    baseline.why_not = width_text(source) + ", not roughness";
-  return baseline;
-}
-
-Baseline of_exponent(const ExponentFormula& formula, const ModelSide& source) {
-  Baseline baseline{formula.name, formula.formula, {}, ""};
-  if (source.roughness == Convention::kExponent)
-    baseline.map = [roughness = formula.roughness](double alpha, double specular) {
-      const double r = roughness(remap::from_alpha(Convention::kExponent, alpha), specular);
-      return MappedTexel{r * r, specular};
-    };
-  else
-    baseline.why_not = width_text(source) + ", not an exponent";
-  return baseline;
+  if (!is_width(source) || !is_width(target)) return width_text(is_width(source) ? target : source);
+  if (source.roughness != target.roughness) return "";
+  return "both models have " + std::string(remap::convention_name(source.roughness));
 }
 
 }  // namespace
 
 std::vector<Baseline> baselines(const ModelSide& source, const ModelSide& target) {
-  std::vector<Baseline> all = {copied_alpha(), walter(source, target), copied_number(source, target),
-                               pbrt(source)};
-  for (const ExponentFormula& formula : kExponentFormulas) all.push_back(of_exponent(formula, source));
+  std::vector<Baseline> all;
+  const auto add = [&all](const std::string& name, const std::string& formula, const std::string& why_not,
+                          const std::function<MappedTexel(double, double)>& map) {
+    all.push_back({name, formula, why_not.empty() ? map : nullptr, why_not});
+  };
+  const auto copied = [](double alpha, double specular) { return MappedTexel{alpha, specular}; };
+  const bool from_exponent = source.roughness == Convention::kExponent,
+             to_exponent = target.roughness == Convention::kExponent;
+  add("copy", "alpha and specular unchanged (MDL distiller, MaterialX)", "", copied);
+  // The formula of Walter et al. (2007), section 5.2, which Mitsuba and Cycles use. Canonical coordinates use
+  // the same formula, so it copies alpha.
+  add("exponent", "n = 2 / alpha^2 - 2 (Walter et al. 2007)",
+      from_exponent != to_exponent ? ""
+      : from_exponent              ? "both models have an exponent"
+                                   : "neither model has an exponent",
+      copied);
+  // Confuses alpha and sqrt(alpha): the parameter value is copied although the conventions differ.
+  add("copy number", "the parameter value unchanged, although one is alpha and one sqrt(alpha)",
+      why_number_is_not_copied(source, target),
+      [from = source.roughness, to = target.roughness](double alpha, double specular) {
+        return MappedTexel{remap::to_alpha(to, remap::from_alpha(from, alpha)), specular};
+      });
+  add("pbrt-v3", "alpha = quartic of ln(roughness)",
+      source.roughness == Convention::kRoughness ? "" : width_text(source) + ", not roughness",
+      [](double alpha, double specular) {
+        return MappedTexel{pbrt_alpha(remap::from_alpha(Convention::kRoughness, alpha)), specular};
+      });
+  for (const ExponentFormula& formula : kExponentFormulas)
+    add(formula.name, formula.formula, from_exponent ? "" : width_text(source) + ", not an exponent",
+        [roughness = formula.roughness](double alpha, double specular) {
+          const double r = roughness(remap::from_alpha(Convention::kExponent, alpha), specular);
+          return MappedTexel{r * r, specular};
+        });
   return all;
 }
 

@@ -8,9 +8,8 @@
 #include "fit/rows/folds.hpp"
 #include "fit/rows/split.hpp"
 #include "lower/lower.hpp"
-#include "model/interpreter.hpp"
-#include "remap/error.hpp"
 #include "system/parallel.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -21,6 +20,8 @@ using remap::Error;
 using remap::ErrorKind;
 
 constexpr std::size_t kMostRows = 2000;
+constexpr std::size_t kFolds = 5;
+constexpr std::size_t kRepeats = 2;  // of the cross-validation, each with different folds
 constexpr double kEdgeFactor = 2.0;
 constexpr double kEdgeMargin = 2e-3;
 // The share of the progress for the fits with their searches; the rest is for the folds.
@@ -28,20 +29,30 @@ constexpr double kShareOfFits = 0.5;
 
 // The errors of one contender on the held-out rows of a fold.
 struct FoldErrors {
-  std::vector<double> alpha, specular;
+  Residuals residuals;
   std::string failure;
 };
 
-std::string reason(const Error& error) {
-  // An interruption does not reject a contender; it ends the comparison.
-  if (error.kind() == ErrorKind::kInterrupted) throw error;
-  return error.what();
+void reject(Contender& contender, const std::string& verdict) {
+  contender.sound = false;
+  contender.candidate.verdict = verdict;
+}
+
+// Runs `work`. Returns `what: why` if it throws, else an empty text. An interruption ends the comparison.
+std::string failure_of(const std::string& what, const std::function<void()>& work) {
+  try {
+    work();
+    return "";
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInterrupted) throw;
+    return what + ": " + error.what();
+  }
 }
 
 class ComparisonRun {
  public:
   ComparisonRun(const std::vector<TableRow>& rows, const remap::Domain& domain,
-                const ComparisonOptions& options, const FitProgress& progress)
+                const RegressionOptions& options, const FitProgress& progress)
       : rows_(rows), domain_(domain), options_(options), progress_(progress) {}
 
   Comparison compare() {
@@ -56,7 +67,7 @@ class ComparisonRun {
 
  private:
   void enter_all() {
-    RegressionOptions regression = options_.regression;
+    RegressionOptions regression = options_;
     if (regression.form.empty()) {
       regression.form = "paper";
       enter("paper", Regressor::kParametric, regression);
@@ -74,7 +85,7 @@ class ComparisonRun {
   void enter(const std::string& name, Regressor regressor, const RegressionOptions& regression) {
     Contender contender;
     contender.candidate.name = name;
-    try {
+    contender.candidate.verdict = failure_of("not fitted", [&] {
       contender.regression = regress(regressor, rows_, domain_, regression, [&](double share) {
         report(kShareOfFits * (static_cast<double>(entered_) + share) / kContenders);
       });
@@ -82,27 +93,24 @@ class ComparisonRun {
       contender.candidate.number_count = remap::number_count(contender.regression.mapping);
       if (regressor == Regressor::kParametric)
         contender.candidate.name = "parametric " + contender.regression.method.at("form");
-    } catch (const Error& error) {
-      contender.candidate.verdict = "not fitted: " + reason(error);
-    }
+    });
     ++entered_;
     comparison_.contenders.push_back(std::move(contender));
   }
 
   // Runs all folds of all contenders, each as one task.
   void judge_by_folds() {
-    const std::vector<TableRow> drawn = draw_rows(rows_, kMostRows, options_.regression.seed);
+    const std::vector<TableRow> drawn = draw_rows(rows_, kMostRows, options_.seed);
     std::vector<Fold> folds;
-    for (std::size_t repeat = 0; repeat < options_.repeats; ++repeat) {
+    for (std::size_t repeat = 0; repeat < kRepeats; ++repeat) {
       // The seeds are far apart, so that seed and seed + 1 share no folds.
-      const auto fold_of_row =
-          draw_folds(drawn, options_.folds, options_.regression.seed + 1000003 * (repeat + 1));
-      for (std::size_t f = 0; f < options_.folds; ++f) folds.push_back(select_fold(drawn, fold_of_row, f));
+      for (Fold& fold : split_folds(drawn, kFolds, options_.seed + 1000003 * (repeat + 1)))
+        folds.push_back(std::move(fold));
     }
     std::vector<Contender>& contenders = comparison_.contenders;
     std::vector<std::vector<FoldErrors>> errors(contenders.size(), std::vector<FoldErrors>(folds.size()));
     const std::size_t count = contenders.size() * folds.size();
-    remap::run_parallel(count, options_.regression.jobs, [&](std::size_t task) {
+    remap::run_parallel(count, options_.jobs, [&](std::size_t task) {
       // The last contenders are the slowest, so they start first.
       const std::size_t c = contenders.size() - 1 - task / folds.size(), f = task % folds.size();
       errors[c][f] = errors_in_fold(contenders[c], folds[f]);
@@ -116,67 +124,54 @@ class ComparisonRun {
   FoldErrors errors_in_fold(const Contender& contender, const Fold& fold) const {
     FoldErrors errors;
     if (!contender.sound || fold.judging.empty()) return errors;
-    try {
-      const remap::MappingKind mapping =
-          regress_again(contender.regression, fold.training, single_threaded());
-      for (const TableRow& row : fold.judging) {
-        const remap::MappedTexel texel = remap::evaluate_mapping(mapping, row.alpha1, row.specular1);
-        errors.alpha.push_back(texel.alpha - row.alpha2);
-        errors.specular.push_back(texel.specular - row.specular2);
-      }
-    } catch (const Error& error) {
-      errors.failure = "not fitted in a fold: " + reason(error);
-    }
+    errors.failure = failure_of("not fitted in a fold", [&] {
+      errors.residuals =
+          residuals_of(fold.judging, regress_again(contender.regression, fold.training, single_threaded()));
+    });
     return errors;
   }
 
   static void put_together(Contender& contender, const std::vector<FoldErrors>& folds) {
-    std::vector<std::vector<double>> alpha, specular;
-    std::vector<double> all_alpha, all_specular;
-    for (const FoldErrors& fold : folds) {
-      if (!fold.failure.empty() && contender.sound) {
-        contender.sound = false;
-        contender.candidate.verdict = fold.failure;
+    for (const FoldErrors& fold : folds)
+      if (!fold.failure.empty() && contender.sound) reject(contender, fold.failure);
+    const auto join = [&](std::vector<double> Residuals::*output, remap::ErrorFigures* figures) {
+      std::vector<std::vector<double>> by_fold;
+      std::vector<double> all;
+      for (const FoldErrors& fold : folds) {
+        const std::vector<double>& own = by_fold.emplace_back(fold.residuals.*output);
+        all.insert(all.end(), own.begin(), own.end());
       }
-      alpha.push_back(fold.alpha);
-      specular.push_back(fold.specular);
-      all_alpha.insert(all_alpha.end(), fold.alpha.begin(), fold.alpha.end());
-      all_specular.insert(all_specular.end(), fold.specular.begin(), fold.specular.end());
-    }
-    contender.candidate.alpha = error_figures(std::move(all_alpha));
-    contender.candidate.specular = error_figures(std::move(all_specular));
-    contender.candidate.alpha_standard_error = cross_validated(alpha).standard_error;
-    contender.candidate.specular_standard_error = cross_validated(specular).standard_error;
+      *figures = error_figures(std::move(all));
+      return cross_validated(by_fold).standard_error;
+    };
+    Candidate& candidate = contender.candidate;
+    candidate.alpha_standard_error = join(&Residuals::alpha, &candidate.alpha);
+    candidate.specular_standard_error = join(&Residuals::specular, &candidate.specular);
   }
 
   void judge_beyond(Contender& contender) {
     if (!contender.fitted) return;
     const BeyondDomain beyond = look_beyond(contender.regression.mapping, domain_);
     contender.candidate.chroma_shift = beyond.chroma_shift;
-    if (!contender.sound || beyond.fault.empty()) return;
-    contender.sound = false;
-    contender.candidate.verdict = "breaks beyond the domain: " + beyond.fault;
+    if (!beyond.fault.empty()) reject(contender, "breaks beyond the domain: " + beyond.fault);
   }
 
   void judge_by_edge() {
-    const EdgeRows edge = edge_rows(draw_rows(rows_, kMostRows, options_.regression.seed));
+    const EdgeRows edge = edge_rows(draw_rows(rows_, kMostRows, options_.seed));
     if (edge.outer.empty()) return;
     std::vector<Contender>& contenders = comparison_.contenders;
-    remap::run_parallel(contenders.size(), options_.regression.jobs, [&](std::size_t task) {
+    remap::run_parallel(contenders.size(), options_.jobs, [&](std::size_t task) {
       Contender& contender = contenders[contenders.size() - 1 - task];
       if (!contender.sound) return;
-      try {
+      const std::string failure = failure_of("not fitted without the outermost rows", [&] {
         const remap::MappingKind mapping = regress_again(contender.regression, edge.inner, single_threaded());
         const EdgeErrors errors = edge_errors(mapping, covered_domain(edge.inner), edge.outer);
         contender.candidate.edge_alpha_rms = errors.alpha_rms;
         contender.candidate.edge_specular_rms = errors.specular_rms;
         contender.candidate.raw_edge_alpha_rms = errors.raw_alpha_rms;
         contender.candidate.raw_edge_specular_rms = errors.raw_specular_rms;
-      } catch (const Error& error) {
-        const std::string text = reason(error);
-        if (contender.sound) contender.candidate.verdict = "not fitted without the outermost rows: " + text;
-        contender.sound = false;
-      }
+      });
+      if (!failure.empty()) reject(contender, failure);
     });
     refuse_bad_edges();
   }
@@ -189,34 +184,25 @@ class ComparisonRun {
       best_specular = std::min(best_specular, contender.candidate.edge_specular_rms);
     }
     const auto bound = [](double best) { return std::max(kEdgeFactor * best, best + kEdgeMargin); };
-    for (Contender& contender : comparison_.contenders) {
-      if (!contender.sound || (contender.candidate.edge_alpha_rms <= bound(best_alpha) &&
+    for (Contender& contender : comparison_.contenders)
+      if (contender.sound && !(contender.candidate.edge_alpha_rms <= bound(best_alpha) &&
                                contender.candidate.edge_specular_rms <= bound(best_specular)))
-        continue;
-      contender.sound = false;
-      contender.candidate.verdict = "worse at the edge";
-    }
+        reject(contender, "worse at the edge");
   }
 
   // Rejects contenders that `remapc emit` would refuse, if another one can be emitted.
   void judge_by_lowering() {
     std::vector<Contender>& contenders = comparison_.contenders;
     std::vector<std::string> refusals(contenders.size());
-    remap::run_parallel(contenders.size(), options_.regression.jobs, [&](std::size_t i) {
-      if (!contenders[i].sound) return;
-      try {
-        remap::lower(contenders[i].regression.mapping, domain_);
-      } catch (const Error& error) {
-        refusals[i] = reason(error);
-      }
+    remap::run_parallel(contenders.size(), options_.jobs, [&](std::size_t i) {
+      if (contenders[i].sound)
+        refusals[i] =
+            failure_of("cannot be emitted", [&] { remap::lower(contenders[i].regression.mapping, domain_); });
     });
     bool any = false;
     for (std::size_t i = 0; i < contenders.size(); ++i) any |= contenders[i].sound && refusals[i].empty();
-    for (std::size_t i = 0; any && i < contenders.size(); ++i) {
-      if (!contenders[i].sound || refusals[i].empty()) continue;
-      contenders[i].sound = false;
-      contenders[i].candidate.verdict = "cannot be emitted: " + refusals[i];
-    }
+    for (std::size_t i = 0; any && i < contenders.size(); ++i)
+      if (contenders[i].sound && !refusals[i].empty()) reject(contenders[i], refusals[i]);
   }
 
   void decide() {
@@ -230,15 +216,15 @@ class ComparisonRun {
     }
     comparison_.chosen = choose_candidate(candidates, eligible);
     if (comparison_.chosen == candidates.size())
-      throw Error(ErrorKind::kNumeric, "fit: no regression fits the table" + reasons);
+      throw numeric_error("fit: no regression fits the table" + reasons);
     comparison_.contenders[comparison_.chosen].regression.method["chosen by"] =
-        std::to_string(options_.repeats) + " x " + std::to_string(options_.folds) +
-        "-fold cross-validation on " + std::to_string(std::min(rows_.size(), kMostRows)) +
-        " training rows, seed " + std::to_string(options_.regression.seed);
+        std::to_string(kRepeats) + " x " + std::to_string(kFolds) + "-fold cross-validation on " +
+        std::to_string(std::min(rows_.size(), kMostRows)) + " training rows, seed " +
+        std::to_string(options_.seed);
   }
 
   RegressionOptions single_threaded() const {
-    RegressionOptions options = options_.regression;
+    RegressionOptions options = options_;
     options.jobs = 1;
     return options;
   }
@@ -251,7 +237,7 @@ class ComparisonRun {
 
   const std::vector<TableRow>& rows_;
   const remap::Domain& domain_;
-  const ComparisonOptions& options_;
+  const RegressionOptions& options_;
   const FitProgress& progress_;
   Comparison comparison_;
   std::size_t entered_ = 0;
@@ -259,29 +245,17 @@ class ComparisonRun {
   std::size_t judged_ = 0;
 };
 
-// The error up to which a candidate counts as equal to the best eligible one.
-double error_bound(const std::vector<Candidate*>& candidates, const std::vector<bool>& eligible,
-                   const std::function<std::pair<double, double>(const Candidate&)>& error) {
-  double best = 1e300, bound = 1e300;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!eligible[i]) continue;
-    const auto [rms, standard_error] = error(*candidates[i]);
-    if (!(rms < best)) continue;
-    best = rms;
-    bound = rms + std::max(standard_error, kNegligibleError);
-  }
-  return bound;
-}
-
 }  // namespace
 
 std::size_t choose_candidate(std::vector<Candidate*> candidates, const std::vector<bool>& eligible) {
-  const double alpha_bound = error_bound(candidates, eligible, [](const Candidate& candidate) {
-    return std::pair(candidate.alpha.rms, candidate.alpha_standard_error);
-  });
-  const double specular_bound = error_bound(candidates, eligible, [](const Candidate& candidate) {
-    return std::pair(candidate.specular.rms, candidate.specular_standard_error);
-  });
+  const auto bound_of = [&](remap::ErrorFigures Candidate::*figures, double Candidate::*standard_error) {
+    std::vector<CrossValidated> scores;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (eligible[i]) scores.push_back({(candidates[i]->*figures).rms, candidates[i]->*standard_error});
+    return error_bound(scores);
+  };
+  const double alpha_bound = bound_of(&Candidate::alpha, &Candidate::alpha_standard_error),
+               specular_bound = bound_of(&Candidate::specular, &Candidate::specular_standard_error);
   std::size_t chosen = candidates.size();
   double least_excess = 1e300;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -311,7 +285,7 @@ std::size_t choose_candidate(std::vector<Candidate*> candidates, const std::vect
 }
 
 Comparison compare_regressions(const std::vector<TableRow>& rows, const remap::Domain& domain,
-                               const ComparisonOptions& options, const FitProgress& progress) {
+                               const RegressionOptions& options, const FitProgress& progress) {
   return ComparisonRun(rows, domain, options, progress).compare();
 }
 

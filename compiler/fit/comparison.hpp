@@ -7,12 +7,6 @@
 
 namespace remapc {
 
-struct ComparisonOptions {
-  RegressionOptions regression;
-  std::size_t folds = 5;
-  std::size_t repeats = 2;  // of the cross-validation, each with different folds
-};
-
 struct Contender {
   Regression regression;  // of all rows; undefined if `fitted` is false
   remap::Candidate candidate;
@@ -27,7 +21,8 @@ struct Comparison {
 
 // Fits the parametric form of the paper, the best parametric form, support vectors and the network to `rows`.
 // Compares them:
-// - by cross-validation on the rows (on 2000 random rows if there are more); forms and hyper-parameters are
+// - by twice five-fold cross-validation on the rows (on 2000 random rows if there are more); forms and
+// hyper-parameters are
 //   chosen on all of `rows`, coefficients are refitted in each fold;
 // - on the outermost rows, after fitting without them (edge.hpp);
 // - by their values beyond the domain (edge.hpp);
@@ -42,7 +37,7 @@ struct Comparison {
 // rejected before the folds are not refitted. Throws kNumeric with the reasons if all are rejected. The
 // result depends only on rows, domain and options.
 Comparison compare_regressions(const std::vector<TableRow>& rows, const remap::Domain& domain,
-                               const ComparisonOptions& options, const FitProgress& progress = {});
+                               const RegressionOptions& options, const FitProgress& progress = {});
 
 // Chooses among the candidates that are `eligible` and fills their verdicts. Returns candidates.size() if
 // none is eligible. Public for the tests.

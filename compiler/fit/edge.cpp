@@ -77,19 +77,15 @@ EdgeRows edge_rows(const std::vector<TableRow>& rows) {
 
 EdgeErrors edge_errors(const remap::MappingKind& mapping, const remap::Domain& domain,
                        const std::vector<TableRow>& rows) {
-  std::vector<double> alpha, specular, raw_alpha, raw_specular;
-  for (const TableRow& row : rows) {
-    const remap::MappedTexel raw = remap::evaluate_mapping(mapping, row.alpha1, row.specular1);
-    raw_alpha.push_back(raw.alpha - row.alpha2);
-    raw_specular.push_back(raw.specular - row.specular2);
-    const double scale = std::max(1.0, row.specular1 / domain.specular.max);
-    const double held = std::clamp(row.alpha1, domain.alpha.min, domain.alpha.max);
-    const remap::MappedTexel ruled = remap::evaluate_mapping(mapping, held, row.specular1 / scale);
-    alpha.push_back(ruled.alpha - row.alpha2);
-    specular.push_back(scale * ruled.specular - row.specular2);
-  }
-  const auto rms = [](std::vector<double>& errors) { return error_figures(std::move(errors)).rms; };
-  return {rms(alpha), rms(specular), rms(raw_alpha), rms(raw_specular)};
+  const Residuals raw = residuals_of(rows, mapping);
+  const Residuals ruled = residuals_of(rows, [&](double alpha, double specular) {
+    const double scale = std::max(1.0, specular / domain.specular.max);
+    const double held = std::clamp(alpha, domain.alpha.min, domain.alpha.max);
+    const remap::MappedTexel texel = remap::evaluate_mapping(mapping, held, specular / scale);
+    return remap::MappedTexel{texel.alpha, scale * texel.specular};
+  });
+  return {error_figures(ruled.alpha).rms, error_figures(ruled.specular).rms, error_figures(raw.alpha).rms,
+          error_figures(raw.specular).rms};
 }
 
 BeyondDomain look_beyond(const remap::MappingKind& mapping, const remap::Domain& domain) {

@@ -5,36 +5,29 @@
 #include <cmath>
 #include <sstream>
 
-#include <openssl/evp.h>
-
 #include "fit/comparison.hpp"
 #include "fit/rows/split.hpp"
-#include "model/interpreter.hpp"
-#include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "table/check.hpp"
 #include "table/domain.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
-
 void require_models(const Table& table) {
   if (table.source.model.empty() || table.target.model.empty())
-    throw Error(ErrorKind::kInput,
-                table.name +
-                    ": does not name its models (add `# source: ...` and `# target: ...` lines, or use "
-                    "--source and --target)");
+    throw input_error(table.name +
+                      ": does not name its models (add `# source: ...` and `# target: ...` lines, or use "
+                      "--source and --target)");
   for (const remap::ModelSide& side : {table.source, table.target}) {
     if (!remap::is_valid_model(side.model))
-      throw Error(ErrorKind::kInput,
-                  table.name + ": invalid model name '" + side.model + "' (use letters, digits and _ - . /)");
+      throw input_error(table.name + ": invalid model name '" + side.model +
+                        "' (use letters, digits and _ - . /)");
     if (!remap::is_valid_specular(side.specular))
-      throw Error(ErrorKind::kInput, table.name + ": invalid specular parameter '" + side.specular + "' of " +
-                                         side.model + " (use an identifier that is not a roughness name)");
+      throw input_error(table.name + ": invalid specular parameter '" + side.specular + "' of " + side.model +
+                        " (use an identifier that is not a roughness name)");
   }
 }
 
@@ -68,13 +61,8 @@ std::optional<remap::ImageSimilarity> image_similarity(const Table& table,
 }  // namespace
 
 RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows) {
-  std::vector<double> alpha_errors, specular_errors;
-  for (const TableRow& row : rows) {
-    const remap::MappedTexel texel = remap::evaluate_mapping(fit.mapping, row.alpha1, row.specular1);
-    alpha_errors.push_back(texel.alpha - row.alpha2);
-    specular_errors.push_back(texel.specular - row.specular2);
-  }
-  return {error_figures(std::move(alpha_errors)), error_figures(std::move(specular_errors))};
+  Residuals residuals = residuals_of(rows, fit.mapping);
+  return {error_figures(std::move(residuals.alpha)), error_figures(std::move(residuals.specular))};
 }
 
 FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
@@ -104,8 +92,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   if (options.regressor)
     return {fit_of(regress(*options.regressor, split.training, fit.domain, options.regression, progress)),
             {}};
-  const Comparison comparison =
-      compare_regressions(split.training, fit.domain, {options.regression, 5, 2}, progress);
+  const Comparison comparison = compare_regressions(split.training, fit.domain, options.regression, progress);
   for (const Contender& contender : comparison.contenders) fit.candidates.push_back(contender.candidate);
   FittedTable fitted{fit_of(comparison.contenders[comparison.chosen].regression), {}};
   for (const Contender& contender : comparison.contenders)

@@ -4,24 +4,17 @@
 #include <stdexcept>
 
 #include "fit/parametric/parametric.hpp"
-#include "fit/parametric/parametric_parts.hpp"
 #include "fit/parametric/specular_terms.hpp"
 
 namespace remapc {
 namespace {
 
-SvrOptions svr_options(const RegressionOptions& options) {
-  SvrOptions svr = options.svr;
-  svr.seed = options.seed;
-  svr.jobs = options.jobs;
-  return svr;
-}
-
-MlpOptions mlp_options(const RegressionOptions& options) {
-  MlpOptions mlp = options.mlp;
-  mlp.seed = options.seed;
-  mlp.jobs = options.jobs;
-  return mlp;
+// The options of one regression with the seed and the threads of all.
+template <typename Options>
+Options joined(Options own, const RegressionOptions& all) {
+  own.seed = all.seed;
+  own.jobs = all.jobs;
+  return own;
 }
 
 struct RegressAgain {
@@ -35,10 +28,10 @@ struct RegressAgain {
                              fit_specular_terms(rows, *form.specular, &near.specular)};
   }
   remap::MappingKind operator()(const remap::Svr&) const {
-    return fit_svr(rows, options_from_method(model.method, svr_options(options))).mapping;
+    return fit_svr(rows, options_from_method(model.method, joined(options.svr, options))).mapping;
   }
   remap::MappingKind operator()(const remap::Mlp&) const {
-    return fit_mlp(rows, mlp_options(options)).mapping;
+    return fit_mlp(rows, joined(options.mlp, options)).mapping;
   }
   remap::MappingKind operator()(const remap::Chain&) const {
     throw std::logic_error("chains are composed, not regressed");
@@ -50,19 +43,14 @@ struct RegressAgain {
 Regression regress(Regressor regressor, const std::vector<TableRow>& rows, const remap::Domain& domain,
                    const RegressionOptions& options, const FitProgress& progress) {
   switch (regressor) {
-    case Regressor::kParametric: {
-      ParametricOptions parametric;
-      parametric.form = options.form;
-      parametric.seed = options.seed;
-      parametric.jobs = options.jobs;
-      return fit_parametric_best(rows, domain, parametric, progress);
-    }
+    case Regressor::kParametric:
+      return fit_parametric_best(rows, domain, {options.form, options.seed, options.jobs}, progress);
     case Regressor::kSvr:
-      return fit_svr(rows, svr_options(options), progress);
+      return fit_svr(rows, joined(options.svr, options), progress);
     case Regressor::kMlp:
       break;
   }
-  return fit_mlp(rows, mlp_options(options), progress);
+  return fit_mlp(rows, joined(options.mlp, options), progress);
 }
 
 remap::MappingKind regress_again(const Regression& model, const std::vector<TableRow>& rows,

@@ -211,8 +211,7 @@ class Builder {
   }
 
   remap::AnyFit fit_of(const ManifestItem& item, const ItemPaths& paths) const {
-    if (const auto* analytic = std::get_if<WorkflowItem>(&item.kind)) return analytic->fit;
-    if (const auto* published = std::get_if<PublishedItem>(&item.kind)) return published->fit;
+    if (const auto* finished = std::get_if<FinishedItem>(&item.kind)) return finished->fit;
     if (const auto* chain = std::get_if<ChainItem>(&item.kind)) return chain_of(*chain, item.id);
     if (const auto* network = std::get_if<NetworkItem>(&item.kind)) return network_of(*network, item, paths);
     const std::string bytes = remap::read_file(paths.table);

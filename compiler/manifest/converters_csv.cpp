@@ -1,9 +1,9 @@
-#include "manifest/converters_csv.hpp"
-
+// The table of all figures of all converters.
 #include <algorithm>
 #include <map>
 #include <utility>
 
+#include "manifest/report.hpp"
 #include "manifest/trust.hpp"
 #include "model/inverse.hpp"
 #include "text/number_text.hpp"

@@ -3,13 +3,12 @@
 #include <algorithm>
 
 #include "manifest/manifest.hpp"
-#include "remap/error.hpp"
 #include "remap/fit_file.hpp"
+#include "text/errors.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remapc {
 
-using remap::Error;
 using remap::ErrorKind;
 
 void FitFolder::add(remap::AnyFit fit) {
@@ -23,14 +22,14 @@ void FitFolder::add(remap::AnyFit fit) {
 
 FitFolder load_fit_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder))
-    throw Error(ErrorKind::kInput, folder.string() + ": not a folder (name one with fits, *.json)");
+    throw input_error(folder.string() + ": not a folder (name one with fits, *.json)");
   FitFolder loaded;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".json" || entry.path().filename() == kManifestName) continue;
     remap::AnyFit fit = remap::load_any_fit(entry.path());
     if (entry.path().stem() != fit_id(fit))
-      throw Error(ErrorKind::kInput,
-                  entry.path().string() + ": holds the fit " + fit_id(fit) + " (rename the file after it)");
+      throw input_error(entry.path().string() + ": holds the fit " + fit_id(fit) +
+                        " (rename the file after it)");
     loaded.add(std::move(fit));
   }
   const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
@@ -55,8 +54,8 @@ remap::AnyFit find_any_fit(const std::string& name, const std::filesystem::path&
     for (const remap::WorkflowFit& fit : loaded.analytic) known.push_back(fit.id);
     for (const remap::WarpMapFit& fit : loaded.warps) known.push_back(fit.id);
   }
-  throw Error(ErrorKind::kUsage,
-              name + ": neither a file nor a fit in " + folder.string() + remap::suggestion(name, known));
+  throw usage_error(name + ": neither a file nor a fit in " + folder.string() +
+                    remap::suggestion(name, known));
 }
 
 remap::Fit find_fit(const std::string& name, const std::filesystem::path& folder) {

@@ -4,9 +4,10 @@
 #include <string_view>
 
 #include "fit_file/fit_fields.hpp"
-#include "remap/error.hpp"
+#include "fit_file/workflow_fields.hpp"
 #include "remap/version.hpp"
 #include "system/files.hpp"
+#include "text/errors.hpp"
 #include "text/json_field.hpp"
 #include "text/nearest_name.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 using remap::Field;
 using remap::Fit;
 
+std::string read_text(const Field& field) { return field.text(); }
+
 std::size_t read_count(const Field& field) {
   field.require(field.count() >= 2 && field.count() <= 1000, "a number from 2 to 1000");
   return static_cast<std::size_t>(field.count());
@@ -24,10 +27,9 @@ std::size_t read_count(const Field& field) {
 // Returns the ordered pairs of a group: all of its `models`, or its `pairs` in both directions.
 std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) {
   std::vector<std::pair<std::string, std::string>> pairs;
-  const auto name = [](const Field& model) { return model.text(); };
   if (group.json().contains("pairs")) {
     group["pairs"].list(1, [&](const Field& entry) {
-      const std::vector<std::string> models = entry.list(2, name);
+      const std::vector<std::string> models = entry.list(2, read_text);
       entry.require(models.size() == 2, "two models");
       pairs.emplace_back(models[0], models[1]);
       pairs.emplace_back(models[1], models[0]);
@@ -35,7 +37,7 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) 
     });
     return pairs;
   }
-  const std::vector<std::string> models = group["models"].list(2, name);
+  const std::vector<std::string> models = group["models"].list(2, read_text);
   for (const std::string& source : models)
     for (const std::string& target : models)
       if (source != target) pairs.emplace_back(source, target);
@@ -82,17 +84,16 @@ void read_published(const Field& field, std::vector<ManifestItem>* items) {
   fit.mapping = remap::Parametric{{field["roughness"].numbers(1)}, {{1, read_slope(field["slope"])}}};
   fit.method["form"] = "paper";
   fit.method["source"] = field["from"].text();
-  fit.remarks = field["remarks"].list(0, [](const Field& remark) { return remark.text(); });
+  fit.remarks = field["remarks"].list(0, read_text);
   fit.remarks.insert(fit.remarks.begin(), "Published in " + fit.method["source"] + ".");
   fit.tool_version = remap::kVersion;
-  items->push_back({fit.id, PublishedItem{fit}, field.json().dump(), 0});
+  items->push_back({fit.id, FinishedItem{fit}, field.json().dump(), 0});
 }
 
 void read_workflow_item(const Field& field, std::vector<ManifestItem>* items) {
   remap::WorkflowFit fit{field["id"].text(), remap::read_conversion(field), std::nullopt,
-                         field["remarks"].list(0, [](const Field& remark) { return remark.text(); }),
-                         remap::kVersion};
-  items->push_back({fit.id, WorkflowItem{fit}, field.json().dump(), 0});
+                         field["remarks"].list(0, read_text), remap::kVersion};
+  items->push_back({fit.id, FinishedItem{fit}, field.json().dump(), 0});
 }
 
 remap::Activation read_activation(const Field& field) {
@@ -106,13 +107,13 @@ void read_network_item(const Field& field, std::vector<ManifestItem>* items) {
   item.fit.id = field["id"].text();
   item.fit.conversion.specular = remap::read_specular_workflow(field["source"]);
   item.fit.conversion.metallic = remap::read_metallic_workflow(field["target"]);
-  item.fit.remarks = field["remarks"].list(0, [](const Field& remark) { return remark.text(); });
+  item.fit.remarks = field["remarks"].list(0, read_text);
   item.fit.tool_version = remap::kVersion;
   const Field samples = field["samples"];
   item.metallic = samples["metallic"].text();
   item.specular = samples["specular"].text();
   item.fixed = samples["fixed"].dictionary<double>([](const Field& value) { return value.number(); });
-  item.varied = samples["vary"].list(0, [](const Field& name) { return name.text(); });
+  item.varied = samples["vary"].list(0, read_text);
   item.count = static_cast<std::size_t>(samples["count"].count());
   item.resolution = static_cast<int>(samples["resolution"].count());
   item.hidden =
@@ -137,13 +138,11 @@ void require_unique(const std::vector<ManifestItem>& items, const std::string& p
   for (const ManifestItem& item : items) ids.push_back(item.id);
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
-  if (twice != ids.end())
-    throw remap::Error(remap::ErrorKind::kInput, place + ": " + *twice + " is defined twice");
+  if (twice != ids.end()) throw input_error(place + ": " + *twice + " is defined twice");
   for (const std::string& id : ids)
     if (!remap::is_valid_id(id))
-      throw remap::Error(
-          remap::ErrorKind::kInput,
-          place + ": id \"" + id + "\" is not a C++ identifier without leading or doubled underscore");
+      throw input_error(place + ": id \"" + id +
+                        "\" is not a C++ identifier without leading or doubled underscore");
 }
 
 Manifest manifest_from_json(std::string_view text, const std::string& place) {

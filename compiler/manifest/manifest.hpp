@@ -33,15 +33,11 @@ struct SweptItem {  // a pair of models, built-in or of real renderers
 struct InverseItem {  // the inverse of another item's fit
   std::string of;
 };
-struct PublishedItem {  // a formula from a paper; `fit` lacks only the tool's version
-  remap::Fit fit;
+struct FinishedItem {  // a formula from a paper, or a conversion of whole materials
+  remap::AnyFit fit;
 };
 struct ChainItem {  // other items, one after another
   std::vector<std::string> steps;
-};
-
-struct WorkflowItem {  // a conversion of whole materials; `fit` is complete
-  remap::WorkflowFit fit;
 };
 
 // A network from the specular to the metallic workflow, trained on random metallic materials that were
@@ -59,7 +55,7 @@ struct NetworkItem {
 
 struct ManifestItem {
   std::string id;
-  std::variant<SweptItem, InverseItem, PublishedItem, ChainItem, WorkflowItem, NetworkItem> kind;
+  std::variant<SweptItem, InverseItem, FinishedItem, ChainItem, NetworkItem> kind;
   std::string recipe;      // the text that defines the item; equal recipes give equal items
   std::uint64_t seed = 1;  // of its fit and of random materials
 };

@@ -1,10 +1,9 @@
 // The plot is drawn without a plotting program, so that every machine gives the same bytes.
-#include "manifest/pairs_plot.hpp"
-
 #include <algorithm>
 #include <map>
 #include <set>
 
+#include "manifest/report.hpp"
 #include "manifest/trust.hpp"
 #include "model/interpreter.hpp"
 #include "text/report_text.hpp"

@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "fit/rows/split.hpp"
-#include "manifest/converters_csv.hpp"
-#include "manifest/pairs_plot.hpp"
 #include "manifest/trust.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"

@@ -22,4 +22,17 @@ struct ReportFile {
 // The same fits give the same bytes on every machine.
 std::vector<ReportFile> report(const FitFolder& folder, const Lock& lock);
 
+// Returns all figures for spreadsheets and scripts, as CSV (RFC 4180): a header row, then one row for each
+// converter. Converters of width and specular come first, by rising image error, then those between
+// workflows, then warps. Errors are shares, lengths of the domain are alpha and specular; unknown figures are
+// empty. `lock` holds the bounds of lowering.
+std::string converters_csv(const FitFolder& folder, const Lock& lock);
+
+// Returns small multiples as an SVG: a panel for each measured pair: target alpha over source alpha, and the
+// ratio of speculars, at specular 0.5 or at the edge of the domain if that is lower. Pairs of the hub form a
+// matrix, a row for each source and a column for each target; the others follow. The hub holds models with
+// measured converters to or from more than one other, and pairs without further partners. The same fits give
+// the same bytes on every machine.
+std::string pairs_plot(const std::vector<remap::Fit>& fits);
+
 }  // namespace remapc

@@ -136,7 +136,7 @@ std::vector<WarpVariant> warp_variants() {
   for (const WarpMethod method :
        {WarpMethod::kRegistration, WarpMethod::kPaper, WarpMethod::kHistogram, WarpMethod::kAffine}) {
     WarpVariant& variant = variants.emplace_back();
-    variant.name = method_name(method);
+    variant.name = remap::name_of(kWarpMethods, method);
     variant.method = method;
   }
   for (const char* name : {"nearest", kTruth}) variants.emplace_back().name = name;

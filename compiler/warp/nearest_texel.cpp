@@ -24,22 +24,15 @@ struct PointList {
 
 constexpr std::size_t kLeafSize = 32;
 
-}  // namespace
-
-struct NearestTexel::Tree {
-  virtual ~Tree() = default;
-  virtual std::vector<std::uint32_t> find(const Points& points) const = 0;
-};
-
 // The dimension is a template parameter, because that doubles the speed.
 template <std::size_t kDimension>
-struct NearestTexel::TreeOf final : NearestTexel::Tree {
+struct Tree {
   using List = PointList<kDimension>;
   using Distance = nanoflann::L2_Simple_Adaptor<float, List>;
   using Index =
       nanoflann::KDTreeSingleIndexAdaptor<Distance, List, static_cast<int>(kDimension), std::uint32_t>;
 
-  explicit TreeOf(const Points& positions)
+  explicit Tree(const Points& positions)
       : list(list_of(positions)),
         index(static_cast<int>(kDimension), list, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {}
 
@@ -62,7 +55,7 @@ struct NearestTexel::TreeOf final : NearestTexel::Tree {
     return list;
   }
 
-  std::vector<std::uint32_t> find(const Points& points) const override {
+  std::vector<std::uint32_t> find(const Points& points) const {
     std::vector<std::uint32_t> nearest(static_cast<std::size_t>(points.rows()));
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       const std::array<float, kDimension> query = point_of(points, i);
@@ -78,19 +71,22 @@ struct NearestTexel::TreeOf final : NearestTexel::Tree {
   Index index;
 };
 
-NearestTexel::NearestTexel(const Points& positions) {
-  if (positions.cols() == 1)
-    tree_ = std::make_unique<TreeOf<1>>(positions);
-  else if (positions.cols() == 2)
-    tree_ = std::make_unique<TreeOf<2>>(positions);
-  else
-    tree_ = std::make_unique<TreeOf<3>>(positions);
+template <std::size_t kDimension>
+auto finder_of(const Points& positions) {
+  return [tree = std::make_shared<const Tree<kDimension>>(positions)](const Points& points) {
+    return tree->find(points);
+  };
 }
 
-NearestTexel::~NearestTexel() = default;
-NearestTexel::NearestTexel(NearestTexel&&) noexcept = default;
-NearestTexel& NearestTexel::operator=(NearestTexel&&) noexcept = default;
+}  // namespace
 
-std::vector<std::uint32_t> NearestTexel::find(const Points& points) const { return tree_->find(points); }
+NearestTexel::NearestTexel(const Points& positions) {
+  if (positions.cols() == 1)
+    find_ = finder_of<1>(positions);
+  else if (positions.cols() == 2)
+    find_ = finder_of<2>(positions);
+  else
+    find_ = finder_of<3>(positions);
+}
 
 }  // namespace remapc

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <vector>
 
 #include "warp/space/coordinates.hpp"
@@ -14,18 +14,12 @@ class NearestTexel {
  public:
   // Rows with NaN are ignored; at least one row must be finite.
   explicit NearestTexel(const Points& positions);
-  ~NearestTexel();
-  NearestTexel(NearestTexel&&) noexcept;
-  NearestTexel& operator=(NearestTexel&&) noexcept;
 
   // Returns the index of the nearest row of `positions` for each point.
-  std::vector<std::uint32_t> find(const Points& points) const;
+  std::vector<std::uint32_t> find(const Points& points) const { return find_(points); }
 
  private:
-  struct Tree;
-  template <std::size_t kDimension>
-  struct TreeOf;
-  std::unique_ptr<Tree> tree_;
+  std::function<std::vector<std::uint32_t>(const Points&)> find_;
 };
 
 }  // namespace remapc

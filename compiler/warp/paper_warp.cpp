@@ -14,9 +14,10 @@ namespace {
 
 constexpr double kSigma = 0.2;  // relative to the diagonal of the template's box
 constexpr std::size_t kNeighbours = 10;
-constexpr std::size_t kParameters = 10;  // varied in one simplex search
-constexpr double kBeside = 1.0 / 3.0;    // offset of the points around a centroid, in bins
-constexpr double kMargin = 0.5;          // relative to the template's box, on each side
+constexpr std::size_t kParameters = 10;            // varied in one simplex search
+constexpr int kSearches = 300, kEvaluations = 60;  // of the energy in each simplex search
+constexpr double kBeside = 1.0 / 3.0;              // offset of the points around a centroid, in bins
+constexpr double kMargin = 0.5;                    // relative to the template's box, on each side
 
 double diagonal(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
@@ -277,7 +278,7 @@ MovingAffine initialisation_of_paper(const PointSets& sets) {
   return warp;
 }
 
-PaperWarp warp_of_paper(const PointSets& sets, const PaperOptions& options) {
+PaperWarp warp_of_paper(const PointSets& sets) {
   PaperWarp result;
   result.warp.start = initialisation_of_paper(sets);
   result.warp.bins = sets.source.points;
@@ -285,7 +286,7 @@ PaperWarp warp_of_paper(const PointSets& sets, const PaperOptions& options) {
   const std::vector<AffineMap> before = energy.maps();
   result.energy_before = energy.value();
   std::mt19937 random(1);
-  for (int round = 0; round < options.rounds; ++round) {
+  for (int round = 0; round < kSearches; ++round) {
     const std::vector<Chosen> chosen = choose(energy, random);
     if (chosen.empty()) break;
     std::vector<double> start, steps;
@@ -298,7 +299,7 @@ PaperWarp warp_of_paper(const PointSets& sets, const PaperOptions& options) {
         energy.set_entry(chosen[i].bin, chosen[i].entry, values[i]);
       return energy.value();
     };
-    set(simplex_search(start, steps, options.evaluations, set));
+    set(simplex_search(start, steps, kEvaluations, set));
   }
   result.energy_after = energy.value();
   for (std::size_t b = 0; b < before.size(); ++b)

@@ -10,11 +10,6 @@ namespace remapc {
 // sigma 0.2 times the diagonal of the template's box.
 MovingAffine initialisation_of_paper(const PointSets& sets);
 
-struct PaperOptions {
-  int rounds = 300;      // number of simplex searches
-  int evaluations = 60;  // of the energy in each search
-};
-
 struct PaperWarp {
   BinnedAffine warp;
   // The published energy: squared differences in bins plus the number of bins that do not overlap.
@@ -28,6 +23,6 @@ struct PaperWarp {
 // points a third of a bin away along each axis; each search varies one entry of the maps of ten bins next to
 // a mismatch. The search is that of Nelder and Mead as described by Lagarias et al. 1998. Deterministic. The
 // search changes the error by less than 0.1 percentage points, so the initialisation determines the result.
-PaperWarp warp_of_paper(const PointSets& sets, const PaperOptions& options = {});
+PaperWarp warp_of_paper(const PointSets& sets);
 
 }  // namespace remapc

@@ -6,8 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "remap/error.hpp"
-#include "remap/named_values.hpp"
+#include "text/errors.hpp"
 #include "text/report_text.hpp"
 #include "warp/paper_warp.hpp"
 #include "warp/warp_table.hpp"
@@ -15,16 +14,11 @@
 namespace remapc {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
-
-constexpr remap::NamedValues<WarpMethod, 4> kMethods = {{{WarpMethod::kRegistration, "registration"},
-                                                         {WarpMethod::kAffine, "affine"},
-                                                         {WarpMethod::kHistogram, "histogram"},
-                                                         {WarpMethod::kPaper, "paper"}}};
-
 // The source is only used for points; results are texels of the template, so more of them are kept.
 constexpr std::size_t kMostSources = std::size_t{1} << 16, kMostTargets = std::size_t{1} << 18;
+
+// Limits of copy_rms_error().
+constexpr std::size_t kMostSampledSources = std::size_t{1} << 14, kMostCopies = std::size_t{1} << 18;
 
 using StrokeTexels = std::vector<std::vector<std::uint32_t>>;
 
@@ -119,11 +113,10 @@ WarpDiagnostics::SharedStroke most_shared(const MaterialRef& source, const Mater
 
 void require_options(const WarpOptions& options) {
   if (options.dimensions < 0 || options.dimensions > static_cast<int>(remap::kLargestWarpDimension))
-    throw Error(ErrorKind::kUsage, "dimensions: " + std::to_string(options.dimensions) +
-                                       " is out of range (1 to 3, or 0 for as many as needed)");
+    throw usage_error("dimensions: " + std::to_string(options.dimensions) +
+                      " is out of range (1 to 3, or 0 for as many as needed)");
   if (options.nodes == 1 || options.nodes > 1024)
-    throw Error(ErrorKind::kUsage,
-                "nodes: " + std::to_string(options.nodes) + " is out of range (2 to 1024)");
+    throw usage_error("nodes: " + std::to_string(options.nodes) + " is out of range (2 to 1024)");
 }
 
 // A match and the data that it was computed from.
@@ -186,13 +179,15 @@ Matched matched(const MaterialRef& source, const MaterialRef& target, const std:
   return result;
 }
 
-}  // namespace
-
-std::string_view method_name(WarpMethod method) { return remap::name_of(kMethods, method); }
-std::optional<WarpMethod> method_from_name(std::string_view name) {
-  return remap::value_named(kMethods, name);
+// The material with these texels only, all of them in 0 to 1.
+WarpMaterial reduced(const WarpMaterial& material, const std::vector<std::uint32_t>& texels) {
+  WarpMaterial result{material.name, material.model, {}, material.is_dielectric};
+  result.texels.reserve(texels.size());
+  for (const std::uint32_t texel : texels) result.texels.push_back(held(material.texels[texel]));
+  return result;
 }
-std::vector<std::string> method_names() { return remap::names_of(kMethods); }
+
+}  // namespace
 
 AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
                                   const std::vector<StrokePair>& strokes, const WarpOptions& options) {
@@ -206,13 +201,9 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
   fit.compiled.coordinates = std::get<remap::AppearanceCoordinates>(fit.source.coordinates);
   const std::size_t nodes =
       options.nodes != 0 ? options.nodes : default_nodes(fit.diagnostics.dimensions, options.exact);
-  WarpMaterial chosen{target.name, target.model, {}, target.is_dielectric};
-  chosen.texels.reserve(matched_texels.target.texels.size());
-  for (const std::uint32_t texel : matched_texels.target.texels)
-    chosen.texels.push_back(held(target.texels[texel]));
   fit.compiled.table =
       compile_table(fit.warp, matched_texels.source_positions, NearestTexel(matched_texels.target_positions),
-                    chosen, nodes, options.exact);
+                    reduced(target, matched_texels.target.texels), nodes, options.exact);
   return fit;
 }
 
@@ -229,6 +220,19 @@ std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const Mate
   for (std::size_t i = 0; i < texels.size(); ++i)
     if (!source.takes_part(i)) texels[i] = kNoTexel;
   return texels;
+}
+
+double copy_rms_error(const WarpFit& fit, const WarpMaterial& source, const WarpMaterial& target) {
+  const WarpMaterial from = reduced(source, sample_texels(source, kMostSampledSources)),
+                     to = reduced(target, sample_texels(target, kMostCopies));
+  std::vector<remap::WarpTexel> copied, compiled;
+  for (const std::uint32_t texel : copy_exactly(fit, from, to)) copied.push_back(to.texels[texel]);
+  for (const remap::WarpTexel& texel : from.texels)
+    compiled.push_back(remap::evaluate_warp(fit.compiled, texel));
+  // The unit of the coordinates is the template's spread.
+  const Points difference =
+      positions_of(fit.target_coordinates(), compiled) - positions_of(fit.target_coordinates(), copied);
+  return std::sqrt(difference.rowwise().squaredNorm().mean());
 }
 
 std::vector<std::string> warnings_of(const WarpDiagnostics& found) {
@@ -252,11 +256,10 @@ std::vector<std::string> warnings_of(const WarpDiagnostics& found) {
                        " and the template in " + std::to_string(found.target_dimensions) +
                        ": part of the template's variation is lost (use a source with more variation)");
   for (int k = found.fixed_directions; k < found.dimensions; ++k)
-    warnings.push_back(
-        "strokes do not determine direction " + std::to_string(k + 1) + " of " +
-        std::to_string(found.dimensions) +
-        ": the result varies there like the source (add a stroke pair that differs from the others in "
-        "another way)");
+    warnings.push_back("strokes do not determine direction " + std::to_string(k + 1) + " of " +
+                       std::to_string(found.dimensions) +
+                       ": the result varies there like the source (add a stroke pair that differs from the "
+                       "others in another way)");
   if (found.fold_share > 0.005)
     warnings.push_back(
         percent(found.fold_share) +

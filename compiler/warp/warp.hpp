@@ -2,10 +2,10 @@
 // source the reflectance of the template. The steps are features, coordinates, points, registration, table.
 #pragma once
 
-#include <optional>
-#include <string_view>
+#include <string>
 #include <vector>
 
+#include "remap/named_values.hpp"
 #include "warp/baselines.hpp"
 #include "warp/nearest_texel.hpp"
 
@@ -18,10 +18,11 @@ enum class WarpMethod {
   kPaper,         // warp_of_paper
 };
 
-// `registration`, `affine`, `histogram`, `paper`.
-std::string_view method_name(WarpMethod method);
-std::optional<WarpMethod> method_from_name(std::string_view name);
-std::vector<std::string> method_names();
+inline constexpr remap::NamedValues<WarpMethod, 4> kWarpMethods = {
+    {{WarpMethod::kRegistration, "registration"},
+     {WarpMethod::kAffine, "affine"},
+     {WarpMethod::kHistogram, "histogram"},
+     {WarpMethod::kPaper, "paper"}}};
 
 struct WarpOptions {
   WarpMethod method = WarpMethod::kRegistration;
@@ -87,6 +88,11 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
 inline constexpr std::uint32_t kNoTexel = ~std::uint32_t{0};
 std::vector<std::uint32_t> copy_exactly(const AppearanceMatch& match, const MaterialRef& source,
                                         const MaterialRef& target);
+
+// RMS distance in the template's appearance space between the results of the compiled converter and of
+// copy_exactly(), relative to the template's spread. Uses at most 2^14 source texels and 2^18 template
+// texels, both evenly spread.
+double copy_rms_error(const WarpFit& fit, const WarpMaterial& source, const WarpMaterial& target);
 
 // Warnings about diagnostics that the user should act on, one line each, without the place.
 std::vector<std::string> warnings_of(const WarpDiagnostics& diagnostics);

@@ -31,24 +31,6 @@ Points moved(const ShiftedPoints& warp, const Points& points) {
   return result;
 }
 
-}  // namespace
-
-AffineMap affine_at(const MovingAffine& warp, const Eigen::RowVectorXd& point) {
-  const Eigen::ArrayXd distances = (warp.from.rowwise() - point).rowwise().squaredNorm();
-  // The least distance is subtracted, because the weights would be 0 far from all strokes.
-  const Eigen::ArrayXd exponents = (distances.minCoeff() - distances) / (2.0 * warp.width * warp.width);
-  const Eigen::VectorXd weights = exponents.exp() / exponents.exp().sum();
-  const Eigen::RowVectorXd centre = weights.transpose() * warp.from, image = weights.transpose() * warp.to;
-  const Points from = warp.from.rowwise() - centre, to = warp.to.rowwise() - image;
-  const Eigen::MatrixXd weighted = from.transpose() * weights.asDiagonal();
-  const Eigen::Index n = point.size();
-  const Eigen::MatrixXd left = weighted * from + kTowardsGlobal * Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd linear = left.ldlt().solve(weighted * to + kTowardsGlobal * warp.global.linear);
-  return {linear, image - centre * linear};
-}
-
-namespace {
-
 Points moved(const MovingAffine& warp, const Points& points) {
   Points result(points.rows(), points.cols());
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
@@ -69,6 +51,20 @@ Points moved(const BinnedAffine& warp, const Points& points) {
 }
 
 }  // namespace
+
+AffineMap affine_at(const MovingAffine& warp, const Eigen::RowVectorXd& point) {
+  const Eigen::ArrayXd distances = (warp.from.rowwise() - point).rowwise().squaredNorm();
+  // The least distance is subtracted, because the weights would be 0 far from all strokes.
+  const Eigen::ArrayXd exponents = (distances.minCoeff() - distances) / (2.0 * warp.width * warp.width);
+  const Eigen::VectorXd weights = exponents.exp() / exponents.exp().sum();
+  const Eigen::RowVectorXd centre = weights.transpose() * warp.from, image = weights.transpose() * warp.to;
+  const Points from = warp.from.rowwise() - centre, to = warp.to.rowwise() - image;
+  const Eigen::MatrixXd weighted = from.transpose() * weights.asDiagonal();
+  const Eigen::Index n = point.size();
+  const Eigen::MatrixXd left = weighted * from + kTowardsGlobal * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd linear = left.ldlt().solve(weighted * to + kTowardsGlobal * warp.global.linear);
+  return {linear, image - centre * linear};
+}
 
 Eigen::MatrixXd gaussians(const Points& points, const Points& centres, double width) {
   Eigen::MatrixXd exponents(points.rows(), centres.rows());

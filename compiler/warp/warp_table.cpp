@@ -4,65 +4,62 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <type_traits>
 
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 #include "warp/space/points.hpp"
 
 namespace remapc {
 namespace {
 
-struct Box {
-  std::vector<float> low, high;
-};
+using remap::ParameterTable;
 
-Box box_of(const Points& positions) {
-  Box box;
+void set_box(ParameterTable& table, const Points& positions) {
   for (Eigen::Index k = 0; k < positions.cols(); ++k) {
     const auto [low, high] = extent_of(positions, k);
     // The box has a margin along axes without extent.
     const double margin = std::max(1e-3 - 0.5 * (high - low), 0.0);
-    box.low.push_back(static_cast<float>(low - margin));
-    box.high.push_back(static_cast<float>(high + margin));
+    table.low.push_back(static_cast<float>(low - margin));
+    table.high.push_back(static_cast<float>(high + margin));
   }
-  return box;
+}
+
+// The number of nodes in the whole box.
+std::size_t node_count(const ParameterTable& table) {
+  std::size_t count = 1;
+  for (std::size_t k = 0; k < table.low.size(); ++k) count *= table.nodes;
+  return count;
 }
 
 // The positions of the nodes along one axis.
-Eigen::VectorXd axis_nodes(const Box& box, std::size_t axis, std::size_t nodes) {
-  return Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(nodes), static_cast<double>(box.low[axis]),
-                                    static_cast<double>(box.high[axis]));
+Eigen::VectorXd axis_nodes(const ParameterTable& table, std::size_t axis) {
+  return Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(table.nodes),
+                                    static_cast<double>(table.low[axis]),
+                                    static_cast<double>(table.high[axis]));
 }
 
-Points node_positions(const Box& box, std::size_t nodes) {
-  const std::size_t dimension = box.low.size();
-  std::size_t count = 1;
-  for (std::size_t k = 0; k < dimension; ++k) count *= nodes;
+Points node_positions(const ParameterTable& table) {
+  const std::size_t dimension = table.low.size(), count = node_count(table);
   Points positions(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(dimension));
   std::size_t run = 1;
-  for (std::size_t k = 0; k < dimension; ++k, run *= nodes) {
-    const Eigen::VectorXd axis = axis_nodes(box, k, nodes);
+  for (std::size_t k = 0; k < dimension; ++k, run *= table.nodes) {
+    const Eigen::VectorXd axis = axis_nodes(table, k);
     for (std::size_t i = 0; i < count; ++i)
       positions(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          axis[static_cast<Eigen::Index>(i / run % nodes)];
+          axis[static_cast<Eigen::Index>(i / run % table.nodes)];
   }
   return positions;
 }
 
-Points images_of_nodes(const AppearanceWarp& warp, const Box& box, std::size_t nodes) {
-  return images_of(warp, node_positions(box, nodes));
-}
-
 // The Gaussians take most of the time of a table. On a grid, they are products of one factor per axis, which
 // is faster.
-Points images_of_nodes(const SmoothWarp& warp, const Box& box, std::size_t nodes) {
-  const std::size_t dimension = box.low.size();
-  Points images = images_of(AppearanceWarp(warp.affine), node_positions(box, nodes));
+Points smooth_images_of_nodes(const SmoothWarp& warp, const ParameterTable& table) {
+  const std::size_t dimension = table.low.size();
+  Points images = images_of(warp.affine, node_positions(table));
   std::vector<Eigen::MatrixXd> factors;  // nodes x centres, for each axis
   for (std::size_t k = 0; k < dimension; ++k)
     factors.push_back(
-        gaussians(axis_nodes(box, k, nodes), warp.centres.col(static_cast<Eigen::Index>(k)), warp.width));
-  const auto run = static_cast<Eigen::Index>(nodes);
+        gaussians(axis_nodes(table, k), warp.centres.col(static_cast<Eigen::Index>(k)), warp.width));
+  const auto run = static_cast<Eigen::Index>(table.nodes);
   for (Eigen::Index start = 0; start < images.rows(); start += run) {
     Eigen::RowVectorXd factor = Eigen::RowVectorXd::Ones(warp.centres.rows());
     Eigen::Index rest = start / run;
@@ -71,6 +68,11 @@ Points images_of_nodes(const SmoothWarp& warp, const Box& box, std::size_t nodes
     images.middleRows(start, run) += factors[0] * (factor.transpose().asDiagonal() * warp.weights);
   }
   return images;
+}
+
+Points images_of_nodes(const AppearanceWarp& warp, const ParameterTable& table) {
+  if (const auto* smooth = std::get_if<SmoothWarp>(&warp)) return smooth_images_of_nodes(*smooth, table);
+  return images_of(warp, node_positions(table));
 }
 
 std::uint8_t encoded(float value, float least, float largest) {
@@ -106,10 +108,9 @@ remap::CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const 
     entries.indices.push_back(static_cast<std::uint16_t>(place->second));
   }
   if (known.size() > remap::kLargestPalette)
-    throw remap::Error(remap::ErrorKind::kUsage,
-                       "nodes: the exact table needs " + std::to_string(known.size()) + " texels of " +
-                           target.name + ", more than " + std::to_string(remap::kLargestPalette) +
-                           " (use fewer nodes)");
+    throw usage_error("nodes: the exact table needs " + std::to_string(known.size()) + " texels of " +
+                      target.name + ", more than " + std::to_string(remap::kLargestPalette) +
+                      " (use fewer nodes)");
   return entries;
 }
 
@@ -117,16 +118,14 @@ constexpr std::uint32_t kUnknown = ~std::uint32_t{0};
 
 // The nodes around every position and their neighbors, in increasing order: the nodes that source texels look
 // up, also if `positions` are a sample of them.
-std::vector<std::uint32_t> nodes_around(const Points& positions, const Box& box, std::size_t nodes) {
-  const auto dimension = static_cast<std::size_t>(positions.cols());
-  std::size_t count = 1;
-  for (std::size_t k = 0; k < dimension; ++k) count *= nodes;
+std::vector<std::uint32_t> nodes_around(const Points& positions, const ParameterTable& table) {
+  const std::size_t dimension = table.low.size(), nodes = table.nodes, count = node_count(table);
   std::vector<char> is_near(count, 0);
   const auto last = static_cast<double>(nodes - 1);
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {
     std::array<std::size_t, remap::kLargestWarpDimension> first{};
     for (std::size_t k = 0; k < dimension; ++k) {
-      const double low = static_cast<double>(box.low[k]), high = static_cast<double>(box.high[k]);
+      const double low = static_cast<double>(table.low[k]), high = static_cast<double>(table.high[k]);
       const double place = (positions(i, static_cast<Eigen::Index>(k)) - low) / (high - low) * last;
       first[k] = static_cast<std::size_t>(std::clamp(place, 0.0, last - 1.0));  // the place is not NaN
     }
@@ -172,13 +171,13 @@ void spread(std::vector<std::uint32_t>& texels, std::vector<std::uint32_t> front
 
 // Finds the nearest texel to the image of every node that source texels look up. The other nodes, often most
 // of the box, copy the nearest such node, because the warp is undefined far from the source.
-std::vector<std::uint32_t> node_texels(const Points& positions, const Box& box, std::size_t nodes,
+std::vector<std::uint32_t> node_texels(const Points& positions, const ParameterTable& table,
                                        const Points& images, const NearestTexel& nearest) {
-  const std::vector<std::uint32_t> near = nodes_around(positions, box, nodes);
+  const std::vector<std::uint32_t> near = nodes_around(positions, table);
   const std::vector<std::uint32_t> found = nearest.find(images(near, Eigen::all));
   std::vector<std::uint32_t> texels(static_cast<std::size_t>(images.rows()), kUnknown);
   for (std::size_t i = 0; i < near.size(); ++i) texels[near[i]] = found[i];
-  spread(texels, near, nodes);
+  spread(texels, near, table.nodes);
   return texels;
 }
 
@@ -190,23 +189,13 @@ std::size_t default_nodes(int dimension, bool exact) noexcept {
   return exact ? 48 : 32;
 }
 
-remap::ParameterTable compile_table(const AppearanceWarp& warp, const Points& positions,
-                                    const NearestTexel& nearest, const WarpMaterial& target,
-                                    std::size_t nodes, bool exact) {
-  const Box box = box_of(positions);
-  const Points images = std::visit(
-      [&](const auto& kind) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, SmoothWarp>)
-          return images_of_nodes(kind, box, nodes);
-        else
-          return images_of_nodes(AppearanceWarp(kind), box, nodes);
-      },
-      warp);
-  const std::vector<std::uint32_t> texels = node_texels(positions, box, nodes, images, nearest);
-  remap::ParameterTable table;
+ParameterTable compile_table(const AppearanceWarp& warp, const Points& positions, const NearestTexel& nearest,
+                             const WarpMaterial& target, std::size_t nodes, bool exact) {
+  ParameterTable table;
   table.nodes = nodes;
-  table.low = box.low;
-  table.high = box.high;
+  set_box(table, positions);
+  const std::vector<std::uint32_t> texels =
+      node_texels(positions, table, images_of_nodes(warp, table), nearest);
   if (exact)
     table.entries = copied_nodes(texels, target);
   else

@@ -86,9 +86,11 @@ Command::Command(const std::string& description, const std::string& name)
 
 Command::Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
 
-Command* Command::add_subcommand(const std::string& name, const std::string& description) {
+Command* Command::add_subcommand(const std::string& name, const std::string& description,
+                                 const std::string& group) {
   // The CLI::App owns its subcommand: this pointer shares the ownership of the parent.
   std::shared_ptr<CLI::App> subcommand(app_, app_->add_subcommand(name, description));
+  if (!group.empty()) subcommand->group(group);
   commands_.push_back(std::unique_ptr<Command>(new Command(std::move(subcommand))));
   return commands_.back().get();
 }
@@ -100,7 +102,13 @@ Option* Command::keep(CLI::Option* option) {
 
 template <OptionValue T>
 Option* Command::add_option(const std::string& names, T& value, const std::string& description) {
-  return keep(app_->add_option(names, value, description));
+  const std::size_t space = names.find(' ');
+  CLI::Option* option = app_->add_option(names.substr(0, space), value, description);
+  if (space != std::string::npos) option->type_name(names.substr(space + 1));
+  if constexpr (requires { value.empty(); }) {
+    if (value.empty()) return keep(option);
+  }
+  return keep(option->capture_default_str());
 }
 
 template Option* Command::add_option(const std::string&, std::string&, const std::string&);

@@ -64,9 +64,12 @@ class Command {
  public:
   Command(const std::string& description, const std::string& name);
 
-  Command* add_subcommand(const std::string& name, const std::string& description = "");
-  // `names` as "-o,--output", or "fits" for words without an option. `value` must live until the command has
-  // run.
+  // `group`: the heading of the help under which this command is listed.
+  Command* add_subcommand(const std::string& name, const std::string& description = "",
+                          const std::string& group = "");
+  // `names` as "-o,--output FILE" with the name of the value in help texts, or "fits" for words without an
+  // option. Help shows the value that the variable has now, unless it is an empty string, path or list.
+  // `value` must live until the command has run.
   template <OptionValue T>
   Option* add_option(const std::string& names, T& value, const std::string& description = "");
   Option* add_flag(const std::string& names, bool& value, const std::string& description = "");

@@ -4,19 +4,15 @@
 #include <array>
 #include <cmath>
 
-#include "fit/network/network_training.hpp"
 #include "fit/rows/split.hpp"
 #include "model/evaluate.hpp"
-#include "remap/error.hpp"
 #include "remap/version.hpp"
-#include "table/table.hpp"
+#include "table/table_record.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 constexpr double kLargestDeviation = 1e-3;
 
@@ -30,8 +26,8 @@ std::size_t place_of(const MaterialTable& table, const std::vector<std::string>&
                      const std::string& name) {
   const auto found = std::find(columns.begin(), columns.end(), name);
   if (found == columns.end())
-    throw Error(ErrorKind::kInput, table.name + ": missing column " + name +
-                                       " (use a table of remapc sample from a metallic to a specular model)");
+    throw input_error(table.name + ": missing column " + name +
+                      " (use a table of remapc sample from a metallic to a specular model)");
   return static_cast<std::size_t>(found - columns.begin());
 }
 
@@ -54,8 +50,7 @@ std::vector<MaterialRow> material_rows(const MaterialTable& table) {
     rows.push_back(material);
   }
   if (rows.empty())
-    throw Error(ErrorKind::kInput,
-                table.name + ": no row has status ok (a network needs some thousand rows)");
+    throw input_error(table.name + ": no row has status ok (a network needs some thousand rows)");
   return rows;
 }
 
@@ -92,14 +87,14 @@ FamilyDeviation deviation_of(const std::vector<MaterialRow>& rows) {
 std::string comment_of(const MaterialTable& table, const std::string& key) {
   for (const auto& [name, value] : table.comments)
     if (name == key) return value;
-  throw Error(ErrorKind::kInput, table.name + ": missing comment " + key + " (remapc sample writes it)");
+  throw input_error(table.name + ": missing comment " + key + " (remapc sample writes it)");
 }
 
 remap::RoughnessConvention width_of(const MaterialTable& table, const std::string& key) {
   const std::string name = comment_of(table, key);
   const auto convention = remap::convention_from_name(name);
   if (!convention)
-    throw Error(ErrorKind::kInput, table.name + ": unknown convention '" + name + "' in the comment " + key);
+    throw input_error(table.name + ": unknown convention '" + name + "' in the comment " + key);
   return *convention;
 }
 
@@ -121,25 +116,20 @@ struct MaterialSplit {
 
 MaterialSplit split_materials(const MaterialTable& table, const std::vector<MaterialRow>& rows,
                               const MaterialNetworkOptions& options) {
-  require_held_out_share(options.held_out_fraction);
   MaterialSplit split;
+  split.record = split_record(options.seed, options.held_out_fraction, rows.size());
   split.training.input_count = 6;
   split.training.output_count = 4;
-  const std::size_t judges = held_out_count(options.held_out_fraction, rows.size());
   const std::vector<std::size_t> order = seeded_order(rows.size(), options.seed);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const MaterialRow& row = rows[order[i]];
-    if (i < judges) {
+    if (static_cast<std::int64_t>(i) < split.record.held_out_rows) {
       split.held_out.push_back(row);
       continue;
     }
     split.training.inputs.insert(split.training.inputs.end(), row.specular.begin(), row.specular.end());
     split.training.outputs.insert(split.training.outputs.end(), row.metallic.begin(), row.metallic.end());
   }
-  split.record.seed = options.seed;
-  split.record.held_out_fraction = options.held_out_fraction;
-  split.record.held_out_rows = static_cast<std::int64_t>(judges);
-  split.record.trained_rows = static_cast<std::int64_t>(rows.size() - judges);
   for (const NamedRow& row : table.rows)
     if (row.status != RowStatus::kOk) ++split.record.left_out[std::string(status_name(row.status))];
   return split;
@@ -166,16 +156,15 @@ remap::WorkflowFit fit_material_network(const MaterialTable& table, std::string_
   const std::vector<MaterialRow> rows = material_rows(table);
   const FamilyDeviation deviation = deviation_of(rows);
   if (deviation.f0 > kLargestDeviation || deviation.diffuse > kLargestDeviation)
-    throw Error(ErrorKind::kInput, table.name + ": rows differ from equation (2) by " +
-                                       remap::number_text(std::max(deviation.f0, deviation.diffuse)) +
-                                       " (rms), more than " + remap::number_text(kLargestDeviation) +
-                                       " (both models must have the same BRDF and plain diffuse)");
+    throw input_error(table.name + ": rows differ from equation (2) by " +
+                      remap::number_text(std::max(deviation.f0, deviation.diffuse)) + " (rms), more than " +
+                      remap::number_text(kLargestDeviation) +
+                      " (both models must have the same BRDF and plain diffuse)");
   remap::WorkflowFit fit;
   fit.conversion = conversion_of(table, deviation.dielectric_f0);
   fit.id = fit_id(options.id, fit.conversion.specular.model, fit.conversion.metallic.model);
   const MaterialSplit split = split_materials(table, rows, options);
-  const TrainingOptions training = training_options(options);
-  const TrainedNetwork trained = train_network(split.training, training, progress);
+  const TrainedNetwork trained = train_network(split.training, options, progress);
   fit.conversion.formula = remap::LearnedNetwork{trained.network};
   fit.training.emplace();
   fit.training->method["network"] = trained.method;

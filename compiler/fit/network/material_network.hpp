@@ -7,21 +7,21 @@
 #include <string_view>
 #include <vector>
 
-#include "fit/rows/regression.hpp"
+#include "fit/network/network_training.hpp"
 #include "remap/workflow_fit.hpp"
 #include "table/material_table.hpp"
 
 namespace remapc {
 
 // The defaults describe the network of the paper.
-struct MaterialNetworkOptions {
-  std::string id;                           // empty: `<specular model>_to_<metallic model>`
-  std::vector<std::size_t> hidden = {300};  // units of each hidden layer
-  remap::Activation activation = remap::Activation::kRelu;
-  std::uint64_t seed = 1;          // of the split, the initial weights and the validation rows
-  std::size_t starts = 1;          // independent trainings; the best is kept
+struct MaterialNetworkOptions : TrainingOptions {
+  MaterialNetworkOptions() {
+    hidden = {300};
+    activation = remap::Activation::kRelu;
+    starts = 1;
+  }
+  std::string id;                  // empty: `<specular model>_to_<metallic model>`
   double held_out_fraction = 0.1;  // share of the rows for the errors of the fit
-  unsigned jobs = 0;               // threads; 0: one per core. The fit does not depend on it
 };
 
 // Trains the inverse of a table of `remapc sample` from a metallic model (columns base_color_r1, ...,

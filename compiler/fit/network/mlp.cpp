@@ -4,15 +4,11 @@
 #include <map>
 #include <string>
 
-#include "fit/network/network_training.hpp"
-#include "remap/error.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
 using remap::number_text;
 
 Samples samples_of(const std::vector<TableRow>& rows, bool with_specular, double TableRow::*output) {
@@ -47,16 +43,10 @@ std::string hidden_text(const std::vector<std::size_t>& hidden) {
 Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
                    const FitProgress& progress) {
   require_variety(rows, "mlp");
-
-  const TrainingOptions training = training_options(options);
-  const auto part = [&progress](double from) -> FitProgress {
-    if (!progress) return {};
-    return [&progress, from](double share) { progress(from + 0.5 * share); };
-  };
   const Samples alpha_samples = samples_of(rows, alpha_needs_specular(rows), &TableRow::alpha2);
-  const TrainedNetwork alpha = train_network(alpha_samples, training, part(0.0));
+  const TrainedNetwork alpha = train_network(alpha_samples, options, part_of(progress, 0.0, 0.5));
   const TrainedNetwork specular =
-      train_network(samples_of(rows, true, &TableRow::specular2), training, part(0.5));
+      train_network(samples_of(rows, true, &TableRow::specular2), options, part_of(progress, 0.5, 1.0));
 
   Regression regression;
   regression.mapping = remap::Mlp{alpha.network, specular.network};
@@ -65,7 +55,7 @@ Regression fit_mlp(const std::vector<TableRow>& rows, const MlpOptions& options,
   method["hidden"] = hidden_text(options.hidden);
   method["seed"] = std::to_string(options.seed);
   method["starts"] = std::to_string(options.starts);
-  method["weight_decay"] = number_text(training.weight_decay);
+  method["weight_decay"] = number_text(options.weight_decay);
   record("alpha", alpha, method);
   record("specular", specular, method);
   return regression;

@@ -1,21 +1,13 @@
 // The small networks of sections 5.1 and 8 (Sztrajman et al. 2019), one for each output.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
-#include "fit/rows/regression.hpp"
+#include "fit/network/network_training.hpp"
 
 namespace remapc {
 
-// The defaults are those of TrainingOptions (network_training.hpp).
-struct MlpOptions {
-  std::vector<std::size_t> hidden = {8, 8};  // units of each hidden layer
-  remap::Activation activation = remap::Activation::kTanh;
-  std::uint64_t seed = 1;  // of the initial weights and the validation rows
-  std::size_t starts = 4;  // independent trainings; the best on the validation rows is kept
-  unsigned jobs = 0;       // threads; 0: one per core. The result does not depend on it
-};
+using MlpOptions = TrainingOptions;
 
 // Fits `rows` (all of status ok, finite) with alpha and specular as inputs. Target alpha is fitted from
 // source alpha alone unless alpha_needs_specular(). Validation rows drawn from `rows` determine when the

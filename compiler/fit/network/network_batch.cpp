@@ -27,6 +27,7 @@ double activation_slope(Activation activation, double x, double y) {
   return 1.0;
 }
 
+// The place of each layer in a parameter vector, then the length of the vector.
 std::vector<std::size_t> layer_offsets(const NetworkShape& shape) {
   std::vector<std::size_t> offsets = {0};
   for (std::size_t l = 0; l + 1 < shape.sizes.size(); ++l)
@@ -36,11 +37,7 @@ std::vector<std::size_t> layer_offsets(const NetworkShape& shape) {
 
 }  // namespace
 
-std::size_t NetworkShape::parameter_count() const noexcept {
-  std::size_t count = 0;
-  for (std::size_t l = 0; l + 1 < sizes.size(); ++l) count += (sizes[l] + 1) * sizes[l + 1];
-  return count;
-}
+std::size_t NetworkShape::parameter_count() const { return layer_offsets(*this).back(); }
 
 std::vector<remap::Layer> layers_from_parameters(const NetworkShape& shape, const double* parameters) {
   std::vector<remap::Layer> layers;

@@ -16,7 +16,7 @@ struct NetworkShape {
   std::vector<std::size_t> sizes;  // inputs, units of each hidden layer, outputs; at least two
 
   // The number of weights and biases: the length of a parameter vector.
-  std::size_t parameter_count() const noexcept;
+  std::size_t parameter_count() const;
 };
 
 // A parameter vector contains for each layer the weights, in the order of remap::Layer, then the biases.

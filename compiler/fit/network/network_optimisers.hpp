@@ -6,9 +6,14 @@
 #include <functional>
 
 #include "fit/network/network_batch.hpp"
-#include "fit/network/network_samples.hpp"
 
 namespace remapc {
+
+// Normalised samples, one column each. Validation samples determine when the training stops.
+struct NetworkSamples {
+  Eigen::MatrixXd training_inputs, training_outputs;
+  Eigen::MatrixXd validation_inputs, validation_outputs;
+};
 
 struct OptimiserSettings {
   // The loss is the mean squared error of the normalised outputs plus weight_decay times the sum of the

@@ -12,19 +12,18 @@
 #include <utility>
 
 #include "fit/network/network_optimisers.hpp"
-#include "fit/network/network_samples.hpp"
-#include "fit/rows/folds.hpp"
-#include "remap/error.hpp"
+#include "fit/rows/split.hpp"
 #include "system/parallel.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using remap::Error;
-using remap::ErrorKind;
+using remap::Scaling;
 
 constexpr std::size_t kFewestRows = 10;
 constexpr std::size_t kLevenbergParameters = 600;
@@ -43,32 +42,107 @@ constexpr double kFewestPasses = 10.0, kMostPasses = 400.0;
 constexpr int kLbfgsIterations = 300;
 constexpr int kLbfgsPatience = 50;
 constexpr std::size_t kMostLbfgsRows = 4096;
+constexpr std::size_t kMostValidationRows = 2048;
 
 void require_sound(const Samples& samples, const TrainingOptions& options) {
   const std::size_t count = samples.count();
   if (samples.input_count == 0 || samples.output_count == 0 ||
       samples.inputs.size() % samples.input_count != 0 ||
       samples.outputs.size() != count * samples.output_count)
-    throw Error(ErrorKind::kInput, "network: " + std::to_string(samples.inputs.size()) + " inputs and " +
-                                       std::to_string(samples.outputs.size()) +
-                                       " outputs do not form equally many whole rows");
+    throw input_error("network: " + std::to_string(samples.inputs.size()) + " inputs and " +
+                      std::to_string(samples.outputs.size()) +
+                      " outputs do not form equally many whole rows");
   if (count < kFewestRows)
-    throw Error(ErrorKind::kInput, "network: too few rows (" + std::to_string(count) + ", at least " +
-                                       std::to_string(kFewestRows) + " are required)");
+    throw input_error("network: too few rows (" + std::to_string(count) + ", at least " +
+                      std::to_string(kFewestRows) + " are required)");
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(samples.inputs.begin(), samples.inputs.end(), finite) ||
       !std::all_of(samples.outputs.begin(), samples.outputs.end(), finite))
-    throw Error(ErrorKind::kInput, "network: a row contains a number that is not finite");
+    throw input_error("network: a row contains a number that is not finite");
   if (std::find(options.hidden.begin(), options.hidden.end(), std::size_t{0}) != options.hidden.end())
-    throw Error(ErrorKind::kUsage, "network: every hidden layer must have at least 1 unit");
-  if (options.starts == 0) throw Error(ErrorKind::kUsage, "network: at least 1 start is required");
+    throw usage_error("network: every hidden layer must have at least 1 unit");
+  if (options.starts == 0) throw usage_error("network: at least 1 start is required");
   if (!(options.validation_fraction >= 0.0 && options.validation_fraction <= 0.5))
-    throw Error(ErrorKind::kUsage, "network: validation share " +
-                                       remap::number_text(options.validation_fraction) +
-                                       " is out of range (0 to 0.5)");
+    throw usage_error("network: validation share " + remap::number_text(options.validation_fraction) +
+                      " is out of range (0 to 0.5)");
   if (!(options.weight_decay >= 0.0 && std::isfinite(options.weight_decay)))
-    throw Error(ErrorKind::kUsage, "network: weight decay " + remap::number_text(options.weight_decay) +
-                                       " must be finite and at least 0");
+    throw usage_error("network: weight decay " + remap::number_text(options.weight_decay) +
+                      " must be finite and at least 0");
+}
+
+// One column per sample.
+Eigen::Map<const MatrixXd> columns_of(const std::vector<double>& values, std::size_t width) {
+  return {values.data(), static_cast<Index>(width), static_cast<Index>(values.size() / width)};
+}
+
+// Scales values to [-1, 1].
+Scaling range_scaling(const VectorXd& values) {
+  const double low = values.minCoeff(), high = values.maxCoeff();
+  if (!(high > low)) return {low, 1.0};
+  return {low + 0.5 * (high - low), 2.0 / (high - low)};
+}
+
+// Scales values to mean 0 and variance 1.
+Scaling variance_scaling(const VectorXd& values) {
+  if (!(values.maxCoeff() > values.minCoeff())) return {values[0], 1.0};
+  const double mean = values.mean();
+  const double deviation = std::sqrt((values.array() - mean).square().mean());
+  if (!(deviation > 0.0)) return {mean, 1.0};
+  return {mean, 1.0 / deviation};
+}
+
+MatrixXd normalised_columns(const Eigen::Map<const MatrixXd>& values, const std::vector<Scaling>& scalings) {
+  MatrixXd result = values;
+  for (Index i = 0; i < result.rows(); ++i) {
+    const Scaling& scaling = scalings[static_cast<std::size_t>(i)];
+    result.row(i) = (result.row(i).array() - scaling.offset) * scaling.scale;
+  }
+  return result;
+}
+
+// Derives a seed for each purpose `stream` (splitmix64, Steele et al. 2014).
+std::uint64_t mixed_seed(std::uint64_t seed, std::uint64_t stream) {
+  std::uint64_t z = seed + (stream + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+struct NormalisedSamples {
+  std::vector<remap::Scaling> input_scalings, output_scalings;
+  Eigen::MatrixXd inputs, outputs;  // one column per sample, in random order
+};
+
+NormalisedSamples normalised_samples(const Samples& samples, std::uint64_t seed) {
+  const auto inputs = columns_of(samples.inputs, samples.input_count);
+  const auto outputs = columns_of(samples.outputs, samples.output_count);
+  NormalisedSamples result;
+  for (Index i = 0; i < inputs.rows(); ++i) result.input_scalings.push_back(range_scaling(inputs.row(i)));
+  for (Index i = 0; i < outputs.rows(); ++i)
+    result.output_scalings.push_back(variance_scaling(outputs.row(i)));
+  const std::vector<std::size_t> order = seeded_order(samples.count(), mixed_seed(seed, 0));
+  result.inputs = normalised_columns(inputs, result.input_scalings)(Eigen::all, order);
+  result.outputs = normalised_columns(outputs, result.output_scalings)(Eigen::all, order);
+  return result;
+}
+
+// Splits the samples: the first `validation_fraction` of them (1 to 2048) are validation samples, the
+// following ones (at most `most_training`) training samples. With a fraction of 0 the training samples are
+// also the validation samples.
+NetworkSamples split_columns(const NormalisedSamples& all, double validation_fraction,
+                             std::size_t most_training) {
+  const auto count = static_cast<std::size_t>(all.inputs.cols());
+  auto validation = static_cast<std::size_t>(std::lround(validation_fraction * static_cast<double>(count)));
+  if (validation_fraction > 0.0) validation = std::clamp(validation, std::size_t{1}, kMostValidationRows);
+  const auto from = static_cast<Index>(validation);
+  const auto training = static_cast<Index>(std::min(count - validation, most_training));
+  NetworkSamples samples{all.inputs.middleCols(from, training), all.outputs.middleCols(from, training),
+                         all.inputs.leftCols(from), all.outputs.leftCols(from)};
+  if (validation == 0) {
+    samples.validation_inputs = samples.training_inputs;
+    samples.validation_outputs = samples.training_outputs;
+  }
+  return samples;
 }
 
 NetworkShape shape_of(const Samples& samples, const TrainingOptions& options) {
@@ -135,8 +209,13 @@ class StartsProgress {
 // One training from initial weights given by a seed.
 using Training = std::function<OptimisedNetwork(std::uint64_t seed, const StepReport& report)>;
 
-std::vector<OptimisedNetwork> run_starts(const Training& train, const TrainingOptions& options,
-                                         const FitProgress& progress) {
+struct BestStart {
+  OptimisedNetwork network;
+  std::size_t start = 0;
+  std::string words;  // for `method`
+};
+
+BestStart run_starts(const Training& train, const TrainingOptions& options, const FitProgress& progress) {
   std::vector<OptimisedNetwork> results(options.starts);
   StartsProgress board(options.starts, progress);
   remap::run_parallel(options.starts, options.jobs, [&](std::size_t start) {
@@ -146,17 +225,17 @@ std::vector<OptimisedNetwork> run_starts(const Training& train, const TrainingOp
     report(1.0);
   });
   board.rethrow();
-  return results;
-}
-
-std::size_t best_of(const std::vector<OptimisedNetwork>& results) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < results.size(); ++i)
-    if (results[i].validation_rms < results[best].validation_rms) best = i;
-  if (!std::isfinite(results[best].validation_rms))
-    throw Error(ErrorKind::kNumeric,
-                "network: none of " + std::to_string(results.size()) + " starts gave finite errors");
-  return best;
+  const auto best = std::min_element(results.begin(), results.end(),
+                                     [](const OptimisedNetwork& a, const OptimisedNetwork& b) {
+                                       return a.validation_rms < b.validation_rms;
+                                     });
+  if (!std::isfinite(best->validation_rms))
+    throw numeric_error("network: none of " + std::to_string(results.size()) + " starts gave finite errors");
+  const auto start = static_cast<std::size_t>(best - results.begin());
+  return {*best, start,
+          std::to_string(options.starts) + " starts from seed " + std::to_string(options.seed) + ", best " +
+              std::to_string(start + 1) + " at iteration " + std::to_string(best->best_iteration) + " of " +
+              std::to_string(best->iterations)};
 }
 
 std::string shape_text(const NetworkShape& shape) {
@@ -167,17 +246,10 @@ std::string shape_text(const NetworkShape& shape) {
 
 // The result of either way of training.
 struct Outcome {
-  OptimisedNetwork best;
+  BestStart best;
   NetworkSamples samples;
-  std::size_t best_start = 0;
   std::string method;
 };
-
-std::string starts_text(const TrainingOptions& options, std::size_t best, const OptimisedNetwork& result) {
-  return std::to_string(options.starts) + " starts from seed " + std::to_string(options.seed) + ", best " +
-         std::to_string(best + 1) + " at iteration " + std::to_string(result.best_iteration) + " of " +
-         std::to_string(result.iterations);
-}
 
 Outcome train_small(const NetworkShape& shape, const NormalisedSamples& all, const TrainingOptions& options,
                     const FitProgress& progress) {
@@ -191,15 +263,13 @@ Outcome train_small(const NetworkShape& shape, const NormalisedSamples& all, con
   settings.weight_decay = options.weight_decay;
   settings.iterations = kLevenbergIterations;
   settings.patience = kLevenbergPatience;
-  const auto results = run_starts(
+  outcome.best = run_starts(
       [&](std::uint64_t seed, const StepReport& report) {
         return run_levenberg_marquardt(shape, outcome.samples, initial_parameters(shape, seed), settings,
                                        report);
       },
       options, progress);
-  outcome.best_start = best_of(results);
-  outcome.best = results[outcome.best_start];
-  outcome.method = "Levenberg-Marquardt, " + starts_text(options, outcome.best_start, outcome.best);
+  outcome.method = "Levenberg-Marquardt, " + outcome.best.words;
   if (options.validation_fraction == 0.0) return outcome;
 
   // A short refit stays near the validated parameters and uses the additional rows.
@@ -209,11 +279,11 @@ Outcome train_small(const NetworkShape& shape, const NormalisedSamples& all, con
   samples.training_outputs = all.outputs.leftCols(used);
   const NetworkSamples everything{samples.training_inputs, samples.training_outputs, samples.training_inputs,
                                   samples.training_outputs};
-  settings.iterations = std::clamp(outcome.best.best_iteration / 2, 5, kRefitIterations);
+  settings.iterations = std::clamp(outcome.best.network.best_iteration / 2, 5, kRefitIterations);
   settings.patience = settings.iterations;
-  const OptimisedNetwork refitted = run_levenberg_marquardt(shape, everything, outcome.best.parameters,
-                                                            settings, [](double) { return true; });
-  if (std::isfinite(refitted.validation_rms)) outcome.best.parameters = refitted.parameters;
+  const OptimisedNetwork refitted = run_levenberg_marquardt(
+      shape, everything, outcome.best.network.parameters, settings, [](double) { return true; });
+  if (std::isfinite(refitted.validation_rms)) outcome.best.network.parameters = refitted.parameters;
   outcome.method +=
       ", then " + std::to_string(refitted.best_iteration) + " iterations with the validation rows";
   return outcome;
@@ -234,7 +304,7 @@ Outcome train_large(const NetworkShape& shape, const NormalisedSamples& all, con
   OptimiserSettings lbfgs = adam;
   lbfgs.iterations = kLbfgsIterations;
   lbfgs.patience = kLbfgsPatience;
-  const auto results = run_starts(
+  outcome.best = run_starts(
       [&](std::uint64_t seed, const StepReport& report) {
         OptimiserSettings own = adam;
         own.seed = mixed_seed(seed, 0);
@@ -248,11 +318,8 @@ Outcome train_large(const NetworkShape& shape, const NormalisedSamples& all, con
         return second;
       },
       options, progress);
-  outcome.best_start = best_of(results);
-  outcome.best = results[outcome.best_start];
   outcome.method = "Adam for " + std::to_string(adam.iterations) + " passes, then L-BFGS on " +
-                   std::to_string(part.training_inputs.cols()) + " rows, " +
-                   starts_text(options, outcome.best_start, outcome.best);
+                   std::to_string(part.training_inputs.cols()) + " rows, " + outcome.best.words;
   return outcome;
 }
 
@@ -268,13 +335,13 @@ TrainedNetwork train_network(const Samples& samples, const TrainingOptions& opti
       is_small ? train_small(shape, all, options, progress) : train_large(shape, all, options, progress);
 
   TrainedNetwork trained;
-  const double* parameters = outcome.best.parameters.data();
+  const double* parameters = outcome.best.network.parameters.data();
   trained.network = {shape.activation, all.input_scalings, all.output_scalings,
                      layers_from_parameters(shape, parameters)};
   NetworkBatch batch(shape, outcome.samples.training_inputs);
   trained.training_rms = rms_difference(batch.forward(parameters), outcome.samples.training_outputs);
-  trained.validation_rms = outcome.best.validation_rms;
-  trained.best_start = outcome.best_start;
+  trained.validation_rms = outcome.best.network.validation_rms;
+  trained.best_start = outcome.best.start;
   const bool shares_rows =
       options.validation_fraction == 0.0 || is_small;  // the training rows include the validation rows
   trained.rows = static_cast<std::size_t>(outcome.samples.training_inputs.cols() +

@@ -5,10 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "fit/network/samples.hpp"
 #include "fit/rows/regression.hpp"
 
 namespace remapc {
+
+// The samples that a network is trained on: rows of `input_count` inputs and `output_count` outputs.
+struct Samples {
+  std::size_t input_count = 0;
+  std::size_t output_count = 0;
+  std::vector<double> inputs;
+  std::vector<double> outputs;
+  std::size_t count() const noexcept { return input_count == 0 ? 0 : inputs.size() / input_count; }
+};
 
 // The defaults were chosen on the table that Sztrajman et al. (2019) published: two layers of 8 units are as
 // accurate as two layers of 16 and train in an eighth of the time. tests/compiler/fit/network/mlp_test.cpp
@@ -25,18 +33,6 @@ struct TrainingOptions {
   double weight_decay = 1e-9;
   unsigned jobs = 0;  // threads; 0: one per core. The result does not depend on it
 };
-
-// Copies the training options from the options of a kind of fit.
-template <typename Options>
-TrainingOptions training_options(const Options& options) {
-  TrainingOptions training;
-  training.hidden = options.hidden;
-  training.activation = options.activation;
-  training.seed = options.seed;
-  training.starts = options.starts;
-  training.jobs = options.jobs;
-  return training;
-}
 
 struct TrainedNetwork {
   remap::Network network;

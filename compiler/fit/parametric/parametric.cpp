@@ -5,18 +5,15 @@
 
 #include <Eigen/Dense>
 
-#include "fit/parametric/parametric_parts.hpp"
 #include "fit/parametric/specular_terms.hpp"
 #include "model/evaluate.hpp"
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
 
 using Eigen::Index;
-using remap::Error;
-using remap::ErrorKind;
 using remap::number_text;
 using remap::Parametric;
 using remap::Range;
@@ -37,6 +34,19 @@ struct Least {
     if (candidate < value || std::isnan(candidate)) *this = {candidate, at_alpha, at_specular};
   }
 };
+
+// The least value of `quantity` over a grid of the domain; `flat`: it is the same at every specular.
+Least least_over(const remap::Domain& domain, bool flat, const auto& quantity) {
+  Least least;
+  for (int i = 0; i <= kAlphaSteps; ++i) {
+    const double alpha = grid_value(domain.alpha, i, kAlphaSteps);
+    for (int j = flat ? kSpecularSteps : 0; j <= kSpecularSteps; ++j) {
+      const double specular = grid_value(domain.specular, j, kSpecularSteps);
+      least.take(quantity(alpha, specular), alpha, specular);
+    }
+  }
+  return least;
+}
 
 double alpha_derivative(const Parametric& form, double alpha, double specular) {
   double sum = 0.0, specular_power = 1.0;
@@ -67,39 +77,27 @@ std::string place(const Least& least, bool with_specular) {
 }  // namespace
 
 void require_rising_alpha(const Parametric& form, const remap::Domain& domain) {
-  Least least;
-  const bool flat = form.alpha.size() == 1;  // the same at every specular
-  for (int i = 0; i <= kAlphaSteps; ++i) {
-    const double alpha = grid_value(domain.alpha, i, kAlphaSteps);
-    for (int j = flat ? kSpecularSteps : 0; j <= kSpecularSteps; ++j) {
-      const double specular = grid_value(domain.specular, j, kSpecularSteps);
-      least.take(alpha_derivative(form, alpha, specular), alpha, specular);
-    }
-  }
+  const bool flat = form.alpha.size() == 1;
+  const Least least = least_over(
+      domain, flat, [&](double alpha, double specular) { return alpha_derivative(form, alpha, specular); });
   if (least.value > 0.0) return;
-  throw Error(ErrorKind::kNumeric,
-              "fit: the roughness curve does not increase from " + number_text(domain.alpha.min) + " to " +
-                  number_text(domain.alpha.max) + ": its slope is " + place(least, !flat));
+  throw numeric_error("fit: the roughness curve does not increase from " + number_text(domain.alpha.min) +
+                      " to " + number_text(domain.alpha.max) + ": its slope is " + place(least, !flat));
 }
 
 void require_rising_specular(const Parametric& form, const remap::Domain& domain, double least_specular) {
   const bool proportional = remap::is_proportional(form);
-  Least slope, value;
-  for (int i = 0; i <= kAlphaSteps; ++i) {
-    const double alpha = grid_value(domain.alpha, i, kAlphaSteps);
-    for (int j = proportional ? kSpecularSteps : 0; j <= kSpecularSteps; ++j) {
-      const double specular = grid_value(domain.specular, j, kSpecularSteps);
-      slope.take(specular_derivative(form, alpha, specular), alpha, specular);
-    }
-    value.take(remap::target_specular(form, alpha, least_specular), alpha, least_specular);
-  }
+  const Least slope = least_over(domain, proportional, [&](double alpha, double specular) {
+    return specular_derivative(form, alpha, specular);
+  });
+  const Least value = least_over(
+      {domain.alpha, {least_specular, least_specular}}, true,
+      [&](double alpha, double specular) { return remap::target_specular(form, alpha, specular); });
   if (!(slope.value > 0.0))
-    throw Error(ErrorKind::kNumeric,
-                proportional
-                    ? "fit: k(alpha) is not positive: it is " + place(slope, false)
-                    : "fit: specular2 does not increase with specular1: its slope is " + place(slope, true));
-  if (!(value.value >= 0.0))
-    throw Error(ErrorKind::kNumeric, "fit: specular2 is negative: it is " + place(value, true));
+    throw numeric_error(proportional ? "fit: k(alpha) is not positive: it is " + place(slope, false)
+                                     : "fit: specular2 does not increase with specular1: its slope is " +
+                                           place(slope, true));
+  if (!(value.value >= 0.0)) throw numeric_error("fit: specular2 is negative: it is " + place(value, true));
 }
 
 double least_positive_specular(const std::vector<TableRow>& rows) {
@@ -125,9 +123,9 @@ std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(basis);
   if (qr.rank() < basis.cols())
-    throw Error(ErrorKind::kInput, "fit: the training rows have too few distinct samples for the form " +
-                                       std::string(form.name) + " (at least " + std::to_string(basis.cols()) +
-                                       " that differ in alpha1 and specular1 are required)");
+    throw input_error("fit: the training rows have too few distinct samples for the form " +
+                      std::string(form.name) + " (at least " + std::to_string(basis.cols()) +
+                      " that differ in alpha1 and specular1 are required)");
   const Eigen::VectorXd solution = qr.solve(target);
   std::vector<std::vector<double>> coefficients;
   const double* next = solution.data();
@@ -139,9 +137,9 @@ std::vector<std::vector<double>> fit_roughness(const std::vector<TableRow>& rows
 }
 
 Parametric fit_parametric(const std::vector<TableRow>& rows, const remap::Domain& domain,
-                          const ParametricForm& form, const Parametric* near) {
+                          const ParametricForm& form) {
   Parametric fit;
-  fit.specular = fit_specular_terms(rows, *form.specular, near == nullptr ? nullptr : &near->specular);
+  fit.specular = fit_specular_terms(rows, *form.specular);
   fit.alpha = fit_roughness(rows, *form.roughness);
   require_rising_alpha(fit, domain);
   require_rising_specular(fit, domain, least_positive_specular(rows));

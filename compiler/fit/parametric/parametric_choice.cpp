@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include "fit/parametric/parametric.hpp"
-#include "fit/parametric/parametric_parts.hpp"
 #include "fit/parametric/specular_terms.hpp"
 #include "fit/rows/folds.hpp"
 #include "model/evaluate.hpp"
@@ -21,9 +20,7 @@ using remap::Parametric;
 // Rows used for the choice. More rows take longer and do not change the result.
 constexpr std::size_t kMostRows = 4000;
 
-// The cross-validation results of the forms of one output, in their order; empty for a form that the rows do
-// not determine.
-using Scores = std::vector<std::optional<CrossValidated>>;
+constexpr std::size_t kFolds = 10;
 
 struct Task {
   const std::vector<TableRow>& rows;
@@ -31,64 +28,67 @@ struct Task {
   std::vector<Fold> folds;
 };
 
-CrossValidated score(const Task& task, const RoughnessForm& form) {
-  require_rising_alpha({fit_roughness(task.rows, form), {}}, task.domain);
-  std::vector<std::vector<double>> errors(task.folds.size());
-  for (std::size_t f = 0; f < task.folds.size(); ++f) {
-    if (task.folds[f].judging.empty()) continue;
-    const Parametric part{fit_roughness(task.folds[f].training, form), {}};
-    for (const TableRow& row : task.folds[f].judging)
-      errors[f].push_back(remap::target_alpha(part, row.alpha1, row.specular1) - row.alpha2);
+// `fit`: fits rows. `value`: the output that it fits.
+CrossValidated score_folds(const Task& task, double TableRow::*output,
+                           const std::function<Parametric(const std::vector<TableRow>&)>& fit,
+                           double (*value)(const Parametric&, const double&, const double&)) {
+  std::vector<std::vector<double>> errors;
+  for (const Fold& fold : task.folds) {
+    errors.emplace_back();
+    if (fold.judging.empty()) continue;
+    const Parametric part = fit(fold.training);
+    for (const TableRow& row : fold.judging)
+      errors.back().push_back(value(part, row.alpha1, row.specular1) - row.*output);
   }
   return cross_validated(errors);
+}
+
+CrossValidated score(const Task& task, const RoughnessForm& form) {
+  const auto fit = [&](const std::vector<TableRow>& rows) {
+    return Parametric{fit_roughness(rows, form), {}};
+  };
+  require_rising_alpha(fit(task.rows), task.domain);
+  return score_folds(task, &TableRow::alpha2, fit, remap::target_alpha);
 }
 
 CrossValidated score(const Task& task, const SpecularForm& form) {
   const Parametric whole{{}, fit_specular_terms(task.rows, form)};
   require_rising_specular(whole, task.domain, least_positive_specular(task.rows));
-  std::vector<std::vector<double>> errors(task.folds.size());
-  for (std::size_t f = 0; f < task.folds.size(); ++f) {
-    if (task.folds[f].judging.empty()) continue;
-    const Parametric part{{}, fit_specular_terms(task.folds[f].training, form, &whole.specular)};
-    for (const TableRow& row : task.folds[f].judging)
-      errors[f].push_back(remap::target_specular(part, row.alpha1, row.specular1) - row.specular2);
-  }
-  return cross_validated(errors);
+  const auto fit = [&](const std::vector<TableRow>& rows) {
+    return Parametric{{}, fit_specular_terms(rows, form, &whole.specular)};
+  };
+  return score_folds(task, &TableRow::specular2, fit, remap::target_specular);
 }
 
+// Infinite for a form that the rows do not determine.
 template <typename Form>
-std::optional<CrossValidated> score_or_none(const Task& task, const Form& form) {
+CrossValidated score_or_none(const Task& task, const Form& form) {
   try {
     return score(task, form);
   } catch (const remap::Error& error) {
     if (error.kind() == remap::ErrorKind::kInterrupted) throw;
-    return std::nullopt;
+    return {std::numeric_limits<double>::infinity(), 0.0};
   }
 }
 
-// The simplest form within one standard error of the best; the first if no form has a score.
+// The simplest form that counts as equal to the best; the first if no form has a score.
 template <typename Form>
-const Form* choose(std::span<const Form> forms, const Scores& scores) {
-  double best = 1e300, bound = 1e300;
-  for (const auto& score : scores) {
-    if (!score || !(score->rms < best)) continue;
-    best = score->rms;
-    bound = best + std::max(score->standard_error, kNegligibleError);
-  }
+const Form* choose(std::span<const Form> forms, const std::vector<CrossValidated>& scores) {
+  const double bound = error_bound(scores);
   const Form* chosen = nullptr;
   for (std::size_t i = 0; i < forms.size(); ++i)
-    if (scores[i] && scores[i]->rms <= bound &&
+    if (scores[i].rms <= bound &&
         (chosen == nullptr || forms[i].coefficient_count() < chosen->coefficient_count()))
       chosen = &forms[i];
   return chosen == nullptr ? &forms.front() : chosen;
 }
 
 template <typename Form>
-std::string score_text(std::span<const Form> forms, const Scores& scores) {
+std::string score_text(std::span<const Form> forms, const std::vector<CrossValidated>& scores) {
   std::string text;
   for (std::size_t i = 0; i < forms.size(); ++i)
     text += (i == 0 ? "" : ", ") + std::string(forms[i].name) + " " +
-            (scores[i] ? remap::number_text(remap::rounded_up(scores[i]->rms, 2)) : "-");
+            (std::isfinite(scores[i].rms) ? remap::number_text(remap::rounded_up(scores[i].rms, 2)) : "-");
   return text;
 }
 
@@ -102,13 +102,11 @@ Regression fit_parametric_best(const std::vector<TableRow>& rows, const remap::D
             {{"form", form_name(form)}, {"form chosen by", "the caller"}}};
   }
   const std::vector<TableRow> drawn = draw_rows(rows, kMostRows, options.seed);
-  Task task{drawn, domain, {}};
-  const auto fold_of_row = draw_folds(drawn, options.folds, options.seed);
-  for (std::size_t f = 0; f < options.folds; ++f) task.folds.push_back(select_fold(drawn, fold_of_row, f));
+  const Task task{drawn, domain, split_folds(drawn, kFolds, options.seed)};
 
   const auto roughness = roughness_forms();
   const auto specular = specular_forms();
-  Scores alpha_scores(roughness.size()), specular_scores(specular.size());
+  std::vector<CrossValidated> alpha_scores(roughness.size()), specular_scores(specular.size());
   const std::size_t count = roughness.size() + specular.size();
   std::atomic<std::size_t> done{0};
   remap::run_parallel(count, options.jobs, [&](std::size_t i) {
@@ -124,7 +122,7 @@ Regression fit_parametric_best(const std::vector<TableRow>& rows, const remap::D
   const ParametricForm form = {choose(roughness, alpha_scores), choose(specular, specular_scores)};
   return {fit_parametric(rows, domain, form),
           {{"form", form_name(form)},
-           {"form chosen by", std::to_string(options.folds) + "-fold cross-validation on " +
+           {"form chosen by", std::to_string(kFolds) + "-fold cross-validation on " +
                                   std::to_string(drawn.size()) + " training rows, seed " +
                                   std::to_string(options.seed) + "; simplest within one standard error"},
            {"alpha rms by form", score_text(roughness, alpha_scores)},

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 #include "text/nearest_name.hpp"
 
 namespace remapc {
@@ -89,11 +89,10 @@ ParametricForm find_form(const std::string& name) {
     for (const SpecularForm& specular : kSpecularForms)
       known.push_back(std::string(roughness.name) + "/" + std::string(specular.name));
   const std::string nearest = remap::nearest_name(name, known);
-  throw remap::Error(remap::ErrorKind::kUsage, "unknown form '" + name + "' (" +
-                                                   (nearest.empty() ? "" : "did you mean " + nearest + "? ") +
-                                                   "choose paper, paper+pole or ROUGHNESS/SPECULAR of " +
-                                                   names_of(kRoughnessForms) + " / " +
-                                                   names_of(kSpecularForms) + ")");
+  throw usage_error("unknown form '" + name + "' (" +
+                    (nearest.empty() ? "" : "did you mean " + nearest + "? ") +
+                    "choose paper, paper+pole or ROUGHNESS/SPECULAR of " + names_of(kRoughnessForms) + " / " +
+                    names_of(kSpecularForms) + ")");
 }
 
 std::string form_list() {

@@ -11,7 +11,7 @@
 #include <ceres/ceres.h>
 
 #include "model/evaluate.hpp"
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
@@ -20,8 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using remap::AlphaCurve;
-using remap::Error;
-using remap::ErrorKind;
 using remap::rise;
 using remap::SpecularTerm;
 
@@ -285,22 +283,19 @@ Rates best_of(const Projection& projection, const std::vector<Rates>& starts) {
     if (candidate.cost < best.cost) best = candidate;
   }
   if (!std::isfinite(best.cost))
-    throw Error(
-        ErrorKind::kNumeric,
+    throw numeric_error(
         "fit: the rates of k(alpha) did not converge from any start (check the table with remapc check)");
   return best;
 }
 
 void require_samples(std::size_t alpha_count, std::size_t specular_count, const SpecularForm& form) {
   if (alpha_count < kFewestAlphas)
-    throw Error(ErrorKind::kInput, "fit: the training rows have too few distinct alpha1 (" +
-                                       std::to_string(alpha_count) + ", at least " +
-                                       std::to_string(kFewestAlphas) + " are required)");
+    throw input_error("fit: the training rows have too few distinct alpha1 (" + std::to_string(alpha_count) +
+                      ", at least " + std::to_string(kFewestAlphas) + " are required)");
   if (specular_count < form.powers.size())
-    throw Error(ErrorKind::kInput, "fit: the training rows have too few distinct specular1 (" +
-                                       std::to_string(specular_count) + ", the form " +
-                                       std::string(form.name) + " requires at least " +
-                                       std::to_string(form.powers.size()) + ")");
+    throw input_error("fit: the training rows have too few distinct specular1 (" +
+                      std::to_string(specular_count) + ", the form " + std::string(form.name) +
+                      " requires at least " + std::to_string(form.powers.size()) + ")");
 }
 
 }  // namespace

@@ -22,12 +22,13 @@ std::vector<std::size_t> draw_folds(const std::vector<TableRow>& rows, std::size
   return fold_of_row;
 }
 
-Fold select_fold(const std::vector<TableRow>& rows, const std::vector<std::size_t>& fold_of_row,
-                 std::size_t fold) {
-  Fold selected;
+std::vector<Fold> split_folds(const std::vector<TableRow>& rows, std::size_t fold_count, std::uint64_t seed) {
+  const std::vector<std::size_t> fold_of_row = draw_folds(rows, fold_count, seed);
+  std::vector<Fold> folds(fold_count);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    (fold_of_row[i] == fold ? selected.judging : selected.training).push_back(rows[i]);
-  return selected;
+    for (std::size_t f = 0; f < fold_count; ++f)
+      (fold_of_row[i] == f ? folds[f].judging : folds[f].training).push_back(rows[i]);
+  return folds;
 }
 
 std::vector<TableRow> draw_rows(const std::vector<TableRow>& rows, std::size_t count, std::uint64_t seed) {
@@ -58,6 +59,16 @@ CrossValidated cross_validated(const std::vector<std::vector<double>>& errors_of
   for (const double figure : figures) variance += (figure - mean) * (figure - mean);
   const double error = folds < 2.0 ? 0.0 : std::sqrt(variance / (folds - 1.0) / folds);
   return {std::sqrt(total / count), error};
+}
+
+double error_bound(const std::vector<CrossValidated>& scores) {
+  double best = 1e300, bound = 1e300;
+  for (const CrossValidated& score : scores) {
+    if (!(score.rms < best)) continue;
+    best = score.rms;
+    bound = best + std::max(score.standard_error, kNegligibleError);
+  }
+  return bound;
 }
 
 }  // namespace remapc

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "table/table.hpp"
@@ -19,8 +18,8 @@ struct Fold {
   std::vector<TableRow> training;
   std::vector<TableRow> judging;
 };
-Fold select_fold(const std::vector<TableRow>& rows, const std::vector<std::size_t>& fold_of_row,
-                 std::size_t fold);
+// The rows of each fold of draw_folds().
+std::vector<Fold> split_folds(const std::vector<TableRow>& rows, std::size_t fold_count, std::uint64_t seed);
 
 // Draws `count` of `rows` (all if there are fewer) by `seed` and keeps their order.
 std::vector<TableRow> draw_rows(const std::vector<TableRow>& rows, std::size_t count, std::uint64_t seed);
@@ -29,11 +28,15 @@ std::vector<TableRow> draw_rows(const std::vector<TableRow>& rows, std::size_t c
 // is a twentieth of an 8-bit step.
 inline constexpr double kNegligibleError = 2e-4;
 
-// The RMS error over all rows, and its standard error over the folds.
+// The RMS error over all rows, and its standard error over the folds. Infinite for a fit that failed.
 struct CrossValidated {
   double rms = 0.0;
   double standard_error = 0.0;
 };
 CrossValidated cross_validated(const std::vector<std::vector<double>>& errors_of_folds);
+
+// The error up to which a fit counts as equal to the best of `scores`: one standard error (Breiman et al.
+// 1984), but at least kNegligibleError, above that of the best.
+double error_bound(const std::vector<CrossValidated>& scores);
 
 }  // namespace remapc

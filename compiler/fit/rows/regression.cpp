@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -16,16 +16,20 @@ constexpr std::size_t kFewestRows = 10;
 
 }  // namespace
 
+FitProgress part_of(const FitProgress& progress, double begin, double end) {
+  if (!progress) return {};
+  return [&progress, begin, end](double share) { progress(begin + (end - begin) * share); };
+}
+
 void require_variety(const std::vector<TableRow>& rows, const std::string& kind) {
   if (rows.size() < kFewestRows)
-    throw remap::Error(remap::ErrorKind::kInput, kind + ": too few rows (" + std::to_string(rows.size()) +
-                                                     ", at least " + std::to_string(kFewestRows) +
-                                                     " are required)");
+    throw input_error(kind + ": too few rows (" + std::to_string(rows.size()) + ", at least " +
+                      std::to_string(kFewestRows) + " are required)");
   const auto require = [&](double TableRow::*input, const std::string& name) {
     const double first = rows.front().*input;
     if (std::all_of(rows.begin(), rows.end(), [&](const TableRow& row) { return row.*input == first; }))
-      throw remap::Error(remap::ErrorKind::kInput, kind + ": " + name + " is " + remap::number_text(first) +
-                                                       " in every row (at least two values are required)");
+      throw input_error(kind + ": " + name + " is " + remap::number_text(first) +
+                        " in every row (at least two values are required)");
   };
   require(&TableRow::alpha1, "alpha1");
   require(&TableRow::specular1, "specular1");
@@ -65,9 +69,8 @@ bool alpha_needs_specular(const std::vector<TableRow>& rows) {
 std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model) {
   const std::string chosen = id.empty() ? remap::converter_id(source_model, target_model) : id;
   if (!remap::is_valid_id(chosen))
-    throw remap::Error(
-        remap::ErrorKind::kUsage,
-        "id: '" + chosen + "' is not valid (use a C++ identifier without a leading or double underscore)");
+    throw usage_error("id: '" + chosen +
+                      "' is not valid (use a C++ identifier without a leading or double underscore)");
   return chosen;
 }
 

@@ -20,6 +20,10 @@ struct Regression {
 // regression. May be empty.
 using FitProgress = std::function<void(double share)>;
 
+// The progress of a part of the work, from the share `begin` to the share `end`. Refers to `progress`; empty
+// if that is.
+FitProgress part_of(const FitProgress& progress, double begin, double end);
+
 // Throws kInput for fewer than 10 rows, or if alpha1 or specular1 is constant. The message starts with
 // `kind`.
 void require_variety(const std::vector<TableRow>& rows, const std::string& kind);

@@ -7,7 +7,8 @@
 #include <numeric>
 #include <random>
 
-#include "remap/error.hpp"
+#include "model/interpreter.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -21,40 +22,55 @@ std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed) {
   return order;
 }
 
-void require_held_out_share(double fraction) {
+remap::Split split_record(std::uint64_t seed, double fraction, std::size_t rows) {
   if (!(fraction >= 0.0 && fraction <= 0.9))
-    throw remap::Error(remap::ErrorKind::kUsage,
-                       "held-out share: " + remap::number_text(fraction) + " is out of range (0 to 0.9)");
-}
-
-std::size_t held_out_count(double fraction, std::size_t rows) {
-  return static_cast<std::size_t>(std::lround(fraction * static_cast<double>(rows)));
+    throw usage_error("held-out share: " + remap::number_text(fraction) + " is out of range (0 to 0.9)");
+  remap::Split record;
+  record.seed = seed;
+  record.held_out_fraction = fraction;
+  record.held_out_rows = std::lround(fraction * static_cast<double>(rows));
+  record.trained_rows = static_cast<std::int64_t>(rows) - record.held_out_rows;
+  return record;
 }
 
 RowSplit split_rows(const Table& table, const remap::Domain& domain, std::uint64_t seed,
                     double held_out_fraction) {
-  require_held_out_share(held_out_fraction);
-  RowSplit split;
   std::vector<const TableRow*> usable;
+  std::map<std::string, std::int64_t> left_out;
   for (const TableRow& row : table.rows) {
     if (row.status != RowStatus::kOk)
-      ++split.record.left_out[std::string(status_name(row.status))];
+      ++left_out[std::string(status_name(row.status))];
     else if (!is_inside(row, domain))
-      ++split.record.left_out["beyond the domain"];
+      ++left_out["beyond the domain"];
     else
       usable.push_back(&row);
   }
+  RowSplit split;
+  split.record = split_record(seed, held_out_fraction, usable.size());
+  split.record.left_out = std::move(left_out);
   std::vector<std::size_t> order = seeded_order(usable.size(), seed);
-  const std::size_t count = held_out_count(held_out_fraction, usable.size());
-  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
-  std::sort(order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
+  const auto count = static_cast<std::size_t>(split.record.held_out_rows);
+  std::sort(order.begin(), order.begin() + split.record.held_out_rows);
+  std::sort(order.begin() + split.record.held_out_rows, order.end());
   for (std::size_t i = 0; i < order.size(); ++i)
     (i < count ? split.held_out : split.training).push_back(*usable[order[i]]);
-  split.record.seed = seed;
-  split.record.held_out_fraction = held_out_fraction;
-  split.record.trained_rows = static_cast<std::int64_t>(split.training.size());
-  split.record.held_out_rows = static_cast<std::int64_t>(split.held_out.size());
   return split;
+}
+
+Residuals residuals_of(const std::vector<TableRow>& rows,
+                       const std::function<remap::MappedTexel(double alpha, double specular)>& map) {
+  Residuals errors;
+  for (const TableRow& row : rows) {
+    const remap::MappedTexel texel = map(row.alpha1, row.specular1);
+    errors.alpha.push_back(texel.alpha - row.alpha2);
+    errors.specular.push_back(texel.specular - row.specular2);
+  }
+  return errors;
+}
+
+Residuals residuals_of(const std::vector<TableRow>& rows, const remap::MappingKind& mapping) {
+  return residuals_of(
+      rows, [&](double alpha, double specular) { return remap::evaluate_mapping(mapping, alpha, specular); });
 }
 
 remap::ErrorFigures error_figures(std::vector<double> errors) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,10 @@ namespace remapc {
 // A random permutation of `count` indices that depends only on `seed`, not on the machine. The first ones are
 // held out.
 std::vector<std::size_t> seeded_order(std::size_t count, std::uint64_t seed);
-// Throws kUsage for a fraction outside [0, 0.9].
-void require_held_out_share(double fraction);
-std::size_t held_out_count(double fraction, std::size_t rows);
+
+// The record of a split of `rows` rows, of which `fraction` (rounded) are held out. Throws kUsage for a
+// fraction outside [0, 0.9].
+remap::Split split_record(std::uint64_t seed, double fraction, std::size_t rows);
 
 struct RowSplit {
   std::vector<TableRow> training;
@@ -28,6 +30,15 @@ struct RowSplit {
 // machine. Throws kUsage for a fraction outside [0, 0.9].
 RowSplit split_rows(const Table& table, const remap::Domain& domain, std::uint64_t seed,
                     double held_out_fraction);
+
+// Errors of target alpha and target specular, one per row. `map`: gives the target's alpha and specular for
+// those of the source.
+struct Residuals {
+  std::vector<double> alpha, specular;
+};
+Residuals residuals_of(const std::vector<TableRow>& rows,
+                       const std::function<remap::MappedTexel(double alpha, double specular)>& map);
+Residuals residuals_of(const std::vector<TableRow>& rows, const remap::MappingKind& mapping);
 
 // RMS, 99th percentile (nearest rank) and maximum of absolute values. Zeros for an empty list.
 remap::ErrorFigures error_figures(std::vector<double> errors);

@@ -9,15 +9,12 @@
 #include <optional>
 #include <vector>
 
-#include "remap/error.hpp"
 #include "system/files.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 constexpr std::size_t kLargestVectorCount = 1'000'000;
 
@@ -63,7 +60,7 @@ class ModelText {
     return value;
   }
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorKind::kInput, place_ + ":" + std::to_string(line_) + ": " + what);
+    throw input_error(place_ + ":" + std::to_string(line_) + ": " + what);
   }
 
  private:

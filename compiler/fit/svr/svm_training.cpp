@@ -11,7 +11,7 @@
 #include <libsvm/svm.h>
 
 #include "model/evaluate.hpp"
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
@@ -116,8 +116,7 @@ std::optional<remap::KernelExpansion> train_expansion(const SvrSamples& samples,
   const OwnedProblem problem(samples, scalings);
   const svm_parameter settings = parameters_of(parameters);
   if (const char* refusal = svm_check_parameter(&problem.problem, &settings); refusal != nullptr)
-    throw remap::Error(remap::ErrorKind::kUsage,
-                       std::string("libsvm refused the hyper-parameters: ") + refusal);
+    throw usage_error(std::string("libsvm refused the hyper-parameters: ") + refusal);
   iteration_count = 0;
   // The model refers to the lists of `problem`, which must outlive it.
   const std::unique_ptr<svm_model, ModelDeleter> model(svm_train(&problem.problem, &settings));

@@ -7,16 +7,14 @@
 #include <mutex>
 #include <string_view>
 
-#include "fit/svr/svm_training.hpp"
 #include "fit/svr/svr_search.hpp"
-#include "remap/error.hpp"
+#include "model/evaluate.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
 using remap::number_text;
 
 constexpr std::size_t kLargestTraining = 2000;  // samples; time grows faster than their square
@@ -59,13 +57,10 @@ Problem make_problem(const std::string& name, const std::vector<TableRow>& rows,
   Problem problem{name, {input_count, {}, {}}, {}, scaling_of(outputs)};
   problem.inputs.push_back({});  // alpha is not scaled, because the training normalises it
   if (input_count > 1) problem.inputs.push_back(scaling_of(inputs[1]));
-  const auto normalised = [](const remap::Scaling& scaling, double value) {
-    return (value - scaling.offset) * scaling.scale;
-  };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t j = 0; j < input_count; ++j)
-      problem.samples.inputs.push_back(normalised(problem.inputs[j], inputs[j][i]));
-    problem.samples.outputs.push_back(normalised(problem.output, outputs[i]));
+      problem.samples.inputs.push_back(remap::normalised(problem.inputs[j], inputs[j][i]));
+    problem.samples.outputs.push_back(remap::normalised(problem.output, outputs[i]));
   }
   return problem;
 }
@@ -75,12 +70,11 @@ void require_in_range(const SvrHyperParameters& parameters, const std::string& n
   if (!positive(parameters.cost) || !positive(parameters.gamma) || !positive(parameters.epsilon) ||
       !(parameters.specular_span > 0.0 && parameters.specular_span <= 1.0) ||
       !(parameters.alpha_pole >= 0.0 && std::isfinite(parameters.alpha_pole)))
-    throw Error(ErrorKind::kUsage,
-                "svr " + name + ": invalid C " + number_text(parameters.cost) + ", gamma " +
-                    number_text(parameters.gamma) + ", epsilon " + number_text(parameters.epsilon) +
-                    ", specular_span " + number_text(parameters.specular_span) + ", alpha_pole " +
-                    number_text(parameters.alpha_pole) +
-                    " (C, gamma and epsilon must be above 0, the span above 0 to 1, the pole at least 0)");
+    throw usage_error("svr " + name + ": invalid C " + number_text(parameters.cost) + ", gamma " +
+                      number_text(parameters.gamma) + ", epsilon " + number_text(parameters.epsilon) +
+                      ", specular_span " + number_text(parameters.specular_span) + ", alpha_pole " +
+                      number_text(parameters.alpha_pole) +
+                      " (C, gamma and epsilon must be above 0, the span above 0 to 1, the pole at least 0)");
 }
 
 // Trains on `samples`. If C was searched, it is reduced until libsvm converges.
@@ -90,10 +84,9 @@ remap::KernelExpansion train(const std::string& name, const SvrSamples& samples,
     if (softening > 0) parameters.cost *= kSoftening;
     if (auto expansion = train_expansion(samples, parameters)) return *expansion;
   }
-  throw Error(ErrorKind::kNumeric, "svr " + name + ": libsvm did not converge on " +
-                                       std::to_string(samples.count()) + " samples with C " +
-                                       number_text(parameters.cost) + ", gamma " +
-                                       number_text(parameters.gamma) + " (use a smaller C)");
+  throw numeric_error("svr " + name + ": libsvm did not converge on " + std::to_string(samples.count()) +
+                      " samples with C " + number_text(parameters.cost) + ", gamma " +
+                      number_text(parameters.gamma) + " (use a smaller C)");
 }
 
 remap::KernelExpansion fit_output(const Problem& problem, const std::optional<SvrHyperParameters>& given,
@@ -107,7 +100,7 @@ remap::KernelExpansion fit_output(const Problem& problem, const std::optional<Sv
     parameters = *given;
     require_in_range(parameters, problem.name);
   } else {
-    const SvrChoice choice = search_hyper_parameters(problem.samples, {options.seed, options.jobs}, progress);
+    const SvrChoice choice = search_hyper_parameters(problem.samples, options.seed, options.jobs, progress);
     parameters = choice.parameters;
     record("folds", std::to_string(choice.fold_count));
     record("candidates", std::to_string(choice.candidate_count));
@@ -154,7 +147,7 @@ std::optional<double> recorded_number(const std::map<std::string, std::string>& 
   const auto found = method.find(key);
   if (found == method.end()) return std::nullopt;
   const auto number = remap::parse_number(found->second);
-  if (!number) throw Error(ErrorKind::kInput, "method." + key + ": '" + found->second + "' is not a number");
+  if (!number) throw input_error("method." + key + ": '" + found->second + "' is not a number");
   return number;
 }
 
@@ -164,7 +157,7 @@ std::optional<SvrHyperParameters> recorded_parameters(const std::map<std::string
              epsilon = recorded_number(method, name + ".epsilon");
   if (!cost && !gamma && !epsilon) return std::nullopt;
   if (!cost || !gamma || !epsilon)
-    throw Error(ErrorKind::kInput, "method." + name + ": C, gamma and epsilon must be given together");
+    throw input_error("method." + name + ": C, gamma and epsilon must be given together");
   return SvrHyperParameters{*cost, *gamma, *epsilon,
                             recorded_number(method, name + ".specular_span").value_or(1.0),
                             recorded_number(method, name + ".alpha_pole").value_or(0.0)};

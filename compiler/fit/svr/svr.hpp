@@ -9,9 +9,16 @@
 #include <vector>
 
 #include "fit/rows/regression.hpp"
-#include "fit/svr/svr_options.hpp"
+#include "fit/svr/svm_training.hpp"
 
 namespace remapc {
+
+struct SvrOptions {
+  std::uint64_t seed = 1;  // of the folds of the search and of the drawn samples
+  unsigned jobs = 0;       // threads; 0: one per core. The result does not depend on it
+  // Missing hyper-parameters are searched.
+  std::optional<SvrHyperParameters> alpha, specular;
+};
 
 // Fits `rows` (all of status ok, finite). Target alpha is fitted from source alpha alone unless
 // alpha_needs_specular(). Rows with the same inputs are combined to one sample with their mean output: the

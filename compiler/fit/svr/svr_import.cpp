@@ -10,20 +10,18 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/svr/svm_model_file.hpp"
-#include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "remap/version.hpp"
 #include "system/files.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using remap::Error;
-using remap::ErrorKind;
 
 [[noreturn]] void fail(const std::string& place, const std::string& what) {
-  throw Error(ErrorKind::kInput, place + ": " + what);
+  throw input_error(place + ": " + what);
 }
 
 // Requires an object with exactly the fields `names`; fields of `optional` may be missing.

@@ -9,10 +9,9 @@
 #include <mutex>
 #include <random>
 
-#include "fit/rows/folds.hpp"
 #include "model/evaluate.hpp"
-#include "remap/error.hpp"
 #include "system/parallel.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
@@ -156,8 +155,7 @@ struct Candidate {
 // The candidates of one stage. Each point is evaluated once.
 class Contest {
  public:
-  Contest(FoldedSamples folded, unsigned jobs, FitProgress progress)
-      : folded_(std::move(folded)), jobs_(jobs), progress_(std::move(progress)) {}
+  Contest(FoldedSamples folded, unsigned jobs) : folded_(std::move(folded)), jobs_(jobs) {}
 
   // Evaluates the new points of `points` on the first folds, then those that are not hopeless on the other
   // folds.
@@ -183,10 +181,8 @@ class Contest {
     for (const auto& [point, candidate] : candidates_)
       if (candidate.is_finished() && (best == nullptr || candidate.rms() < best->rms())) best = &candidate;
     if (best == nullptr || !std::isfinite(best->rms()))
-      throw remap::Error(
-          remap::ErrorKind::kNumeric,
-          "svr: no candidate of the search converged (check the table for outliers with remapc "
-          "check)");
+      throw numeric_error(
+          "svr: no candidate of the search converged (check the table for outliers with remapc check)");
     return *best;
   }
 
@@ -277,12 +273,6 @@ Point choose_tube(Contest& contest, const Point& start, int narrowest) {
   return follow(contest, point, kGamma, 1, kBounds[kGamma], kWorthTime);
 }
 
-// Maps the progress of a stage to its part of the total.
-FitProgress part(const FitProgress& progress, double begin, double end) {
-  if (!progress) return {};
-  return [&progress, begin, end](double share) { progress(begin + (end - begin) * share); };
-}
-
 }  // namespace
 
 SvrSamples draw_evenly(const SvrSamples& samples, std::size_t count, std::uint64_t seed) {
@@ -299,17 +289,16 @@ SvrSamples draw_evenly(const SvrSamples& samples, std::size_t count, std::uint64
   return drawn;
 }
 
-SvrChoice search_hyper_parameters(const SvrSamples& samples, const SvrSearchOptions& options,
+SvrChoice search_hyper_parameters(const SvrSamples& samples, std::uint64_t seed, unsigned jobs,
                                   const FitProgress& progress) {
   SvrChoice choice;
   if (samples.count() < kFewestSamples) return choice;
   const auto contest = [&](std::size_t sample_count) {
-    return Contest(fold_samples(draw_evenly(samples, sample_count, options.seed), options.seed), options.jobs,
-                   {});
+    return Contest(fold_samples(draw_evenly(samples, sample_count, seed), seed), jobs);
   };
 
   Contest coarse = contest(kGridSamples);
-  coarse.report_to(part(progress, 0.0, 0.2));
+  coarse.report_to(part_of(progress, 0.0, 0.2));
   coarse.enter(grid(samples.input_count, tube_range(samples.count()).start));
   Point centre = coarse.best().point;
 
@@ -317,7 +306,7 @@ SvrChoice search_hyper_parameters(const SvrSamples& samples, const SvrSearchOpti
   fine.enter({centre});
   for (int step = kFirstStep, round = 0; step >= 1 && round < kLargestRounds; ++round) {
     const double begin = 0.2 + 0.5 * round / kLargestRounds;
-    fine.report_to(part(progress, begin, begin + 0.5 / kLargestRounds));
+    fine.report_to(part_of(progress, begin, begin + 0.5 / kLargestRounds));
     const double before = fine.best().rms();
     fine.enter(neighbours(centre, step, samples.input_count));
     if (fine.best().rms() < kProgress * before)
@@ -328,7 +317,7 @@ SvrChoice search_hyper_parameters(const SvrSamples& samples, const SvrSearchOpti
   centre = fine.smoothest().point;
 
   Contest tube = contest(kTubeSamples);
-  tube.report_to(part(progress, 0.7, 1.0));
+  tube.report_to(part_of(progress, 0.7, 1.0));
   centre = choose_tube(tube, centre, tube_range(samples.count()).narrowest);
 
   choice.parameters = parameters_at(centre);

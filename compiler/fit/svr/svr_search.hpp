@@ -7,14 +7,8 @@
 
 #include "fit/rows/regression.hpp"
 #include "fit/svr/svm_training.hpp"
-#include "fit/svr/svr_options.hpp"
 
 namespace remapc {
-
-struct SvrSearchOptions {
-  std::uint64_t seed = 1;
-  unsigned jobs = 0;  // threads; 0: one per core. The result does not depend on it
-};
 
 struct SvrChoice {
   SvrHyperParameters parameters;
@@ -31,10 +25,11 @@ struct SvrChoice {
 // candidate whose first two folds are far worse than the best is not finished. Among the candidates within
 // one standard error of the best, the smallest gamma is chosen (one-standard-error rule, Breiman et al.
 // 1984), because smoother mappings compile into smaller headers. Early stopping depends on counts, not on
-// time, and results are combined in a fixed order, so the result does not depend on the number of threads.
+// time, and results are combined in a fixed order, so the result does not depend on `jobs` (threads; 0: one
+// per core).
 //
 // Throws kNumeric if no candidate converges, and the exceptions of `progress`.
-SvrChoice search_hyper_parameters(const SvrSamples& samples, const SvrSearchOptions& options,
+SvrChoice search_hyper_parameters(const SvrSamples& samples, std::uint64_t seed, unsigned jobs,
                                   const FitProgress& progress);
 
 // Draws `count` of `samples` (all if there are fewer): one sample by `seed` from each of `count` equal

@@ -16,4 +16,13 @@ inline std::vector<std::byte> texels_of(remap::ImageReader& image) {
   return texels;
 }
 
+// Returns the stored values of one channel, row-major from the top; integers are scaled to 0 to 1.
+inline std::vector<float> channel_values(const remap::ImageLayout& layout, std::size_t channel,
+                                         const std::vector<std::byte>& texels) {
+  const remap::Channel& own = layout.channels[channel];
+  std::vector<float> values(static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.height));
+  remap::load_values(own.type, texels.data() + own.offset, layout.texel_bytes, values.size(), values.data());
+  return values;
+}
+
 }  // namespace remapc

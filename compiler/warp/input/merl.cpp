@@ -9,15 +9,13 @@
 #include <fstream>
 #include <numbers>
 
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 #include "warp/input/tabulated_set.hpp"
 #include "warp/space/quadrature.hpp"
 
 namespace remapc {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
 using std::numbers::pi;
 
 static_assert(std::endian::native == std::endian::little, "the file format is little-endian");
@@ -49,9 +47,8 @@ std::vector<float> read_merl(const std::filesystem::path& file) {
     stream.read(reinterpret_cast<char*>(values.data()),
                 static_cast<std::streamsize>(values.size() * sizeof(double)));
   if (!stream || counts != kCounts)
-    throw Error(
-        ErrorKind::kInput,
-        file.string() + ": is not a BRDF of the MERL database (90 x 90 x 180 cells of three channels)");
+    throw input_error(file.string() +
+                      ": is not a BRDF of the MERL database (90 x 90 x 180 cells of three channels)");
   std::vector<float> samples;
   for (std::size_t c = 0; c < kScales.size(); ++c)
     for (const QuadratureDirection& direction : half_vector_quadrature()) {

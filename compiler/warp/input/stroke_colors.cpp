@@ -1,20 +1,17 @@
-#include "warp/input/stroke_colors.hpp"
-
+// Strokes in two painted images, with one color for each pair.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 #include "text/report_text.hpp"
-#include "warp/input/stroke_image.hpp"
+#include "warp/input/strokes.hpp"
 
 namespace remapc {
 namespace {
 
 namespace fs = std::filesystem;
-using remap::Error;
-using remap::ErrorKind;
 
 using Color = std::uint32_t;  // 0xRRGGBB
 constexpr Color kTransparent = Color{1} << 24;
@@ -87,38 +84,34 @@ Painting read_painting(const fs::path& path, const MapFrame& material) {
   return painting;
 }
 
-// Colors that count as one.
-struct Cluster {
-  Color color = 0;  // the most frequent of these colors
-  std::size_t texels = 0;
-};
-
-struct Frequency {
+// One color, or the most frequent of the colors that count as one.
+struct ColorCount {
   Color color = 0;
   std::size_t texels = 0;
 };
 
+bool is_more_frequent(const ColorCount& a, const ColorCount& b) { return a.texels > b.texels; }
+
 // The colors of the image, the most frequent first.
-std::vector<Frequency> frequencies(const Painting& painting) {
+std::vector<ColorCount> frequencies(const Painting& painting) {
   std::vector<std::uint32_t> counts(kTransparent + 1, 0);
   for (const Color color : painting.texels) ++counts[color];
-  std::vector<Frequency> found;
+  std::vector<ColorCount> found;
   for (Color color = 0; color < kTransparent; ++color)
     if (counts[color] > 0) found.push_back({color, counts[color]});
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Frequency& a, const Frequency& b) { return a.texels > b.texels; });
+  std::stable_sort(found.begin(), found.end(), is_more_frequent);
   return found;
 }
 
 // Forms each cluster around the most frequent color that is in no previous cluster. Returns the largest
 // cluster first.
-std::vector<Cluster> clusters_of(const std::vector<Frequency>& colors, std::size_t least_texels) {
+std::vector<ColorCount> clusters_of(const std::vector<ColorCount>& colors, std::size_t least_texels) {
   std::vector<char> taken(colors.size(), 0);
-  std::vector<Cluster> clusters;
+  std::vector<ColorCount> clusters;
   for (std::size_t i = 0, candidates = 0; i < colors.size() && candidates < kMostCandidates; ++i) {
     if (taken[i] != 0) continue;
     ++candidates;
-    Cluster cluster{colors[i].color, 0};
+    ColorCount cluster{colors[i].color, 0};
     for (std::size_t k = i; k < colors.size(); ++k) {
       if (taken[k] != 0 || distance(colors[k].color, cluster.color) > kColorRadius) continue;
       taken[k] = 1;
@@ -126,18 +119,17 @@ std::vector<Cluster> clusters_of(const std::vector<Frequency>& colors, std::size
     }
     if (cluster.texels >= least_texels) clusters.push_back(cluster);
   }
-  std::stable_sort(clusters.begin(), clusters.end(),
-                   [](const Cluster& a, const Cluster& b) { return a.texels > b.texels; });
+  std::stable_sort(clusters.begin(), clusters.end(), is_more_frequent);
   return clusters;
 }
 
 constexpr std::uint8_t kNoCluster = 255;
 
 // The index of the nearest cluster for each texel, or kNoCluster.
-std::vector<std::uint8_t> labels_of(const Painting& painting, const std::vector<Frequency>& colors,
-                                    const std::vector<Cluster>& clusters) {
+std::vector<std::uint8_t> labels_of(const Painting& painting, const std::vector<ColorCount>& colors,
+                                    const std::vector<ColorCount>& clusters) {
   std::vector<std::uint8_t> label_of_color(kTransparent + 1, kNoCluster);
-  for (const Frequency& entry : colors) {
+  for (const ColorCount& entry : colors) {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < clusters.size(); ++c) {
       const double d = distance(entry.color, clusters[c].color);
@@ -195,7 +187,7 @@ void look_around(const std::vector<std::uint8_t>& labels, std::size_t width, std
 
 // Whether a cluster is the edge of a larger stroke (thin or a blend with the background, along the whole
 // stroke), or a shade of the background next to strokes, as JPEG produces it.
-bool is_rim(const std::vector<Cluster>& clusters, std::size_t index, const Surroundings& around,
+bool is_rim(const std::vector<ColorCount>& clusters, std::size_t index, const Surroundings& around,
             std::size_t first_stroke) {
   if (around.close > 0.75 * around.count && around.flat < 0.4 * around.count) return true;
   if (first_stroke == 0) return false;
@@ -212,21 +204,20 @@ struct ColorStroke {
 };
 
 [[noreturn]] void fail_not_flat(const Painting& painting, const std::string& what) {
-  throw Error(ErrorKind::kInput,
-              painting.path.string() + ": " + what +
-                  " (paint strokes in a few flat colors with a hard brush, on black, white "
-                  "or transparent, without a picture below)");
+  throw input_error(painting.path.string() + ": " + what +
+                    " (paint strokes in a few flat colors with a hard brush, on black, white or transparent, "
+                    "without a picture below)");
 }
 
 // Removes the clusters that are edges of strokes. `first_stroke`: the index of the first cluster after the
 // background.
-std::vector<Cluster> without_rims(const std::vector<Cluster>& clusters, const Painting& painting,
-                                  const std::vector<std::uint8_t>& labels, std::size_t first_stroke) {
+std::vector<ColorCount> without_rims(const std::vector<ColorCount>& clusters, const Painting& painting,
+                                     const std::vector<std::uint8_t>& labels, std::size_t first_stroke) {
   std::vector<Surroundings> around(clusters.size());
   for (std::size_t i = 0; i < labels.size(); ++i)
     if (labels[i] != kNoCluster && labels[i] >= first_stroke)
       look_around(labels, painting.width, i, first_stroke, around[labels[i]]);
-  std::vector<Cluster> kept;
+  std::vector<ColorCount> kept;
   for (std::size_t c = 0; c < clusters.size(); ++c)
     if (c < first_stroke || !is_rim(clusters, c, around[c], first_stroke)) kept.push_back(clusters[c]);
   return kept;
@@ -238,10 +229,10 @@ std::vector<ColorStroke> strokes_in(const Painting& painting, const MapFrame& ma
   const auto transparent =
       static_cast<double>(std::count(painting.texels.begin(), painting.texels.end(), kTransparent));
   const std::size_t first_stroke = transparent >= 0.01 * count ? 0 : 1;
-  const std::vector<Frequency> colors = frequencies(painting);
+  const std::vector<ColorCount> colors = frequencies(painting);
   const std::size_t least = std::max(kLeastTexels, static_cast<std::size_t>(kLeastShare * count));
-  const std::vector<Cluster> all = clusters_of(colors, least);
-  const std::vector<Cluster> kept =
+  const std::vector<ColorCount> all = clusters_of(colors, least);
+  const std::vector<ColorCount> kept =
       without_rims(all, painting, labels_of(painting, colors, all), first_stroke);
   if (kept.size() > kMostColors) fail_not_flat(painting, "has more than 32 colors");
   const std::vector<std::uint8_t> labels = labels_of(painting, colors, kept);
@@ -280,10 +271,9 @@ void require_partners(const std::vector<ColorStroke>& strokes, const fs::path& i
     if (nearest_stroke(strokes, nearest.color) == k &&
         distance(nearest.color, strokes[k].color) <= kPairRadius)
       continue;
-    throw Error(ErrorKind::kInput, other_image.string() + ": has no stroke with color " +
-                                       text_of(strokes[k].color) + " of " + image.string() +
-                                       " (the nearest is " + text_of(nearest.color) +
-                                       "; every color must be in both images)");
+    throw input_error(other_image.string() + ": has no stroke with color " + text_of(strokes[k].color) +
+                      " of " + image.string() + " (the nearest is " + text_of(nearest.color) +
+                      "; every color must be in both images)");
   }
 }
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <sstream>
 
-#include "remap/error.hpp"
 #include "system/files.hpp"
 #include "table/csv.hpp"
+#include "text/errors.hpp"
 #include "text/number_text.hpp"
 #include "texture/image_io.hpp"
 #include "warp/input/image_texels.hpp"
@@ -18,8 +18,6 @@ namespace remapc {
 namespace {
 
 namespace fs = std::filesystem;
-using remap::Error;
-using remap::ErrorKind;
 
 constexpr std::uint32_t kNoEntry = ~std::uint32_t{0};
 constexpr std::array<const char*, 3> kTables = {"profiles.exr", "profiles.csv", "brdfs.txt"};
@@ -68,22 +66,12 @@ ProfileLayout profile_layout(const std::vector<std::string>& names, const std::s
       layout.columns.push_back(column);
     }
     if (radii.size() < 2 || radii != layout.radii)
-      throw Error(ErrorKind::kInput,
-                  place +
-                      ": requires columns R@<radius>, G@<radius>, B@<radius> (or Y@<radius>) for at least "
-                      "two radii, the same for each; the first name is " +
-                      (names.empty() ? "missing" : "'" + names.front() + "'"));
+      throw input_error(place +
+                        ": requires columns R@<radius>, G@<radius>, B@<radius> (or Y@<radius>) for at least "
+                        "two radii, the same for each; the first name is " +
+                        (names.empty() ? "missing" : "'" + names.front() + "'"));
   }
   return layout;
-}
-
-std::vector<float> channel_values(remap::ImageReader& image, std::size_t channel,
-                                  const std::vector<std::byte>& texels) {
-  const remap::ImageLayout& layout = image.layout();
-  const remap::Channel& own = layout.channels[channel];
-  std::vector<float> values(static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.height));
-  remap::load_values(own.type, texels.data() + own.offset, layout.texel_bytes, values.size(), values.data());
-  return values;
 }
 
 void set_size(TabulatedSet& set, const remap::ImageLayout& layout) {
@@ -103,7 +91,7 @@ void read_profile_map(TabulatedSet& set) {
   material.samples.resize(static_cast<Eigen::Index>(layout.columns.size()),
                           static_cast<Eigen::Index>(set.width * set.height));
   for (std::size_t row = 0; row < layout.columns.size(); ++row) {
-    const std::vector<float> values = channel_values(image, layout.columns[row], texels);
+    const std::vector<float> values = channel_values(image.layout(), layout.columns[row], texels);
     material.samples.row(static_cast<Eigen::Index>(row)) =
         Eigen::Map<const Eigen::RowVectorXf>(values.data(), static_cast<Eigen::Index>(values.size()));
   }
@@ -144,8 +132,7 @@ void read_brdf_list(TabulatedSet& set) {
     if (!line.empty()) columns.push_back(read_merl(set.table.parent_path() / line));
   }
   if (columns.empty())
-    throw Error(ErrorKind::kInput,
-                set.table.string() + ": contains no file name (write one BRDF file per line)");
+    throw input_error(set.table.string() + ": contains no file name (write one BRDF file per line)");
   set.material.samples.resize(static_cast<Eigen::Index>(columns.front().size()),
                               static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i)
@@ -170,17 +157,17 @@ void read_index_map(const fs::path& folder, TabulatedSet& set) {
   const auto name = std::find_if(kIndexMaps.begin(), kIndexMaps.end(),
                                  [&](const char* file) { return fs::is_regular_file(folder / file); });
   if (name == kIndexMaps.end())
-    throw Error(ErrorKind::kInput, folder.string() + ": " + set.table.filename().string() +
-                                       " requires a map of its entries (add index.exr, .png or .tif)");
+    throw input_error(folder.string() + ": " + set.table.filename().string() +
+                      " requires a map of its entries (add index.exr, .png or .tif)");
   remap::ImageReader image(folder / *name);
   const remap::ImageLayout& layout = image.layout();
   if (layout.channels.size() != 1)
-    throw Error(ErrorKind::kInput, image.path().string() + ": has " + std::to_string(layout.channels.size()) +
-                                       " channels, but an index map must have one");
+    throw input_error(image.path().string() + ": has " + std::to_string(layout.channels.size()) +
+                      " channels, but an index map must have one");
   set_size(set, layout);
   const auto entries = static_cast<double>(set.material.samples.cols());
   const double largest = largest_of(layout.channels[0].type);
-  for (const float value : channel_values(image, 0, texels_of(image))) {
+  for (const float value : channel_values(layout, 0, texels_of(image))) {
     const double entry = std::round(static_cast<double>(value) * largest);
     const bool is_entry = entry >= 0.0 && entry < entries;  // also false for NaN
     set.material.entries.push_back(is_entry ? static_cast<std::uint32_t>(entry) : kNoEntry);
@@ -194,8 +181,7 @@ bool is_tabulated_folder(const fs::path& folder) { return table_in(folder).has_v
 TabulatedSet read_tabulated_set(const fs::path& folder) {
   const auto table = table_in(folder);
   if (!table)
-    throw Error(ErrorKind::kInput,
-                folder.string() + ": contains no table (profiles.exr, profiles.csv or brdfs.txt)");
+    throw input_error(folder.string() + ": contains no table (profiles.exr, profiles.csv or brdfs.txt)");
   TabulatedSet set;
   set.table = *table;
   set.material.name = folder.string();

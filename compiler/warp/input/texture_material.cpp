@@ -2,8 +2,8 @@
 
 #include "discovery/discovery.hpp"
 #include "remap/convert_maps.hpp"
-#include "remap/error.hpp"
 #include "remap/workflow_converter.hpp"
+#include "text/errors.hpp"
 #include "texture/texture_set.hpp"
 #include "warp/input/image_texels.hpp"
 
@@ -11,8 +11,6 @@ namespace remapc {
 namespace {
 
 namespace fs = std::filesystem;
-using remap::Error;
-using remap::ErrorKind;
 using remap::Parameter;
 using remap::Role;
 
@@ -36,12 +34,12 @@ remap::FoundSet only_set(const fs::path& folder, AlbedoAlone albedo) {
     return set.state == remap::SetState::kSkipped && (albedo == AlbedoAlone::kRefuse || !is_albedo(set));
   });
   if (found.sets.size() != 1)
-    throw Error(ErrorKind::kInput, folder.string() + ": found " + std::to_string(found.sets.size()) +
-                                       " texture sets by their names, but one is required (name its maps "
-                                       "diffuse, specular and roughness)");
+    throw input_error(folder.string() + ": found " + std::to_string(found.sets.size()) +
+                      " texture sets by their names, but one is required (name its maps "
+                      "diffuse, specular and roughness)");
   if (found.sets[0].state == remap::SetState::kFaulty)
-    throw Error(ErrorKind::kInput, found.sets[0].remarks.empty() ? folder.string() + ": is ambiguous"
-                                                                 : found.sets[0].remarks[0]);
+    throw input_error(found.sets[0].remarks.empty() ? folder.string() + ": is ambiguous"
+                                                    : found.sets[0].remarks[0]);
   return found.sets[0];
 }
 
@@ -80,17 +78,17 @@ MaterialRequest request_of(const fs::path& folder, AlbedoAlone albedo) {
     return result;
   }
   if (!add(Parameter::kWidth, remap::tells_width))
-    throw Error(ErrorKind::kInput, folder.string() + ": contains no roughness map");
+    throw input_error(folder.string() + ": contains no roughness map");
   if (add(Parameter::kSpecular, is_specular)) {
     if (add(Parameter::kDiffuse, is_diffuse) || add(Parameter::kDiffuse, is_base_color)) return result;
-    throw Error(ErrorKind::kInput, folder.string() + ": contains a specular map but no diffuse map");
+    throw input_error(folder.string() + ": contains a specular map but no diffuse map");
   }
   result.from_metallic =
       add(Parameter::kMetallic, is_metallic) &&
       (add(Parameter::kBaseColor, is_base_color) || add(Parameter::kBaseColor, is_diffuse));
   if (!result.from_metallic)
-    throw Error(ErrorKind::kInput,
-                folder.string() + ": requires diffuse and specular maps, or base color and metallic maps");
+    throw input_error(folder.string() +
+                      ": requires diffuse and specular maps, or base color and metallic maps");
   return result;
 }
 

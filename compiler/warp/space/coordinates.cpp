@@ -7,14 +7,10 @@
 
 #include <Eigen/Dense>
 
-#include "remap/error.hpp"
-#include "warp/space/sampled_features.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 constexpr std::size_t kSampledTexels = 16384;
 constexpr std::size_t kStressPairs = 4096;
@@ -43,15 +39,20 @@ std::array<double, 3> stress_of(const Eigen::MatrixXd& columns, const Eigen::Mat
   return error;
 }
 
+remap::AppearanceCoordinates coordinates_without_terms(int dimension) {
+  remap::AppearanceCoordinates coordinates;
+  coordinates.dimension = static_cast<std::size_t>(dimension);
+  coordinates.least_alpha = static_cast<float>(kLeastWidth);
+  coordinates.largest_alpha = static_cast<float>(kLargestWidth);
+  return coordinates;
+}
+
 // Ridge regression over the 36 terms of texels.
 Placement fitted(const WarpMaterial& material, const AppearanceFeatures& features,
                  const AppearanceSpace& space, int dimension) {
   const std::vector<std::uint32_t> texels = sample_texels(material, kSlowTexels);
   const Points goal = projected(space, feature_columns(features, material, texels), dimension);
-  remap::AppearanceCoordinates result;
-  result.dimension = static_cast<std::size_t>(dimension);
-  result.least_alpha = static_cast<float>(kLeastWidth);
-  result.largest_alpha = static_cast<float>(kLargestWidth);
+  remap::AppearanceCoordinates result = coordinates_without_terms(dimension);
   constexpr auto kTerms = static_cast<Eigen::Index>(remap::kQuadraticTerms);
   Eigen::MatrixXd design(goal.rows(), kTerms);
   for (Eigen::Index i = 0; i < design.rows(); ++i) {
@@ -65,10 +66,7 @@ Placement fitted(const WarpMaterial& material, const AppearanceFeatures& feature
   for (Eigen::Index k = 0; k < dimension; ++k)
     for (Eigen::Index t = 0; t < kTerms; ++t) terms.weights.push_back(static_cast<float>(weights(t, k)));
   result.terms = std::move(terms);
-  Placement placement;
-  placement.fit_error = std::sqrt((design * weights - goal).rowwise().squaredNorm().mean());
-  placement.coordinates = std::move(result);
-  return placement;
+  return {std::move(result), std::sqrt((design * weights - goal).rowwise().squaredNorm().mean())};
 }
 
 }  // namespace
@@ -84,10 +82,8 @@ AppearanceSpace appearance_space(const MaterialRef& material, const AppearanceFe
   const Eigen::MatrixXd covariance = columns * columns.transpose() / count;
   space.radius = std::sqrt(covariance.trace());
   if (!(space.radius > kLeastRadius * space.mean.norm()))
-    throw Error(ErrorKind::kInput,
-                material.name() +
-                    ": all texels look the same (a warp needs a material with at least two "
-                    "appearances)");
+    throw input_error(material.name() +
+                      ": all texels look the same (a warp needs a material with at least two appearances)");
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
   // With fewer than three features, the other axes are 0.
   const Eigen::Index found = std::min<Eigen::Index>(3, columns.rows());
@@ -109,10 +105,7 @@ int dimension_of(const AppearanceSpace& space) {
 
 remap::AppearanceCoordinates closed_form(const AppearanceSpace& space, const SeparableFeatures& features,
                                          int dimension) {
-  remap::AppearanceCoordinates result;
-  result.dimension = static_cast<std::size_t>(dimension);
-  result.least_alpha = static_cast<float>(kLeastWidth);
-  result.largest_alpha = static_cast<float>(kLargestWidth);
+  remap::AppearanceCoordinates result = coordinates_without_terms(dimension);
   remap::SeparableTerms terms;
   terms.specular.resize(kWidthNodes * result.dimension * 3);
   terms.offset.resize(kWidthNodes * result.dimension);
@@ -152,11 +145,8 @@ Points positions_of(const remap::AppearanceCoordinates& coordinates,
 
 Placement placement_of(const MaterialRef& material, const AppearanceFeatures& features,
                        const AppearanceSpace& space, int dimension) {
-  Placement placement;
-  if (const auto* separable = std::get_if<SeparableFeatures>(&features)) {
-    placement.coordinates = closed_form(space, *separable, dimension);
-    return placement;
-  }
+  if (const auto* separable = std::get_if<SeparableFeatures>(&features))
+    return {closed_form(space, *separable, dimension)};
   if (material.parametric() != nullptr) return fitted(*material.parametric(), features, space, dimension);
   const auto& sampled = std::get<SampledFeatures>(features);
   const Eigen::Index entries = material.tabulated()->samples.cols();
@@ -164,8 +154,7 @@ Placement placement_of(const MaterialRef& material, const AppearanceFeatures& fe
   for (Eigen::Index entry = 0; entry < entries; ++entry)
     columns.col(entry) = features_of_samples(
         sampled, samples_of(sampled, *material.tabulated(), static_cast<std::uint32_t>(entry)));
-  placement.coordinates = projected(space, columns, dimension);
-  return placement;
+  return {projected(space, columns, dimension)};
 }
 
 Points positions_of(const Placement& placement, const MaterialRef& material,

@@ -6,18 +6,10 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "remap/error.hpp"
-#include "remap/named_values.hpp"
-#include "warp/space/sampled_features.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
-
-constexpr remap::NamedValues<AppearanceDistance, 4> kDistances = {
-    {{AppearanceDistance::kRelative, "relative"},
-     {AppearanceDistance::kPlain, "plain"},
-     {AppearanceDistance::kCubeRoot, "cube-root"},
-     {AppearanceDistance::kLog, "log"}}};
 
 constexpr double kReferenceFloor =
     0.03;  // reflectance per steradian below which differences are not amplified
@@ -98,11 +90,6 @@ Eigen::VectorXd features_by(const SampledFeatures& features, const remap::WarpTe
 
 }  // namespace
 
-std::optional<AppearanceDistance> distance_from_name(std::string_view name) {
-  return remap::value_named(kDistances, name);
-}
-std::vector<std::string> distance_names() { return remap::names_of(kDistances); }
-
 Eigen::VectorXd direction_weights(const MaterialRef& source, const MaterialRef& target,
                                   AppearanceDistance distance) {
   const std::vector<QuadratureDirection> directions = half_vector_quadrature();
@@ -115,10 +102,8 @@ FeaturePair appearance_features(const MaterialRef& source, const MaterialRef& ta
   if (is_quadratic(distance) && source.is_separable() && target.is_separable())
     return separable_features(*source.parametric(), *target.parametric(), distance);
   if (source.is_profiles() != target.is_profiles())
-    throw remap::Error(
-        remap::ErrorKind::kInput,
-        source.name() + " and " + target.name() +
-            ": one contains scattering profiles and the other reflectance (both must be the same)");
+    throw input_error(source.name() + " and " + target.name() +
+                      ": one contains scattering profiles and the other reflectance (both must be the same)");
   const Eigen::VectorXd weights =
       source.is_profiles() ? Eigen::VectorXd() : direction_weights(source, target, distance);
   return sampled_features(source, target, distance, weights);
@@ -131,11 +116,9 @@ Eigen::VectorXd features_of(const AppearanceFeatures& features, const remap::War
 Eigen::MatrixXd feature_columns(const AppearanceFeatures& features, const MaterialRef& material,
                                 const std::vector<std::uint32_t>& texels) {
   const auto of = [&](std::uint32_t texel) -> Eigen::VectorXd {
-    if (material.parametric() != nullptr)
-      return features_of(features, held(material.parametric()->texels[texel]));
-    const auto& sampled = std::get<SampledFeatures>(features);
-    return features_of_samples(
-        sampled, samples_of(sampled, *material.tabulated(), material.tabulated()->entries[texel]));
+    if (const auto* sampled = std::get_if<SampledFeatures>(&features))
+      return features_of_samples(*sampled, samples_of(*sampled, material, texel));
+    return features_of(features, held(material.parametric()->texels[texel]));
   };
   Eigen::MatrixXd columns;
   for (std::size_t i = 0; i < texels.size(); ++i) {

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "remap/error.hpp"
+#include "text/errors.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 void require_strokes(const MaterialRef& material, const std::vector<StrokePair>& strokes,
                      std::vector<std::uint32_t> StrokePair::*side) {
@@ -18,18 +15,17 @@ void require_strokes(const MaterialRef& material, const std::vector<StrokePair>&
     bool has_finite = false;
     for (const std::uint32_t texel : strokes[k].*side) {
       if (texel >= material.texel_count())
-        throw Error(ErrorKind::kInput, place + ": texel " + std::to_string(texel) + " is out of range (" +
-                                           std::to_string(material.texel_count()) + " texels)");
+        throw input_error(place + ": texel " + std::to_string(texel) + " is out of range (" +
+                          std::to_string(material.texel_count()) + " texels)");
       has_finite = has_finite || material.takes_part(texel);
     }
-    if (!has_finite) throw Error(ErrorKind::kInput, place + ": the stroke marks no texel with finite values");
+    if (!has_finite) throw input_error(place + ": the stroke marks no texel with finite values");
   }
   for (std::size_t k = 0; k < strokes.size(); ++k) {
     const Overlap overlap = largest_overlap(strokes, side, k, material.texel_count());
     if (overlap.share == 1.0)
-      throw Error(ErrorKind::kInput, material.name() + ", " + stroke_name(strokes, k) + ": lies within " +
-                                         stroke_name(strokes, overlap.other) +
-                                         " (erase one of the two there)");
+      throw input_error(material.name() + ", " + stroke_name(strokes, k) + ": lies within " +
+                        stroke_name(strokes, overlap.other) + " (erase one of the two there)");
   }
 }
 
@@ -96,12 +92,11 @@ void require_valid(const MaterialRef& source, const MaterialRef& target,
   for (const MaterialRef* material : {&source, &target}) {
     const TabulatedMaterial* table = material->tabulated();
     if (table != nullptr && !(table->samples.array() >= 0.0f && table->samples.array().isFinite()).all())
-      throw Error(ErrorKind::kInput, material->name() + ": contains samples that are negative or not finite");
+      throw input_error(material->name() + ": contains samples that are negative or not finite");
     if (sample_texels(*material, 1).empty())
-      throw Error(ErrorKind::kInput, material->name() + ": contains no texel with finite values");
+      throw input_error(material->name() + ": contains no texel with finite values");
   }
-  if (strokes.empty())
-    throw Error(ErrorKind::kUsage, source.name() + ": at least one pair of strokes is required");
+  if (strokes.empty()) throw usage_error(source.name() + ": at least one pair of strokes is required");
   require_strokes(source, strokes, &StrokePair::source);
   require_strokes(target, strokes, &StrokePair::target);
 }

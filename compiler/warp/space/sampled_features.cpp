@@ -1,19 +1,16 @@
-#include "warp/space/sampled_features.hpp"
-
+// Features by samples, for every model, table and distance without a closed form.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <Eigen/Eigenvalues>
 
-#include "remap/error.hpp"
 #include "renderer/fresnel.hpp"
+#include "text/errors.hpp"
+#include "warp/space/features.hpp"
 
 namespace remapc {
 namespace {
-
-using remap::Error;
-using remap::ErrorKind;
 
 constexpr std::size_t kBasisTexels = 256;  // of each material
 constexpr double kLeastShare = 1e-9;       // relative to the largest eigenvalue; weaker directions are noise
@@ -60,9 +57,9 @@ SampledFeatures frame_of(const MaterialRef& source, const MaterialRef& target, A
   frame.weights = weights;
   if (!source.is_profiles()) return frame;
   if (distance == AppearanceDistance::kRelative)
-    throw Error(ErrorKind::kUsage,
-                "distance: 'relative' is not defined for scattering profiles (choose plain, as An et al. "
-                "2011, section 4, cube-root or log)");
+    throw usage_error(
+        "distance: 'relative' is not defined for scattering profiles (choose plain, as An et al. 2011, "
+        "section 4, cube-root or log)");
   frame.radii = merged_radii(*source.tabulated(), *target.tabulated());
   frame.weights = radial_measure(frame.radii).cwiseSqrt();
   return frame;
@@ -80,13 +77,6 @@ Eigen::VectorXd weighted(const SampledFeatures& features, Eigen::VectorXd sample
   for (Eigen::Index i = 0; i < samples.size(); ++i)
     samples[i] = features.weights[i % rows] * compared(features.distance, samples[i]);
   return samples;
-}
-
-Eigen::VectorXd samples_at(const SampledFeatures& features, const MaterialRef& material,
-                           std::uint32_t texel) {
-  if (material.parametric() != nullptr)
-    return samples_of(features, held(material.parametric()->texels[texel]));
-  return samples_of(features, *material.tabulated(), material.tabulated()->entries[texel]);
 }
 
 // The exact Fresnel reflectance of a dielectric with this F0, or of a mirror if F0 is almost 1.
@@ -114,9 +104,9 @@ Eigen::MatrixXd basis_of(const SampledFeatures& source, const MaterialRef& sourc
   Eigen::MatrixXd columns(3 * source.weights.size(), static_cast<Eigen::Index>(from.size() + to.size()));
   Eigen::Index next = 0;
   for (const std::uint32_t texel : from)
-    columns.col(next++) = weighted(source, samples_at(source, source_material, texel));
+    columns.col(next++) = weighted(source, samples_of(source, source_material, texel));
   for (const std::uint32_t texel : to)
-    columns.col(next++) = weighted(target, samples_at(target, target_material, texel));
+    columns.col(next++) = weighted(target, samples_of(target, target_material, texel));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(columns.transpose() * columns);
   const Eigen::VectorXd& values = solver.eigenvalues();  // in increasing order
   const double least = kLeastShare * values[values.size() - 1];
@@ -159,6 +149,13 @@ Eigen::VectorXd samples_of(const SampledFeatures& features, const TabulatedMater
   return samples;
 }
 
+Eigen::VectorXd samples_of(const SampledFeatures& features, const MaterialRef& material,
+                           std::uint32_t texel) {
+  if (material.parametric() != nullptr)
+    return samples_of(features, held(material.parametric()->texels[texel]));
+  return samples_of(features, *material.tabulated(), material.tabulated()->entries[texel]);
+}
+
 Eigen::VectorXd mean_of_samples(const MaterialRef& material) {
   SampledFeatures features;
   const auto rows = static_cast<Eigen::Index>(half_vector_quadrature().size());
@@ -167,7 +164,7 @@ Eigen::VectorXd mean_of_samples(const MaterialRef& material) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows);
   const std::vector<std::uint32_t> texels = sample_texels(material, kReferenceTexels);
   for (const std::uint32_t texel : texels) {
-    const Eigen::VectorXd samples = samples_at(features, material, texel);
+    const Eigen::VectorXd samples = samples_of(features, material, texel);
     for (Eigen::Index c = 0; c < 3; ++c) sum += samples.segment(c * rows, rows);
   }
   return sum / (3.0 * static_cast<double>(texels.size()));
@@ -187,10 +184,7 @@ FeaturePair sampled_features(const MaterialRef& source, const MaterialRef& targe
   };
   SampledFeatures from = with_lobes(source), to = with_lobes(target);
   from.basis = to.basis = basis_of(from, source, to, target);
-  FeaturePair pair;
-  pair.source = std::move(from);
-  pair.target = std::move(to);
-  return pair;
+  return {std::move(from), std::move(to)};
 }
 
 }  // namespace remapc

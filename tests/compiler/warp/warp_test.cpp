@@ -13,7 +13,6 @@
 #include "remap/fit_file.hpp"
 #include "study/warp_sets.hpp"
 #include "support/random_warp.hpp"
-#include "warp/copy_error.hpp"
 #include "warp/paper_warp.hpp"
 #include "warp/simplex_search.hpp"
 #include "warp/space/quadrature.hpp"

@@ -10,7 +10,7 @@
 #include "study/warp_sets.hpp"
 #include "support/campaign.hpp"
 #include "warp/space/quadrature.hpp"
-#include "warp/space/sampled_features.hpp"
+#include "warp/space/features.hpp"
 #include "warp/warp.hpp"
 
 namespace {

@@ -1,0 +1,155 @@
+#include "commands/measurement.hpp"
+
+#include <cmath>
+#include <iostream>
+
+#include "command_line/interruption.hpp"
+#include "commands/parameter_setting.hpp"
+#include "system/files.hpp"
+#include "text/errors.hpp"
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+std::string one_decimal(double value) { return remap::number_text(std::round(10.0 * value) / 10.0); }
+
+// `, 12 pictures rendered and 30 from the cache`; empty if no worker was used.
+std::string pictures_text(const PictureCount& pictures) {
+  if (pictures.rendered + pictures.cached == 0) return "";
+  return ", " + std::to_string(pictures.rendered) + " pictures rendered and " +
+         std::to_string(pictures.cached) + " from the cache";
+}
+
+}  // namespace
+
+void RoleOptions::add_options(remap::Command& app, const std::string& side) {
+  const std::string prefix = "--" + side;
+  app.add_option(prefix + "-roughness NAME[:CONVENTION]", roughness,
+                 "Parameter of the " + side + " that is its roughness (default: as the model declares it)");
+  app.add_option(prefix + "-specular NAME", specular, "Parameter that is its specular");
+  app.add_option(prefix + "-diffuse NAME", diffuse, "Parameter that is its diffuse");
+  app.add_option(prefix + "-set NAME=VALUE", settings, "Fixed value of another parameter; may be repeated")
+      ->allow_extra_args(false);
+}
+
+ParameterRoles RoleOptions::roles(const std::string& side) const {
+  ParameterRoles roles;
+  if (!roughness.empty()) cast_roughness(roughness, &roles);
+  roles.specular = specular;
+  roles.diffuse = diffuse;
+  for (const std::string& text : settings) {
+    const std::string option = "--" + side + "-set";
+    const ParameterSetting setting = parse_setting(option, text);
+    if (setting.values.size() != 1)
+      throw usage_error(option + " " + text + ": " + std::to_string(setting.values.size()) +
+                        " values given (give one: sweeps are grey)");
+    roles.fixed[setting.name] = setting.values[0];
+  }
+  return roles;
+}
+
+void MeasurementOptions::add_table_options(remap::Command& app, const std::string& table) {
+  app.option_group("Models");
+  app.add_option("--source MODEL", pair.source, "Model to convert from")->required();
+  app.add_option("--target MODEL", pair.target, "Model to convert to")->required();
+  app.option_group("Output");
+  app.add_option("-o,--output FILE", output, table)->required();
+  app.add_flag("--force", force, "Overwrite the table");
+  app.add_flag("--json", json, "Print a summary as JSON to standard output");
+  app.add_flag("--quiet", quiet, "Print no progress and no summary");
+}
+
+void MeasurementOptions::add_picture_options(remap::Command& app) {
+  app.option_group("Pictures and how they are compared");
+  app.add_option("--objective NAME", objective,
+                 "natural: light at 60 degrees, relative weights; paper: headlight, uniform weights");
+  app.add_option("--light LIGHTS", lights,
+                 "Lights, comma-separated: headlight, or degrees from the camera (overrides --objective)");
+  app.add_option("--weighting NAME", weighting, "uniform or relative (overrides --objective)");
+  app.add_option("--resolution", pair.resolution, "Width and height in pixels");
+  app.add_option("--pixel-samples", pair.samples_per_axis, "N x N samples per pixel; 1: the pixel center");
+  app.option_group(remap::kRareOptions);
+  app.add_option("--distance", distance, "Distance of the lights, in sphere radii");
+  app.add_flag("--no-irradiance-matching", keep_irradiance,
+               "Do not correct for a constant factor between the lights of two renderers");
+  app.option_group("Rare: parameters of models (remapc list --models, remapc renderers)");
+  source_roles.add_options(app, "source");
+  target_roles.add_options(app, "target");
+}
+
+void MeasurementOptions::add_execution_options(remap::Command& app) {
+  app.option_group(remap::kRareOptions);
+  app.add_option("--jobs", jobs, "Threads, 0: one per core; the table does not depend on it");
+  add_renderer_options(app, renderers);
+}
+
+PairOptions MeasurementOptions::chosen_pair() const {
+  PairOptions chosen = pair;
+  chosen.source_roles = source_roles.roles("source");
+  chosen.target_roles = target_roles.roles("target");
+  const Objective preset = objective_preset(objective);
+  chosen.objective = preset;
+  if (!lights.empty()) chosen.objective.lights = parse_lights(lights, distance);
+  for (Light& light : chosen.objective.lights) light.distance = distance;
+  if (!weighting.empty()) chosen.objective.weighting = weighting_from_name(weighting);
+  const bool is_preset =
+      chosen.objective.lights == preset.lights && chosen.objective.weighting == preset.weighting;
+  chosen.objective_name = is_preset ? objective : "custom";
+  chosen.match_irradiance = !keep_irradiance;
+  return chosen;
+}
+
+Measurement::Measurement(const MeasurementOptions& options) : options_(options) {
+  remap::watch_interruptions();
+  renderer_ = make_renderers(options.renderers);
+}
+
+SweepExecution Measurement::start(const std::string& label, std::size_t rows) {
+  if (!options_.force && std::filesystem::exists(options_.output))
+    throw output_error(options_.output.string() + ": already exists (--force overwrites)");
+  remap::create_parent(options_.output);
+  const std::string models = label + " " + options_.pair.source + " -> " + options_.pair.target;
+  progress_.emplace(models, rows, !options_.quiet);
+  renderer_->watch(
+      [this, models](const PictureCount& pictures) { progress_->relabel(models + pictures_text(pictures)); });
+  return {options_.jobs, [this](std::size_t done, std::size_t) { progress_->advance_to(done); },
+          &remap::interruption()};
+}
+
+void Measurement::write(const std::string& table) {
+  renderer_->watch(nullptr);
+  progress_.reset();
+  remap::write_file(options_.output, table);
+  for (const std::string& remark : renderer_->remarks()) std::cerr << "remapc: " << remark << "\n";
+}
+
+void Measurement::report(const std::map<std::string, std::size_t>& statuses, double rms_error,
+                         const nlohmann::ordered_json& fields) const {
+  const std::string table = options_.output.string();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const PictureCount pictures = renderer_->pictures();
+  std::size_t rows = 0;
+  std::string counts;
+  for (const auto& [status, count] : statuses) {
+    rows += count;
+    counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + status;
+  }
+  if (options_.json) {
+    nlohmann::ordered_json json = {{"table", table}};
+    if (fields.is_object()) json.update(fields);
+    json.update({{"rows", rows},
+                 {"status", statuses},
+                 {"rms_image_error", rms_error},
+                 {"pictures_rendered", pictures.rendered},
+                 {"pictures_cached", pictures.cached},
+                 {"seconds", seconds}});
+    std::cout << json.dump(2) << "\n";
+  } else if (!options_.quiet) {
+    std::cerr << table << ": " << rows << " rows (" << counts << "), image error "
+              << one_decimal(100.0 * rms_error) << " % rms" << pictures_text(pictures) << ", "
+              << one_decimal(seconds) << " s\n";
+  }
+}
+
+}  // namespace remapc

@@ -1,0 +1,85 @@
+// What `remapc sweep` and `remapc sample` share: two models, their pictures, and the table that is written.
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "command_line/progress.hpp"
+#include "commands/renderer_options.hpp"
+#include "sweep/sweep_options.hpp"
+#include "table/table.hpp"
+
+namespace remapc {
+
+// The options that choose which parameters of a model are roughness, specular and diffuse.
+struct RoleOptions {
+  std::string roughness, specular, diffuse;
+  std::vector<std::string> settings;
+
+  void add_options(remap::Command& app, const std::string& side);
+  // `side`: `source` or `target`. Throws kUsage for a setting that cannot be read or has more than one value.
+  ParameterRoles roles(const std::string& side) const;
+};
+
+struct MeasurementOptions {
+  PairOptions pair;  // its roles and its objective are those of the fields below
+  RoleOptions source_roles, target_roles;
+  std::string objective = "natural";
+  std::string lights, weighting;  // empty: as the objective has them
+  double distance = 3.0;
+  bool keep_irradiance = false;
+  std::filesystem::path output;
+  bool force = false, json = false, quiet = false;
+  unsigned jobs = 0;
+  RendererOptions renderers;
+
+  // Add options to `app`: the models and the table; how pictures are made and compared; threads and
+  // renderers.
+  void add_table_options(remap::Command& app, const std::string& table);
+  void add_picture_options(remap::Command& app);
+  void add_execution_options(remap::Command& app);
+  // Throws kUsage for an unknown objective, weighting or light, and for roles that cannot be read.
+  PairOptions chosen_pair() const;
+};
+
+// One run of a command: its clock, its renderers and its progress.
+class Measurement {
+ public:
+  // `options` must outlive it.
+  explicit Measurement(const MeasurementOptions& options);
+
+  const RendererSet& renderer() const { return *renderer_; }
+  // Throws kOutput if the table exists or its folder cannot be made. Shows the progress of `rows` rows until
+  // write(), under `label`.
+  SweepExecution start(const std::string& label, std::size_t rows);
+  // Writes the table and prints the remarks of the renderers.
+  void write(const std::string& table);
+  // Prints the summary of the rows as a line, or as JSON after the table's name and the fields of `json`.
+  template <typename Row>
+  void report(const std::vector<Row>& rows, const nlohmann::ordered_json& json = nullptr) const {
+    std::map<std::string, std::size_t> statuses;
+    double square = 0.0;
+    for (const Row& row : rows) {
+      ++statuses[std::string(status_name(row.status))];
+      square += row.error * row.error;
+    }
+    report(statuses, std::sqrt(square / static_cast<double>(rows.size())), json);
+  }
+
+ private:
+  void report(const std::map<std::string, std::size_t>& statuses, double rms_error,
+              const nlohmann::ordered_json& fields) const;
+
+  const MeasurementOptions& options_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::optional<remap::Progress> progress_;  // of rows; its label also counts the pictures of workers
+  std::unique_ptr<RendererSet> renderer_;
+};
+
+}  // namespace remapc
