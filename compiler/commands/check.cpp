@@ -8,7 +8,6 @@
 
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
-#include "table/material_check.hpp"
 #include "text/errors.hpp"
 
 namespace remapc {

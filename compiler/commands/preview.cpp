@@ -12,7 +12,6 @@
 #include "commands/renderer_options.hpp"
 #include "manifest/fit_folder.hpp"
 #include "renderer/image_file.hpp"
-#include "report/lit_preview.hpp"
 #include "text/errors.hpp"
 #include "text/number_text.hpp"
 

@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "fit_file/fit_fields.hpp"
-#include "fit_file/workflow_fields.hpp"
 #include "remap/version.hpp"
 #include "system/files.hpp"
 #include "text/errors.hpp"

@@ -7,7 +7,7 @@
 #include "fit/rows/split.hpp"
 #include "model/evaluate.hpp"
 #include "remap/version.hpp"
-#include "table/table_record.hpp"
+#include "table/table.hpp"
 #include "text/errors.hpp"
 #include "text/number_text.hpp"
 
