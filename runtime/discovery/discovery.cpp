@@ -57,14 +57,13 @@ void choose_stems(std::vector<NamedMap>& maps) {
 
 FoundMap found_map(const fs::path& folder, const NamedMap& map) {
   const fs::path path = folder / map.files.name;
-  FoundMap found{path, map.files.pattern, {}, map.reading().habit, map.reading().meaning};
+  FoundMap found{path, map.files.pattern, {}, map.reading().habit, map.reading().meaning, false};
   for (const int number : map.files.numbers)
     found.tiles.push_back({number, folder / tile_name(*map.files.pattern, number)});
+  found.is_converted = std::any_of(
+      found.meaning.begin(), found.meaning.end(),
+      [](const ChannelMeaning& entry) { return tells_width(entry.role) || entry.role == Role::kSpecular; });
   return found;
-}
-
-bool takes_part(const ChannelMeaning& entry) {
-  return tells_width(entry.role) || entry.role == Role::kSpecular;
 }
 
 std::string place_of(const FoundSet& set) { return shown(set.folder / set.name); }
@@ -111,11 +110,11 @@ void add_sets(const ImageFolder& folder, const std::string& folder_name, const N
     FoundSet& set = sets[map.stem()];
     set.name = map.stem().empty() ? folder_name : map.stem();
     set.folder = folder.path;
-    FoundMap found = found_map(folder.path, map);
-    const bool part = std::any_of(found.meaning.begin(), found.meaning.end(), takes_part);
-    (part ? set.maps : set.bystanders).push_back(std::move(found));
+    set.maps.push_back(found_map(folder.path, map));
   }
   for (auto& [stem, set] : sets) {
+    std::stable_partition(set.maps.begin(), set.maps.end(),
+                          [](const FoundMap& map) { return map.is_converted; });
     judge(set);
     discovery.sets.push_back(std::move(set));
   }
@@ -133,14 +132,10 @@ std::string last_name(const fs::path& path) {
 
 std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role)) {
   std::vector<MapUse> found;
-  for (std::size_t i = 0; i < set.maps.size() + set.bystanders.size(); ++i)
-    for (const ChannelMeaning& entry : map_of(set, {i}).meaning)
+  for (std::size_t i = 0; i < set.maps.size(); ++i)
+    for (const ChannelMeaning& entry : set.maps[i].meaning)
       if (wanted(entry.role)) found.push_back({i, entry.channels, entry.role});
   return found;
-}
-
-const FoundMap& map_of(const FoundSet& set, const MapUse& use) {
-  return use.map < set.maps.size() ? set.maps[use.map] : set.bystanders[use.map - set.maps.size()];
 }
 
 std::vector<std::string> channel_names(Channels channels) {
@@ -158,7 +153,7 @@ std::optional<RoughnessConvention> convention_of(Role role) {
 std::string too_many_text(const FoundSet& set, const std::vector<MapUse>& found, const std::string& what) {
   std::string text;
   for (const MapUse& use : found) {
-    text += (text.empty() ? "" : ", ") + shown(map_of(set, use).path.filename()) + " (";
+    text += (text.empty() ? "" : ", ") + shown(set.maps[use.map].path.filename()) + " (";
     text += role_name(use.role);
     if (use.channels != Channels::kWhole) text += " in " + std::string(name_of(kChannels, use.channels));
     text += ")";

@@ -21,11 +21,12 @@ struct FoundMap {
   std::vector<Tile> tiles;             // by number, paths relative to the root; empty for a single file
   std::string habit;
   std::vector<ChannelMeaning> meaning;
+  bool is_converted = false;  // has roughness or specular; a conversion of these alone reads no other maps
 };
 
 // The map and channels that hold a role.
 struct MapUse {
-  std::size_t map = 0;  // index into FoundSet::maps, continued in FoundSet::bystanders
+  std::size_t map = 0;  // index into FoundSet::maps
   Channels channels = Channels::kWhole;
   Role role = Role::kRoughness;
 };
@@ -40,16 +41,14 @@ struct FoundSet {
   std::string name;              // the stem of the files, or the folder's name if they have no stem
   std::filesystem::path folder;  // relative to the root; empty for the root itself
   SetState state = SetState::kReady;
-  std::vector<FoundMap> maps;        // maps to convert, by path
-  std::vector<FoundMap> bystanders;  // recognised maps that are not converted, by path
+  std::vector<FoundMap> maps;        // maps that are converted, then the others, each by path
   std::optional<MapUse> width;       // roughness, glossiness or alpha; set where ready
   std::optional<MapUse> specular;    // none if the set has no specular map
   std::vector<std::string> remarks;  // messages of one line about a skipped or faulty set
 };
 
-// All places in the maps and bystanders of a set with a role that `wanted` accepts.
+// All places in the maps of a set with a role that `wanted` accepts.
 std::vector<MapUse> uses(const FoundSet& set, bool (*wanted)(Role));
-const FoundMap& map_of(const FoundSet& set, const MapUse& use);
 // The channel names that a request uses; empty for the whole image.
 std::vector<std::string> channel_names(Channels channels);
 // The encoding of a map of this role; none for the roughness as the model defines it.

@@ -9,9 +9,15 @@
 namespace remap {
 namespace {
 
+// The float lies in memory, because gcc 12 at -O3 drops the rounding of two numbers that it converts as a
+// vector.
+double rounded_to_float(double value) {
+  const volatile float rounded = static_cast<float>(value);
+  return static_cast<double>(rounded);
+}
+
 Range rounded_to_float(const Range& range) {
-  return {static_cast<double>(static_cast<float>(range.min)),
-          static_cast<double>(static_cast<float>(range.max))};
+  return {rounded_to_float(range.min), rounded_to_float(range.max)};
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ std::optional<fs::path> file_of(const FoundMap& map, int tile) {
 std::vector<int> tiles_of(const FoundSet& set) {
   std::set<int> numbers;
   for (const FoundMap& map : set.maps)
-    for (const Tile& tile : map.tiles) numbers.insert(tile.number);
+    if (map.is_converted)
+      for (const Tile& tile : map.tiles) numbers.insert(tile.number);
   if (numbers.empty()) return {0};
   return {numbers.begin(), numbers.end()};
 }
@@ -68,13 +69,13 @@ std::vector<MapUse> uses_of(const FoundSet& set, Parameter parameter) {
   }
 }
 
-// The set with its diffuse map among the maps to convert, for a warp that converts diffuse alone.
+// The set with its diffuse map as the first, for a warp that converts diffuse alone.
 FoundSet of_diffuse_alone(FoundSet set) {
   const std::vector<MapUse> found = uses_of(set, Parameter::kDiffuse);
-  if (found.empty() || found.front().map < set.maps.size()) return set;
-  const auto map = set.bystanders.begin() + static_cast<std::ptrdiff_t>(found.front().map - set.maps.size());
-  set.maps.push_back(*map);
-  set.bystanders.erase(map);
+  if (found.empty() || set.maps[found.front().map].is_converted) return set;
+  const auto map = set.maps.begin() + static_cast<std::ptrdiff_t>(found.front().map);
+  map->is_converted = true;
+  std::rotate(set.maps.begin(), map, map + 1);
   set.state = SetState::kReady;
   set.remarks.clear();
   return set;
@@ -163,7 +164,7 @@ bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::
   const std::vector<MapUse> found = uses_of(set, parameter);
   if (found.empty()) return true;
   const MapUse& use = found.front();
-  const FoundMap& map = map_of(set, use);
+  const FoundMap& map = set.maps[use.map];
   const std::optional<fs::path> file = file_of(map, tile);
   if (!file) {
     fail(job.name + (number.empty() ? "" : ", tile " + number) + ": no " + std::string(role_name(use.role)) +
@@ -193,47 +194,44 @@ void TreeJobs::add_tile(const FoundSet& set, int tile) {
 
 // Adds the maps that are not converted but have a place in the layout.
 void TreeJobs::carry(const FoundSet& set, int tile, TextureSetRequest& request) const {
-  for (const std::vector<FoundMap>* maps : {&set.maps, &set.bystanders})
-    for (const FoundMap& map : *maps)
-      for (const ChannelMeaning& entry : map.meaning) {
-        const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();
-        if (entry.role != Role::kOcclusion && !carries_metallic) continue;
-        const std::string name(role_name(entry.role));
-        const std::optional<fs::path> file = file_of(map, tile);
-        const bool is_named =
-            std::any_of(request.carried.begin(), request.carried.end(),
-                        [&](const CarriedRequest& carried) { return carried.name == name; });
-        if (file && !is_named)
-          request.carried.push_back(
-              {name, {MapName{root_ / *file, channel_names(entry.channels)}, {}, Transfer::kLinear}});
-      }
+  for (const FoundMap& map : set.maps)
+    for (const ChannelMeaning& entry : map.meaning) {
+      const bool carries_metallic = entry.role == Role::kMetallic && !workflow_.is_material();
+      if (entry.role != Role::kOcclusion && !carries_metallic) continue;
+      const std::string name(role_name(entry.role));
+      const std::optional<fs::path> file = file_of(map, tile);
+      const bool is_named = std::any_of(request.carried.begin(), request.carried.end(),
+                                        [&](const CarriedRequest& carried) { return carried.name == name; });
+      if (file && !is_named)
+        request.carried.push_back(
+            {name, {MapName{root_ / *file, channel_names(entry.channels)}, {}, Transfer::kLinear}});
+    }
 }
 
 // Adds the files that the conversion does not read. A map without tiles goes with the first tile of the set.
 void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) const {
   const std::vector<fs::path*> read = files_of(job);
   const bool is_first = tile == tiles_of(set).front();
-  for (const std::vector<FoundMap>* maps : {&set.maps, &set.bystanders})
-    for (const FoundMap& map : *maps) {
-      const std::optional<fs::path> file = file_of(map, tile);
-      if (!file || (map.tiles.empty() && !is_first)) continue;
-      const fs::path source = root_ / *file;
-      if (std::none_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
-        job.copies.push_back({source, ""});
-    }
+  for (const FoundMap& map : set.maps) {
+    const std::optional<fs::path> file = file_of(map, tile);
+    if (!file || (map.tiles.empty() && !is_first)) continue;
+    const fs::path source = root_ / *file;
+    if (std::none_of(read.begin(), read.end(), [&](const fs::path* known) { return *known == source; }))
+      job.copies.push_back({source, ""});
+  }
 }
 
 // The files that the conversion of a set writes, relative to the output folder, each with one of its source
 // maps. Tiles count as one file.
 std::map<fs::path, fs::path> TreeJobs::outputs(const FoundSet& set) const {
-  const FoundMap& first = set.width ? map_of(set, *set.width) : set.maps.front();
+  const FoundMap& first = set.width ? set.maps[set.width->map] : set.maps.front();
   const ResultNames names = {set.name + "_", tiles_of(set).front() == 0 ? "" : ".<UDIM>"};
   const std::string extension =
       choice_.extension.empty() ? first.path.extension().string() : "." + choice_.extension;
   std::map<fs::path, fs::path> sources;
   for (const Parameter parameter : choice_.parameters) {
     const std::vector<MapUse> found = uses_of(set, parameter);
-    const fs::path& source = (found.empty() ? first : map_of(set, found.front())).path;
+    const fs::path& source = (found.empty() ? first : set.maps[found.front().map]).path;
     fs::path path = set.folder / set_file_name(file_name(parameter, choice_) + extension, names);
     if (choice_.layout == Layout::kAsInputs && !found.empty()) {
       path = source;

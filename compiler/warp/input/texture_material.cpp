@@ -50,7 +50,7 @@ bool add_map(const remap::FoundSet& set, const fs::path& root, Parameter paramet
   if (found.empty()) return false;
   const remap::MapUse& use = found.front();
   request.parameters[parameter].source =
-      remap::MapName{root / map_of(set, use).path, remap::channel_names(use.channels)};
+      remap::MapName{root / set.maps[use.map].path, remap::channel_names(use.channels)};
   if (parameter == Parameter::kWidth)
     request.convention = remap::convention_of(use.role).value_or(remap::RoughnessConvention::kRoughness);
   return true;

@@ -1,4 +1,4 @@
-// What a fit file can hold.
+// The fits that a fit file can hold.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace remap {
 
-// Version of the file format that this program reads and writes.
+// The version of the file format that this program reads and writes.
 inline constexpr int kFitFormatVersion = 3;
 
 using AnyFit = std::variant<Fit, WorkflowFit, WarpMapFit>;

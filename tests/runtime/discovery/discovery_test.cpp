@@ -102,7 +102,7 @@ TEST_CASE("find sets: a set without roughness or glossiness is skipped with the 
     CHECK(set.state == SetState::kSkipped);
     CHECK(set.remarks == std::vector<std::string>{name + ": no roughness or glossiness map found"});
   }
-  CHECK(set_at(found, "rough_wood").bystanders.size() == 2);
+  CHECK(set_at(found, "rough_wood").maps.size() == 2);
 }
 
 TEST_CASE("find sets: an ambiguous name is read like its neighbours") {
@@ -240,5 +240,5 @@ TEST_CASE("find sets: five thousand files in a folder") {
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   std::cout << "5000 files in a folder: sets found in " << taken.count() << " s\n";
   REQUIRE(found.sets.size() == 1000);
-  for (const FoundSet& set : found.sets) REQUIRE((set.width && set.specular && set.bystanders.size() == 3));
+  for (const FoundSet& set : found.sets) REQUIRE((set.width && set.specular && set.maps.size() == 5));
 }

@@ -35,7 +35,7 @@ TEST_CASE("Substance Painter: metal and roughness, packed as for Unreal") {
   CHECK(set.state == SetState::kReady);
   CHECK(use_text(set, set.width) == "roughness in G of Crate_OcclusionRoughnessMetallic.png");
   CHECK(use_text(set, set.specular) == "-");
-  CHECK(set.bystanders.size() == 4);
+  CHECK(set.maps.size() == 5);
   CHECK(reading_text("Crate_OcclusionRoughnessMetallic") ==
         "Substance Painter: R=occlusion G=roughness B=metallic");
 }
@@ -82,7 +82,7 @@ TEST_CASE("Poly Haven: maps with the resolution after the word") {
   CHECK(use_text(set, set.width) == "roughness of rocky_terrain_02_rough_4k.exr");
   CHECK(use_text(set, set.specular) == "specular of rocky_terrain_02_spec_4k.png");
   CHECK(set.maps[0].habit == "Poly Haven");
-  CHECK(set.bystanders.size() == 4);
+  CHECK(set.maps.size() == 6);
   CHECK(reading_text("brick_arm_4k") == "Poly Haven: R=occlusion G=roughness B=metallic");
   CHECK(reading_text("red_brick_03_nor_dx_2k") == "Poly Haven: normal");
 }
@@ -95,7 +95,7 @@ TEST_CASE("ambientCG: resolution and format before the word") {
   const FoundSet& set = only_set(found, "Metal014");
   CHECK(use_text(set, set.width) == "roughness of Metal014_4K-PNG_Roughness.png");
   CHECK(set.maps[0].habit == "ambientCG");
-  CHECK(set.bystanders.size() == 5);
+  CHECK(set.maps.size() == 6);
   CHECK(reading_text("Chainmail004_1K-JPG_AmbientOcclusion") == "ambientCG: occlusion");
   CHECK(reading_text("Metal08_rgh").ends_with(": roughness"));
   CHECK(stem("3DBread005_2K-HQ_Color") == "3DBread005");
@@ -121,7 +121,9 @@ TEST_CASE("glTF: packed maps of its two material models") {
   const FoundSet& robot = set_at(found, "Robot");
   CHECK(use_text(robot, robot.width) == "glossiness in A of Robot_specularGlossiness.png");
   CHECK(use_text(robot, robot.specular) == "specular in RGB of Robot_specularGlossiness.png");
-  CHECK(robot.maps.size() == 1);
+  REQUIRE(robot.maps.size() == 2);
+  CHECK(robot.maps[0].is_converted);
+  CHECK_FALSE(robot.maps[1].is_converted);
   const FoundSet& box = set_at(found, "BoomBox");
   CHECK(use_text(box, box.width) == "roughness in G of BoomBox_occlusionRoughnessMetallic.png");
   CHECK(box.maps[0].habit == "glTF");
