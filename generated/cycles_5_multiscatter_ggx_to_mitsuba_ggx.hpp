@@ -311,7 +311,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.color,
-                                 kDomainMax.color, 1.8181819f};
+                                 kDomainMax.color, 1.8181818f};
   static float alpha_of(float own) noexcept { return own * own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -558,13 +558,13 @@ inline bool self_test() noexcept {
   };
   constexpr std::array<Golden, 13> kGolden = {{
       {{0.1f, 0.55f}, {0.009990826f, 0.54985875f}, {9.7e-06f, 6.5e-05f}},
-      {{0.20815732f, 0.515625f}, {0.043299522f, 0.5157892f}, {9.7e-06f, 6.5e-05f}},
-      {{0.31631464f, 0.48125f}, {0.10009786f, 0.4846687f}, {9.7e-06f, 6.5e-05f}},
+      {{0.20815733f, 0.515625f}, {0.04329953f, 0.5157892f}, {9.7e-06f, 6.5e-05f}},
+      {{0.31631464f, 0.48125002f}, {0.10009786f, 0.48466873f}, {9.7e-06f, 6.5e-05f}},
       {{0.42447197f, 0.446875f}, {0.1803113f, 0.45852458f}, {9.7e-06f, 6.5e-05f}},
-      {{0.5326293f, 0.4125f}, {0.28377125f, 0.4364315f}, {9.8e-06f, 6.5e-05f}},
-      {{0.6407866f, 0.378125f}, {0.4109399f, 0.41638845f}, {9.8e-06f, 6.5e-05f}},
+      {{0.5326293f, 0.41250002f}, {0.28377125f, 0.43643156f}, {9.8e-06f, 6.5e-05f}},
+      {{0.64078665f, 0.378125f}, {0.41093996f, 0.41638845f}, {9.8e-06f, 6.5e-05f}},
       {{0.7489439f, 0.34375f}, {0.5639236f, 0.39765427f}, {9.9e-06f, 6.5e-05f}},
-      {{0.85710126f, 0.309375f}, {0.74670035f, 0.3804973f}, {1e-05f, 6.5e-05f}},
+      {{0.85710126f, 0.30937502f}, {0.74670035f, 0.38049734f}, {1e-05f, 6.5e-05f}},
       {{0.9652586f, 0.275f}, {0.9656433f, 0.36616832f}, {1.1e-05f, 6.5e-05f}},
       {{0.05f, 0.275f}, {0.010020827f, 0.27417707f}, {9.7e-06f, 6.5e-05f}},
       {{1.4478879f, 0.1375f}, {0.9710592f, 0.1654375f}, {1.1e-05f, 6.4e-05f}},

@@ -208,7 +208,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 1.0344827f};
+                                 kDomainMax.specular, 1.0344828f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -456,15 +456,15 @@ inline bool self_test() noexcept {
   constexpr std::array<Golden, 13> kGolden = {{
       {{0.01f, 0.96666664f}, {0.009998658f, 0.966621f}, {9e-06f, 4.8e-05f}},
       {{0.12948276f, 0.90625f}, {0.12947828f, 0.9061167f}, {9e-06f, 4.8e-05f}},
-      {{0.24896552f, 0.84583336f}, {0.2489536f, 0.8456264f}, {9.1e-06f, 4.8e-05f}},
+      {{0.24896552f, 0.8458333f}, {0.2489536f, 0.84562635f}, {9.1e-06f, 4.8e-05f}},
       {{0.3684483f, 0.78541666f}, {0.3684371f, 0.78515244f}, {9.1e-06f, 4.8e-05f}},
-      {{0.48793104f, 0.725f}, {0.48795754f, 0.72469556f}, {9.2e-06f, 4.8e-05f}},
-      {{0.60741377f, 0.6645833f}, {0.6075225f, 0.66425425f}, {9.3e-06f, 4.8e-05f}},
-      {{0.7268965f, 0.6041667f}, {0.72710854f, 0.60382575f}, {9.3e-06f, 4.8e-05f}},
+      {{0.48793104f, 0.72499996f}, {0.48795754f, 0.7246955f}, {9.2e-06f, 4.8e-05f}},
+      {{0.6074138f, 0.6645833f}, {0.60752255f, 0.66425425f}, {9.3e-06f, 4.8e-05f}},
+      {{0.7268966f, 0.6041666f}, {0.7271086f, 0.6038257f}, {9.3e-06f, 4.8e-05f}},
       {{0.84637934f, 0.54375f}, {0.84667516f, 0.5434064f}, {9.4e-06f, 4.7e-05f}},
       {{0.9658621f, 0.48333332f}, {0.96619874f, 0.48299304f}, {9.4e-06f, 4.7e-05f}},
       {{0.005f, 0.48333332f}, {0.009999028f, 0.4825764f}, {9e-06f, 4.7e-05f}},
-      {{1.448793f, 0.24166666f}, {0.96623784f, 0.24116708f}, {9.4e-06f, 4.7e-05f}},
+      {{1.4487932f, 0.24166666f}, {0.96623784f, 0.24116708f}, {9.4e-06f, 4.7e-05f}},
       {{0.48793104f, 0.0f}, {0.48969382f, 0.0f}, {9.2e-06f, 4.7e-05f}},
       {{0.48793104f, 1.9333333f}, {0.48802528f, 1.9332596f}, {9.2e-06f, 9.5e-05f}},
   }};

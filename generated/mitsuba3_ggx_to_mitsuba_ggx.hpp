@@ -253,7 +253,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 1.0344827f};
+                                 kDomainMax.specular, 1.0344828f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -501,15 +501,15 @@ inline bool self_test() noexcept {
   constexpr std::array<Golden, 13> kGolden = {{
       {{0.01f, 0.96666664f}, {0.009998025f, 0.9666247f}, {1.1e-05f, 5.9e-05f}},
       {{0.12948276f, 0.90625f}, {0.12946877f, 0.90611786f}, {1.1e-05f, 5.9e-05f}},
-      {{0.24896552f, 0.84583336f}, {0.24896803f, 0.8456384f}, {1.1e-05f, 5.9e-05f}},
+      {{0.24896552f, 0.8458333f}, {0.24896803f, 0.84563833f}, {1.1e-05f, 5.9e-05f}},
       {{0.3684483f, 0.78541666f}, {0.36851576f, 0.7851832f}, {1.1e-05f, 5.9e-05f}},
-      {{0.48793104f, 0.725f}, {0.4880517f, 0.7247515f}, {1.1e-05f, 5.9e-05f}},
-      {{0.60741377f, 0.6645833f}, {0.60751504f, 0.6643416f}, {1.1e-05f, 5.8e-05f}},
-      {{0.7268965f, 0.6041667f}, {0.72694474f, 0.60395133f}, {1.1e-05f, 5.8e-05f}},
+      {{0.48793104f, 0.72499996f}, {0.4880517f, 0.7247514f}, {1.1e-05f, 5.9e-05f}},
+      {{0.6074138f, 0.6645833f}, {0.6075151f, 0.6643416f}, {1.1e-05f, 5.8e-05f}},
+      {{0.7268966f, 0.6041666f}, {0.7269448f, 0.6039513f}, {1.1e-05f, 5.8e-05f}},
       {{0.84637934f, 0.54375f}, {0.8464854f, 0.54357684f}, {1.1e-05f, 5.8e-05f}},
       {{0.9658621f, 0.48333332f}, {0.96628815f, 0.48321432f}, {1.1e-05f, 5.8e-05f}},
       {{0.005f, 0.48333332f}, {0.009998859f, 0.482574f}, {1.1e-05f, 5.8e-05f}},
-      {{1.448793f, 0.24166666f}, {0.9671353f, 0.24149069f}, {1.1e-05f, 5.8e-05f}},
+      {{1.4487932f, 0.24166666f}, {0.9671353f, 0.24149069f}, {1.1e-05f, 5.8e-05f}},
       {{0.48793104f, 0.0f}, {0.4945714f, 0.0f}, {1.1e-05f, 5.8e-05f}},
       {{0.48793104f, 1.9333333f}, {0.48803148f, 1.933275f}, {1.1e-05f, 0.00012f}},
   }};

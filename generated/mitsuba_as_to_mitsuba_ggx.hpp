@@ -334,7 +334,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.875f};
+                                 kDomainMax.f0, 1.8749999f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -582,12 +582,12 @@ inline bool self_test() noexcept {
   constexpr std::array<Golden, 13> kGolden = {{
       {{0.01f, 0.53333336f}, {0.00822398f, 0.5535201f}, {1.1e-05f, 6.8e-05f}},
       {{0.112413794f, 0.5f}, {0.09254181f, 0.52054846f}, {1.1e-05f, 6.8e-05f}},
-      {{0.21482758f, 0.46666667f}, {0.17634791f, 0.48521462f}, {1.1e-05f, 6.8e-05f}},
-      {{0.31724137f, 0.43333334f}, {0.2668304f, 0.46425173f}, {1.1e-05f, 6.8e-05f}},
-      {{0.41965517f, 0.4f}, {0.3721527f, 0.46147373f}, {1.1e-05f, 6.8e-05f}},
+      {{0.21482758f, 0.4666667f}, {0.17634791f, 0.48521465f}, {1.1e-05f, 6.8e-05f}},
+      {{0.31724137f, 0.43333337f}, {0.2668304f, 0.46425176f}, {1.1e-05f, 6.8e-05f}},
+      {{0.41965517f, 0.40000004f}, {0.3721527f, 0.46147376f}, {1.1e-05f, 6.8e-05f}},
       {{0.522069f, 0.36666667f}, {0.49715632f, 0.47125286f}, {1.1e-05f, 6.8e-05f}},
       {{0.62448275f, 0.33333334f}, {0.64317334f, 0.48746505f}, {1.1e-05f, 6.8e-05f}},
-      {{0.7268965f, 0.3f}, {0.8004782f, 0.49826404f}, {1.1e-05f, 6.8e-05f}},
+      {{0.7268966f, 0.3f}, {0.8004783f, 0.49826407f}, {1.1e-05f, 6.8e-05f}},
       {{0.82931036f, 0.26666668f}, {0.9528028f, 0.48911598f}, {1.1e-05f, 6.8e-05f}},
       {{0.005f, 0.26666668f}, {0.008213422f, 0.27676567f}, {1.1e-05f, 6.7e-05f}},
       {{1.2439655f, 0.13333334f}, {0.95219344f, 0.24469498f}, {1.1e-05f, 6.7e-05f}},

@@ -324,7 +324,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 3.75f};
+                                 kDomainMax.f0, 3.7499998f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -572,15 +572,15 @@ inline bool self_test() noexcept {
   constexpr std::array<Golden, 13> kGolden = {{
       {{0.01f, 0.26666668f}, {0.010010745f, 0.3672687f}, {9.6e-06f, 8.2e-05f}},
       {{0.07827586f, 0.25f}, {0.0790661f, 0.3495485f}, {9.6e-06f, 8.2e-05f}},
-      {{0.14655173f, 0.23333333f}, {0.15185976f, 0.33910143f}, {9.6e-06f, 8.2e-05f}},
-      {{0.21482758f, 0.21666667f}, {0.2321051f, 0.33608976f}, {9.7e-06f, 8.2e-05f}},
-      {{0.28310344f, 0.2f}, {0.32458726f, 0.3417874f}, {9.7e-06f, 8.2e-05f}},
+      {{0.14655171f, 0.23333335f}, {0.15185973f, 0.33910146f}, {9.6e-06f, 8.2e-05f}},
+      {{0.21482758f, 0.21666668f}, {0.2321051f, 0.3360898f}, {9.7e-06f, 8.2e-05f}},
+      {{0.28310344f, 0.20000002f}, {0.32458726f, 0.34178743f}, {9.7e-06f, 8.2e-05f}},
       {{0.3513793f, 0.18333334f}, {0.43440968f, 0.35762304f}, {9.8e-06f, 8.2e-05f}},
       {{0.41965517f, 0.16666667f}, {0.56535494f, 0.3829109f}, {9.8e-06f, 8.2e-05f}},
-      {{0.48793104f, 0.15f}, {0.7199456f, 0.41466457f}, {9.9e-06f, 8.2e-05f}},
+      {{0.487931f, 0.15f}, {0.71994555f, 0.41466454f}, {9.9e-06f, 8.2e-05f}},
       {{0.5562069f, 0.13333334f}, {0.9011143f, 0.44887424f}, {1e-05f, 8.2e-05f}},
       {{0.005f, 0.13333334f}, {0.009996794f, 0.1846503f}, {9.6e-06f, 8.2e-05f}},
-      {{0.83431035f, 0.06666667f}, {0.898812f, 0.22555679f}, {1e-05f, 8.2e-05f}},
+      {{0.8343103f, 0.06666667f}, {0.898812f, 0.22555679f}, {1e-05f, 8.2e-05f}},
       {{0.28310344f, 0.0f}, {0.32314202f, 0.0025199663f}, {9.7e-06f, 8.2e-05f}},
       {{0.28310344f, 0.53333336f}, {0.32461762f, 0.91001123f}, {9.7e-06f, 0.00017f}},
   }};

@@ -210,7 +210,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.0344827f};
+                                 kDomainMax.f0, 1.0344828f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -458,11 +458,11 @@ inline bool self_test() noexcept {
   constexpr std::array<Golden, 13> kGolden = {{
       {{0.01f, 0.96666664f}, {0.009999262f, 0.96671236f}, {6.9e-06f, 4.6e-05f}},
       {{0.13375f, 0.90625f}, {0.13375257f, 0.90638316f}, {6.9e-06f, 4.6e-05f}},
-      {{0.2575f, 0.84583336f}, {0.25751206f, 0.84603906f}, {7e-06f, 4.6e-05f}},
+      {{0.2575f, 0.8458333f}, {0.25751206f, 0.846039f}, {7e-06f, 4.6e-05f}},
       {{0.38125f, 0.78541666f}, {0.38125893f, 0.7856778f}, {7e-06f, 4.6e-05f}},
-      {{0.505f, 0.725f}, {0.50497675f, 0.7252992f}, {7.1e-06f, 4.6e-05f}},
+      {{0.505f, 0.72499996f}, {0.50497675f, 0.7252991f}, {7.1e-06f, 4.6e-05f}},
       {{0.62875f, 0.6645833f}, {0.628654f, 0.66490483f}, {7.2e-06f, 4.6e-05f}},
-      {{0.7525f, 0.6041667f}, {0.75229603f, 0.6044979f}, {7.2e-06f, 4.6e-05f}},
+      {{0.7525f, 0.6041666f}, {0.75229603f, 0.60449785f}, {7.2e-06f, 4.6e-05f}},
       {{0.87625f, 0.54375f}, {0.87594646f, 0.54408175f}, {7.3e-06f, 4.6e-05f}},
       {{1.0f, 0.48333332f}, {0.9997174f, 0.4836598f}, {7.3e-06f, 4.6e-05f}},
       {{0.005f, 0.48333332f}, {0.009999287f, 0.48408982f}, {6.9e-06f, 4.6e-05f}},

@@ -172,7 +172,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.875f};
+                                 kDomainMax.f0, 1.8749999f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
@@ -312,9 +312,9 @@ inline bool self_test() noexcept {
   constexpr std::array<Golden, 13> kGolden = {{
       {{0.01f, 0.53333336f}, {0.008359771f, 0.5535705f}, {8.7e-07f, 3.2e-05f}},
       {{0.12521552f, 0.5f}, {0.10223182f, 0.51782846f}, {9.2e-07f, 3.2e-05f}},
-      {{0.24043104f, 0.46666667f}, {0.19343798f, 0.4769151f}, {9.6e-07f, 3.2e-05f}},
-      {{0.35564655f, 0.43333334f}, {0.28800234f, 0.45106542f}, {1e-06f, 3.2e-05f}},
-      {{0.47086206f, 0.4f}, {0.39283395f, 0.44257432f}, {1.1e-06f, 3.2e-05f}},
+      {{0.24043103f, 0.4666667f}, {0.19343796f, 0.47691512f}, {9.6e-07f, 3.2e-05f}},
+      {{0.35564655f, 0.43333337f}, {0.28800234f, 0.45106545f}, {1e-06f, 3.2e-05f}},
+      {{0.47086206f, 0.40000004f}, {0.39283395f, 0.44257435f}, {1.1e-06f, 3.2e-05f}},
       {{0.5860776f, 0.36666667f}, {0.5127409f, 0.44671834f}, {1.2e-06f, 3.2e-05f}},
       {{0.7012931f, 0.33333334f}, {0.6489797f, 0.45758504f}, {1.2e-06f, 3.2e-05f}},
       {{0.8165086f, 0.3f}, {0.79933906f, 0.469739f}, {1.3e-06f, 3.2e-05f}},

@@ -223,7 +223,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 3.75f};
+                                 kDomainMax.f0, 3.7499998f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -471,9 +471,9 @@ inline bool self_test() noexcept {
   constexpr std::array<Golden, 13> kGolden = {{
       {{0.01f, 0.26666668f}, {0.00999582f, 0.36686414f}, {9.4e-07f, 9.3e-05f}},
       {{0.08681034f, 0.25f}, {0.08770264f, 0.3516051f}, {9.8e-07f, 9.3e-05f}},
-      {{0.1636207f, 0.23333333f}, {0.16933672f, 0.34475097f}, {1.1e-06f, 9.3e-05f}},
-      {{0.24043104f, 0.21666667f}, {0.25897416f, 0.348593f}, {1.1e-06f, 9.3e-05f}},
-      {{0.31724137f, 0.2f}, {0.3602746f, 0.3630216f}, {1.2e-06f, 9.3e-05f}},
+      {{0.16362068f, 0.23333335f}, {0.1693367f, 0.344751f}, {1.1e-06f, 9.3e-05f}},
+      {{0.24043103f, 0.21666668f}, {0.25897416f, 0.34859303f}, {1.1e-06f, 9.3e-05f}},
+      {{0.31724137f, 0.20000002f}, {0.3602746f, 0.36302164f}, {1.2e-06f, 9.3e-05f}},
       {{0.39405173f, 0.18333334f}, {0.47566167f, 0.3856701f}, {1.2e-06f, 9.3e-05f}},
       {{0.47086206f, 0.16666667f}, {0.6066891f, 0.41328958f}, {1.3e-06f, 9.3e-05f}},
       {{0.5476724f, 0.15f}, {0.7555938f, 0.44264895f}, {1.3e-06f, 9.3e-05f}},

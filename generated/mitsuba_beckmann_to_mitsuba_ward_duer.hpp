@@ -314,7 +314,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.875f};
+                                 kDomainMax.f0, 1.8749999f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -562,12 +562,12 @@ inline bool self_test() noexcept {
   constexpr std::array<Golden, 13> kGolden = {{
       {{0.01f, 0.53333336f}, {0.009997926f, 0.534103f}, {7.7e-06f, 8.5e-05f}},
       {{0.10387931f, 0.5f}, {0.10501394f, 0.511658f}, {7.8e-06f, 8.5e-05f}},
-      {{0.19775862f, 0.46666667f}, {0.20541403f, 0.5056553f}, {7.8e-06f, 8.5e-05f}},
-      {{0.29163793f, 0.43333334f}, {0.31600586f, 0.51534045f}, {7.9e-06f, 8.5e-05f}},
-      {{0.38551724f, 0.4f}, {0.43834352f, 0.5367601f}, {8e-06f, 8.5e-05f}},
+      {{0.19775862f, 0.4666667f}, {0.20541403f, 0.50565535f}, {7.8e-06f, 8.5e-05f}},
+      {{0.29163793f, 0.43333337f}, {0.31600586f, 0.51534045f}, {7.9e-06f, 8.5e-05f}},
+      {{0.38551724f, 0.40000004f}, {0.43834352f, 0.5367601f}, {8e-06f, 8.5e-05f}},
       {{0.47939655f, 0.36666667f}, {0.5682156f, 0.5556136f}, {8e-06f, 8.5e-05f}},
       {{0.57327586f, 0.33333334f}, {0.6995727f, 0.5570351f}, {8.1e-06f, 8.5e-05f}},
-      {{0.66715515f, 0.3f}, {0.82958007f, 0.5358713f}, {8.1e-06f, 8.5e-05f}},
+      {{0.6671552f, 0.3f}, {0.8295802f, 0.5358714f}, {8.1e-06f, 8.5e-05f}},
       {{0.7610345f, 0.26666668f}, {0.96061385f, 0.4974137f}, {8.2e-06f, 8.5e-05f}},
       {{0.005f, 0.26666668f}, {0.010007573f, 0.26779145f}, {7.7e-06f, 8.5e-05f}},
       {{1.1415517f, 0.13333334f}, {0.95971555f, 0.24938719f}, {8.2e-06f, 8.5e-05f}},

@@ -156,7 +156,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specularity,
-                                 kDomainMax.specularity, 1.0344827f};
+                                 kDomainMax.specularity, 1.0344828f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
@@ -296,15 +296,15 @@ inline bool self_test() noexcept {
   constexpr std::array<Golden, 13> kGolden = {{
       {{0.01f, 0.96666664f}, {0.01f, 0.9666664f}, {6.9e-07f, 8e-07f}},
       {{0.12948276f, 0.90625f}, {0.12948276f, 0.90625006f}, {7.5e-07f, 7.7e-07f}},
-      {{0.24896552f, 0.84583336f}, {0.24896552f, 0.8458334f}, {8.1e-07f, 7.4e-07f}},
+      {{0.24896552f, 0.8458333f}, {0.24896552f, 0.84583336f}, {8.1e-07f, 7.4e-07f}},
       {{0.3684483f, 0.78541666f}, {0.3684483f, 0.7854167f}, {8.6e-07f, 7.1e-07f}},
-      {{0.48793104f, 0.725f}, {0.48793104f, 0.7250001f}, {9.2e-07f, 6.8e-07f}},
-      {{0.60741377f, 0.6645833f}, {0.60741377f, 0.6645834f}, {9.8e-07f, 6.6e-07f}},
-      {{0.7268965f, 0.6041667f}, {0.7268965f, 0.60416675f}, {1.1e-06f, 6.3e-07f}},
+      {{0.48793104f, 0.72499996f}, {0.48793104f, 0.725f}, {9.2e-07f, 6.8e-07f}},
+      {{0.6074138f, 0.6645833f}, {0.6074138f, 0.6645834f}, {9.8e-07f, 6.6e-07f}},
+      {{0.7268966f, 0.6041666f}, {0.7268966f, 0.6041667f}, {1.1e-06f, 6.3e-07f}},
       {{0.84637934f, 0.54375f}, {0.84637934f, 0.54375005f}, {1.1e-06f, 6e-07f}},
       {{0.9658621f, 0.48333332f}, {0.9658621f, 0.48333335f}, {1.2e-06f, 5.7e-07f}},
       {{0.005f, 0.48333332f}, {0.01f, 0.4833332f}, {6.9e-07f, 5.7e-07f}},
-      {{1.448793f, 0.24166666f}, {0.9658621f, 0.24166667f}, {1.2e-06f, 4.5e-07f}},
+      {{1.4487932f, 0.24166666f}, {0.9658621f, 0.24166667f}, {1.2e-06f, 4.5e-07f}},
       {{0.48793104f, 0.0f}, {0.48793104f, 0.0f}, {9.2e-07f, 3.4e-07f}},
       {{0.48793104f, 1.9333333f}, {0.48793104f, 1.9333334f}, {9.2e-07f, 1.6e-06f}},
   }};

@@ -38,9 +38,8 @@ double alpha_error(const remap::Parametric& form, const Domain& domain) {
   for (std::size_t j = 0; j < form.alpha.size(); ++j)
     for (std::size_t i = 0; i < form.alpha[j].size(); ++i) {
       const auto alpha_power = static_cast<double>(i + 1), specular_power = static_cast<double>(j);
-      error += kFloatUnit * (2.0 * alpha_power + 2.0 * specular_power + 4.0) *
-               std::fabs(form.alpha[j][i]) * std::pow(domain.alpha.max, alpha_power) *
-               std::pow(domain.specular.max, specular_power);
+      error += kFloatUnit * (2.0 * alpha_power + 2.0 * specular_power + 4.0) * std::fabs(form.alpha[j][i]) *
+               std::pow(domain.alpha.max, alpha_power) * std::pow(domain.specular.max, specular_power);
     }
   return error;
 }

@@ -22,7 +22,7 @@ double own_error(RoughnessConvention convention, double own, double error) {
 
 // As a short decimal.
 float bound(double value) {
-  return static_cast<float>(rounded_up(static_cast<double>(static_cast<float>(value)), 2));
+  return static_cast<float>(rounded_up(rounded_to_float(value), 2));
 }
 
 std::optional<double> two_digits(bool is_known, double error) {

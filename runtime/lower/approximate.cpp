@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "text/number_text.hpp"
+
 namespace remap {
 namespace {
 
@@ -20,8 +22,6 @@ constexpr std::array<CellChoice, 8> kCellChoices = {
     {{1, kMostNodes}, {4, 8}, {8, 6}, {16, 5}, {32, 5}, {64, 4}, {128, 4}, {256, 3}}};
 
 using Matrix = std::vector<std::vector<double>>;  // [degree in t][degree in specular]
-
-double as_float(double value) { return static_cast<double>(static_cast<float>(value)); }
 
 // Chebyshev-Lobatto nodes of degree n, from 1 to -1. They include the ends, so that neighbours join.
 double node(int k, int degree) { return degree == 0 ? 0.0 : std::cos(std::numbers::pi * k / degree); }
@@ -273,7 +273,7 @@ std::vector<Shape> ShapeFinder::shapes(double tolerance, std::size_t size) {
 
 PiecewisePolynomial approximate(const MappedFunction& model, const ProofDomain& domain, const Shape& shape) {
   const Range alpha = domain.alpha;
-  const double pole = as_float(shape.pole);
+  const double pole = rounded_to_float(shape.pole);
   const Cells cells(pole, shape.cell_count, alpha);
   PiecewisePolynomial polynomial;
   polynomial.pole = static_cast<float>(pole);

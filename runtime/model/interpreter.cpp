@@ -5,20 +5,12 @@
 #include <limits>
 
 #include "model/evaluate.hpp"
+#include "text/number_text.hpp"
 
 namespace remap {
 namespace {
 
-// The float lies in memory, because gcc 12 at -O3 drops the rounding of two numbers that it converts as a
-// vector.
-double rounded_to_float(double value) {
-  const volatile float rounded = static_cast<float>(value);
-  return static_cast<double>(rounded);
-}
-
-Range rounded_to_float(const Range& range) {
-  return {rounded_to_float(range.min), rounded_to_float(range.max)};
-}
+Range as_floats(const Range& range) { return {rounded_to_float(range.min), rounded_to_float(range.max)}; }
 
 }  // namespace
 
@@ -33,10 +25,10 @@ MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double sp
 Range own_roughness_range(const Fit& fit) {
   const double a = from_alpha(fit.source.roughness, fit.domain.alpha.min);
   const double b = from_alpha(fit.source.roughness, fit.domain.alpha.max);
-  return rounded_to_float({std::min(a, b), std::max(a, b)});
+  return as_floats({std::min(a, b), std::max(a, b)});
 }
 
-Range specular_range(const Fit& fit) { return rounded_to_float(fit.domain.specular); }
+Range specular_range(const Fit& fit) { return as_floats(fit.domain.specular); }
 
 double evaluate_texel(const Fit& fit, double roughness, std::span<const double> specular,
                       std::span<double> specular_out, bool* in_domain) {

@@ -32,6 +32,12 @@ double rounded(double value, int digits) {
   return parse_number(std::string_view(text.data(), end)).value_or(value);
 }
 
+// The float lies in memory: gcc 12 at -O3 drops the rounding of two neighbours that it converts as a vector.
+double rounded_to_float(double value) {
+  const volatile float rounded = static_cast<float>(value);
+  return static_cast<double>(rounded);
+}
+
 double decimal_value(float value) {
   std::array<char, 64> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;

@@ -16,6 +16,9 @@ double rounded_up(double value, int digits);
 // `value` rounded to nearest at `digits` significant decimal digits.
 double rounded(double value, int digits);
 
+// The float nearest to `value`, as a double.
+double rounded_to_float(double value);
+
 // The double of the shortest decimal text of `value`: 0.01, not 0.00999999977.
 double decimal_value(float value);
 
