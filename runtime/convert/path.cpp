@@ -64,7 +64,7 @@ ConverterGraph::ConverterGraph(std::vector<const Converter*> converters, Detours
   for (const Converter* converter : converters_) {
     const ConverterInfo& info = converter->info();
     graph_->edges.push_back({node(info.source.model), node(info.target.model),
-                            std::llround(expected_error(info) * kUnitsOfError)});
+                             std::llround(expected_error(info) * kUnitsOfError)});
   }
   graph_->detours = detours == Detours::kAllowed;
   if (detours == Detours::kRefused) hold_against_measured();

@@ -21,9 +21,7 @@ double own_error(RoughnessConvention convention, double own, double error) {
 }
 
 // As a short decimal.
-float bound(double value) {
-  return static_cast<float>(rounded_up(rounded_to_float(value), 2));
-}
+float bound(double value) { return static_cast<float>(rounded_up(rounded_to_float(value), 2)); }
 
 std::optional<double> two_digits(bool is_known, double error) {
   return is_known ? std::optional<double>(rounded_up(error, 2)) : std::nullopt;

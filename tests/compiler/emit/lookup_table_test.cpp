@@ -1,4 +1,6 @@
 // Lookup tables: an independent reader of the file against the interpreter.
+#include "emit/lookup_table.hpp"
+
 #include <cmath>
 #include <map>
 #include <random>
@@ -6,7 +8,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "emit/lookup_table.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "text/number_text.hpp"

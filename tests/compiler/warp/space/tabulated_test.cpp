@@ -9,8 +9,8 @@
 #include "remap/error.hpp"
 #include "study/warp_sets.hpp"
 #include "support/campaign.hpp"
-#include "warp/space/quadrature.hpp"
 #include "warp/space/features.hpp"
+#include "warp/space/quadrature.hpp"
 #include "warp/warp.hpp"
 
 namespace {
