@@ -2,6 +2,7 @@
 // sheet shows both.
 #include <catch2/catch.hpp>
 
+#include "compiler/report/scaled_fit.hpp"
 #include "remap/error.hpp"
 #include "report/contact_sheet.hpp"
 #include "report/preview.hpp"
@@ -10,17 +11,6 @@ using namespace remapc;
 using Catch::Matchers::Contains;
 
 namespace {
-
-// alpha2 = scale alpha1, specular2 = specular1.
-remap::Fit scaled_fit(const std::string& source, const std::string& target, double scale) {
-  remap::Fit fit;
-  fit.id = "test";
-  fit.source = {source, remap::RoughnessConvention::kAlpha, "f0"};
-  fit.target = {target, remap::RoughnessConvention::kAlpha, "f0"};
-  fit.domain = {{0.05, 1.0}, {0.0, 1.0}};
-  fit.mapping = remap::Parametric{{{scale, 0.0, 0.0, 0.0}}, {{1, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
-  return fit;
-}
 
 LitPreviewOptions small_preview() {
   LitPreviewOptions options;

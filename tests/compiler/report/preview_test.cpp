@@ -5,23 +5,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "compiler/report/scaled_fit.hpp"
 #include "remap/error.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;
 
 namespace {
-
-// alpha2 = scale alpha1, specular2 = specular1.
-remap::Fit scaled_fit(const std::string& source, const std::string& target, double scale) {
-  remap::Fit fit;
-  fit.id = "test";
-  fit.source = {source, remap::RoughnessConvention::kAlpha, "f0"};
-  fit.target = {target, remap::RoughnessConvention::kAlpha, "f0"};
-  fit.domain = {{0.05, 1.0}, {0.0, 1.0}};
-  fit.mapping = remap::Parametric{{{scale, 0.0, 0.0, 0.0}}, {{1, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
-  return fit;
-}
 
 PreviewOptions small_preview() {
   PreviewOptions options;
