@@ -88,8 +88,8 @@ class ChainedConverter final : public Converter {
   explicit ChainedConverter(std::vector<const Converter*> steps)
       : Converter(chained_info(steps)), steps_(std::move(steps)) {}
 
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
-                      std::uint8_t* outside) const override {
+  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
+                           const MaterialRows<float>& out, std::uint8_t* outside) const override {
     std::size_t outside_count = 0;
     std::array<std::uint8_t, kBlock> flags;
     for (std::size_t start = 0; start < count; start += kBlock) {

@@ -34,12 +34,18 @@ ConverterInfo info_of(const Fit& fit) {
           {}};
 }
 
+void require_channels(std::size_t count) {
+  if (count != 1 && count != 3)
+    throw Error(ErrorKind::kUsage,
+                "converter: got " + std::to_string(count) + " specular channels (1 or 3 are supported)");
+}
+
 class InterpretedConverter final : public Converter {
  public:
   explicit InterpretedConverter(Fit fit) : Converter(info_of(fit)), fit_(std::move(fit)) {}
 
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
-                      std::uint8_t* outside) const override {
+  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
+                           const MaterialRows<float>& out, std::uint8_t* outside) const override {
     const auto& specular = in[Parameter::kSpecular].row;
     const auto& specular_out = out[Parameter::kSpecular].row;
     const float* const width = in[Parameter::kWidth].row[0];
@@ -78,12 +84,16 @@ std::size_t Converter::target_channels(Parameter parameter, std::size_t specular
   return is_of_brdf() ? specular_channels : 3;
 }
 
+std::size_t Converter::convert(std::size_t count, const MaterialRows<const float>& in,
+                               const MaterialRows<float>& out, std::uint8_t* outside) const {
+  if (has_source(Parameter::kSpecular)) require_channels(in[Parameter::kSpecular].count);
+  return convert_rows(count, in, out, outside);
+}
+
 std::size_t Converter::convert(std::size_t count, const float* width, std::span<const float* const> specular,
                                float* width_out, std::span<float* const> specular_out,
                                std::uint8_t* outside) const {
-  if (specular.size() != 1 && specular.size() != 3)
-    throw Error(ErrorKind::kUsage, "converter: got " + std::to_string(specular.size()) +
-                                       " specular channels (1 or 3 are supported)");
+  require_channels(specular.size());  // before they are copied
   MaterialRows<const float> in;
   MaterialRows<float> out;
   in[Parameter::kWidth] = {{width}, 1};
@@ -91,7 +101,7 @@ std::size_t Converter::convert(std::size_t count, const float* width, std::span<
   in[Parameter::kSpecular].count = out[Parameter::kSpecular].count = specular.size();
   std::copy(specular.begin(), specular.end(), in[Parameter::kSpecular].row.begin());
   std::copy(specular_out.begin(), specular_out.end(), out[Parameter::kSpecular].row.begin());
-  return convert(count, in, out, outside);
+  return convert_rows(count, in, out, outside);
 }
 
 std::unique_ptr<Converter> make_interpreted_converter(Fit fit) {

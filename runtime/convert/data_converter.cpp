@@ -66,8 +66,8 @@ class DataConverter final : public Converter {
              specular_.rows()};
   }
 
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
-                      std::uint8_t* outside) const override {
+  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
+                           const MaterialRows<float>& out, std::uint8_t* outside) const override {
     const auto& specular = in[Parameter::kSpecular];
     return kernel_(pass_, {count, specular.count, in[Parameter::kWidth].row[0], specular.row,
                            out[Parameter::kWidth].row[0], out[Parameter::kSpecular].row, outside});
@@ -81,7 +81,7 @@ class DataConverter final : public Converter {
       float width = 0.0f, mapped = 0.0f;
       const std::array<const float*, 1> in = {&golden.specular};
       const std::array<float*, 1> out = {&mapped};
-      Converter::convert(1, &golden.width, in, &width, out, nullptr);
+      convert(1, &golden.width, in, &width, out, nullptr);
       if (!is_close(width, golden.width_out, golden.width_within) ||
           !is_close(mapped, golden.specular_out, golden.specular_within))
         return false;

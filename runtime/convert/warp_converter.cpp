@@ -49,8 +49,8 @@ class WarpConverter final : public Converter {
     require_valid(*to_specular_, fit.id);
   }
 
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
-                      std::uint8_t* outside) const override {
+  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
+                           const MaterialRows<float>& out, std::uint8_t* outside) const override {
     const auto block = to_specular_ ? std::make_unique<Block>() : nullptr;
     std::size_t outside_count = 0;
     for (std::size_t start = 0; start < count; start += kBlock) {

@@ -107,8 +107,8 @@ class WorkflowConverter final : public Converter {
  public:
   WorkflowConverter(const WorkflowStages& stages, InstructionSet set);
 
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
-                      std::uint8_t* outside) const override;
+  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
+                           const MaterialRows<float>& out, std::uint8_t* outside) const override;
 
  private:
   SpecularBlock read(std::size_t count, std::size_t start, const MaterialRows<const float>& in,
@@ -153,8 +153,8 @@ WorkflowConverter::WorkflowConverter(const WorkflowStages& stages, InstructionSe
   if (target_metallic != nullptr) to_metallic_ = conversion(*target_metallic, stages.formula);
 }
 
-std::size_t WorkflowConverter::convert(std::size_t count, const MaterialRows<const float>& in,
-                                       const MaterialRows<float>& out, std::uint8_t* outside) const {
+std::size_t WorkflowConverter::convert_rows(std::size_t count, const MaterialRows<const float>& in,
+                                            const MaterialRows<float>& out, std::uint8_t* outside) const {
   const auto scratch = std::make_unique<Scratch>();
   std::size_t outside_count = 0;
   if (outside != nullptr) std::fill_n(outside, count, std::uint8_t{0});

@@ -17,8 +17,8 @@ class Step final : public remap::Converter {
  public:
   Step(Pass pass, int number) : Converter(info(number)), pass_(pass) {}
 
-  std::size_t convert(std::size_t count, const remap::MaterialRows<const float>& in,
-                      const remap::MaterialRows<float>& out, std::uint8_t*) const override {
+  std::size_t convert_rows(std::size_t count, const remap::MaterialRows<const float>& in,
+                           const remap::MaterialRows<float>& out, std::uint8_t*) const override {
     const auto& specular = in[remap::Parameter::kSpecular];
     const auto& specular_out = out[remap::Parameter::kSpecular].row;
     const float* const width = in[remap::Parameter::kWidth].row[0];

@@ -37,8 +37,8 @@ class HeaderConverter final : public Converter {
  public:
   HeaderConverter(const ConverterInfo& info, const Entry& entry) : Converter(info), entry_(entry) {}
 
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
-                      std::uint8_t*) const override {
+  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
+                           const MaterialRows<float>& out, std::uint8_t*) const override {
     const auto& specular = in[Parameter::kSpecular];
     const auto& specular_out = out[Parameter::kSpecular].row;
     const float* const width = in[Parameter::kWidth].row[0];

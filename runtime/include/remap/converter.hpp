@@ -57,9 +57,9 @@ class Converter {
   // may be exactly the input row of the same parameter and channel. Widths are the parameters that info()
   // names. Domain rule as in interpreter.hpp. `outside`: if not null, a row that receives 1 for each texel
   // outside the domain and 0 for each other. Returns the number of texels outside. Can be called from many
-  // threads. Throws kUsage for two specular channels.
-  virtual std::size_t convert(std::size_t count, const MaterialRows<const float>& in,
-                              const MaterialRows<float>& out, std::uint8_t* outside = nullptr) const = 0;
+  // threads. Throws kUsage for a number of specular rows that is neither 1 nor 3.
+  std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
+                      std::uint8_t* outside = nullptr) const;
   // The same for width and specular alone.
   std::size_t convert(std::size_t count, const float* width, std::span<const float* const> specular,
                       float* width_out, std::span<float* const> specular_out,
@@ -78,6 +78,10 @@ class Converter {
       : info_(std::move(info)), sources_(std::move(sources)), targets_(std::move(targets)) {}
 
  private:
+  // convert() of rows whose numbers are valid.
+  virtual std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
+                                   const MaterialRows<float>& out, std::uint8_t* outside) const = 0;
+
   ConverterInfo info_;
   std::vector<Parameter> sources_, targets_;
 };

@@ -23,8 +23,8 @@ class InTurn final : public Converter {
  public:
   explicit InTurn(Steps steps) : Converter(steps.front()->info()), steps_(std::move(steps)) {}
 
-  std::size_t convert(std::size_t count, const MaterialRows<const float>& rows,
-                      const MaterialRows<float>& out, std::uint8_t* flags) const override {
+  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& rows,
+                           const MaterialRows<float>& out, std::uint8_t* flags) const override {
     std::vector<bool> outside(count, false);
     const std::size_t channels = rows[Parameter::kSpecular].count;
     const auto& specular_out = out[Parameter::kSpecular].row;

@@ -18,8 +18,8 @@ namespace {
 class NamedConverter final : public Converter {
  public:
   explicit NamedConverter(ConverterInfo info) : Converter(std::move(info)) {}
-  std::size_t convert(std::size_t, const MaterialRows<const float>&, const MaterialRows<float>&,
-                      std::uint8_t*) const override {
+  std::size_t convert_rows(std::size_t, const MaterialRows<const float>&, const MaterialRows<float>&,
+                           std::uint8_t*) const override {
     throw std::logic_error("a path was run");
   }
 };
