@@ -1,5 +1,6 @@
 #include "sweep/provenance.hpp"
 
+#include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -8,6 +9,7 @@ namespace {
 using remap::number_text;
 
 constexpr int kWidthDigits = 4;
+constexpr int kLimitDigits = 10;  // those of a row
 
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 
@@ -48,6 +50,12 @@ void add_side(const std::string& role, const ProbedModel& probed_model, Comments
                            pictures_text(probed_model.curve->picture_count()) + " a width");
   if (response.law == SpecularLaw::kClamped)
     comments->emplace_back(role + "_specular_knee", number_text(response.knee));
+}
+
+void add_limits(const ProbedModel& target, const EffectiveWidths& widths, Comments* comments) {
+  comments->emplace_back(kAlphaLimitComment, number_text(remap::rounded(widths.effective.max, kLimitDigits)));
+  comments->emplace_back(kSpecularLimitComment,
+                         number_text(remap::rounded(target.linear_range().max, kLimitDigits)));
 }
 
 void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments) {

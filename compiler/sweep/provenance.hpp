@@ -14,6 +14,9 @@ namespace remapc {
 // Adds one side: the model, its parameters and the law of its specular.
 void add_side(const std::string& role, const ProbedModel& probed_model, Comments* comments);
 
+// Adds the largest alpha and canonical specular that the target takes.
+void add_limits(const ProbedModel& target, const EffectiveWidths& widths, Comments* comments);
+
 // Adds the widths of one side that change its pictures, if some do not.
 void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments);
 

@@ -129,6 +129,7 @@ Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
   add_widths("source", setup.source_widths, &table.comments);
   add_noise("source", renderer, options.source, &table.comments);
   add_side("target", setup.target, &table.comments);
+  add_limits(setup.target, setup.target_widths, &table.comments);
   add_widths("target", setup.target_widths, &table.comments);
   add_noise("target", renderer, options.target, &table.comments);
   add_comparison(renderer, options, &table.comments);

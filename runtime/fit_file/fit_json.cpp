@@ -63,6 +63,19 @@ Json mapping_json(const MappingKind& mapping) {
   return json;
 }
 
+Json to_json(const Regimes& regimes) {
+  Json json = {{"alpha_limit", finite(regimes.alpha_limit)},
+               {"specular_limit", regimes.specular_limit ? Json(finite(*regimes.specular_limit)) : Json()}};
+  if (regimes.wide)
+    json["wide"] = {{"from", finite(regimes.wide->from)},
+                    {"mapping_to", finite(regimes.wide->mapping_to)},
+                    {"specular", network_json(regimes.wide->specular)}};
+  if (regimes.bright)
+    json["bright"] = {{"specular_from", finite(regimes.bright->specular_from)},
+                      {"alpha", network_json(regimes.bright->alpha)}};
+  return json;
+}
+
 Json to_json(const Candidate& candidate) {
   return {{"name", candidate.name},
           {"number_count", candidate.number_count},
@@ -159,6 +172,27 @@ MappingKind read_mapping(const Field& field) {
   })};
 }
 
+double read_positive(const Field& field) {
+  field.require(field.number() > 0.0, "a number above 0");
+  return field.number();
+}
+
+Regimes read_regimes(const Field& field) {
+  Regimes regimes;
+  regimes.alpha_limit = read_positive(field["alpha_limit"]);
+  if (!field["specular_limit"].is_null()) regimes.specular_limit = read_positive(field["specular_limit"]);
+  if (field.json().contains("wide")) {
+    const Field wide = field["wide"];
+    regimes.wide = {read_positive(wide["from"]), read_positive(wide["mapping_to"]), read_texel_network(wide["specular"])};
+  }
+  if (field.json().contains("bright")) {
+    const Field bright = field["bright"];
+    bright.require(regimes.specular_limit.has_value(), "a specular_limit beside it");
+    regimes.bright = {bright["specular_from"].number(), read_texel_network(bright["alpha"])};
+  }
+  return regimes;
+}
+
 Candidate read_candidate(const Field& field) {
   return {field["name"].text(),
           static_cast<std::size_t>(field["number_count"].count()),
@@ -194,6 +228,7 @@ std::string fit_to_json(const Fit& fit) {
       {"target", to_json(fit.target)},
       {"domain", {{"alpha", to_json(fit.domain.alpha)}, {"specular", to_json(fit.domain.specular)}}},
       {"mapping", mapping_json(fit.mapping)},
+      {"regimes", to_json(fit.regimes)},
       {"method", fit.method},
       {"candidates", candidates},
       {"error_on_held_out_rows",
@@ -216,6 +251,7 @@ Fit read_fit(const Field& root) {
   root["domain"]["alpha"].require(fit.domain.alpha.min > 0.0, "an alpha above 0");
   root["domain"]["specular"].require(fit.domain.specular.min == 0.0, "a range from 0");
   fit.mapping = read_mapping(root["mapping"]);
+  fit.regimes = read_regimes(root["regimes"]);
   fit.method = root["method"].text_dictionary();
   fit.candidates = root["candidates"].list(0, read_candidate);
   fit.alpha_error = read_figures(root["error_on_held_out_rows"]["alpha"]);

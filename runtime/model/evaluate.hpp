@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "remap/mapping.hpp"
+#include "remap/regimes.hpp"
 
 namespace remap {
 
@@ -116,7 +116,13 @@ Scalar target_alpha(const Svr& svr, const Scalar& alpha, const Scalar& specular)
 }
 template <typename Scalar>
 Scalar target_alpha(const Mlp& mlp, const Scalar& alpha, const Scalar& specular) {
-  return network_outputs(mlp.alpha, inputs_of(mlp.alpha.inputs.size(), alpha, specular))[0];
+  return network_value(mlp.alpha, alpha, specular);
+}
+
+// A network of one output over one texel.
+template <typename Scalar>
+Scalar network_value(const Network& network, const Scalar& alpha, const Scalar& specular) {
+  return network_outputs(network, inputs_of(network.inputs.size(), alpha, specular))[0];
 }
 
 template <typename Scalar>
@@ -136,7 +142,7 @@ Scalar target_specular(const Svr& svr, const Scalar& alpha, const Scalar& specul
 }
 template <typename Scalar>
 Scalar target_specular(const Mlp& mlp, const Scalar& alpha, const Scalar& specular) {
-  return network_outputs(mlp.specular, inputs_of(mlp.specular.inputs.size(), alpha, specular))[0];
+  return network_value(mlp.specular, alpha, specular);
 }
 
 // Applies all steps but the last.

@@ -10,6 +10,20 @@
 namespace remap {
 namespace {
 
+// The source alpha at which the mapping is evaluated.
+double mapping_alpha(const Fit& fit, double alpha) {
+  return fit.regimes.wide ? std::min(alpha, fit.regimes.wide->mapping_to) : alpha;
+}
+
+// Target specular without its limits.
+double free_specular(const Fit& fit, bool is_wide, double alpha, double specular) {
+  if (is_wide && fit.regimes.wide)
+    return network_value(fit.regimes.wide->specular, std::max(alpha, fit.regimes.wide->from), specular);
+  return std::visit(
+      [&](const auto& kind) { return target_specular(kind, mapping_alpha(fit, alpha), specular); },
+      fit.mapping);
+}
+
 Range as_floats(const Range& range) { return {rounded_to_float(range.min), rounded_to_float(range.max)}; }
 
 }  // namespace
@@ -20,6 +34,28 @@ MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double sp
         return MappedTexel{target_alpha(kind, alpha, specular), target_specular(kind, alpha, specular)};
       },
       mapping);
+}
+
+TexelWidth target_width(const Fit& fit, double alpha, double top) {
+  const Regimes& regimes = fit.regimes;
+  const double mapped = std::visit(
+      [&](const auto& kind) { return target_alpha(kind, mapping_alpha(fit, alpha), top); }, fit.mapping);
+  const bool is_wide = mapped >= regimes.alpha_limit;
+  const double width = std::min(mapped, regimes.alpha_limit);
+  if (!regimes.bright || !(free_specular(fit, is_wide, alpha, top) > *regimes.specular_limit))
+    return {width, is_wide};
+  const double bright = network_value(regimes.bright->alpha, alpha, std::max(top, regimes.bright->specular_from));
+  return {std::min(bright, regimes.alpha_limit), is_wide};
+}
+
+double target_channel(const Fit& fit, bool is_wide, double alpha, double specular) {
+  const double mapped = std::max(free_specular(fit, is_wide, alpha, specular), 0.0);
+  return fit.regimes.specular_limit ? std::min(mapped, *fit.regimes.specular_limit) : mapped;
+}
+
+MappedTexel evaluate_fit(const Fit& fit, double alpha, double specular) {
+  const TexelWidth width = target_width(fit, alpha, specular);
+  return {width.alpha, target_channel(fit, width.is_wide, alpha, specular)};
 }
 
 Range own_roughness_range(const Fit& fit) {
@@ -46,16 +82,14 @@ double evaluate_texel(const Fit& fit, double roughness, std::span<const double> 
   }
   const double alpha = to_alpha(fit.source.roughness, std::clamp(roughness, own.min, own.max));
   const double scale = std::max(1.0, largest / covered.max);
-  const auto evaluate = [&](const auto& kind) {
-    for (std::size_t c = 0; c < specular.size(); ++c) {
-      const bool passes = std::isnan(specular[c]) || specular[c] == std::numeric_limits<double>::infinity();
-      specular_out[c] =
-          passes ? specular[c]
-                 : scale * std::max(target_specular(kind, alpha, std::max(specular[c], 0.0) / scale), 0.0);
-    }
-    return from_alpha(fit.target.roughness, target_alpha(kind, alpha, largest / scale));
-  };
-  return std::visit(evaluate, fit.mapping);
+  const TexelWidth width = target_width(fit, alpha, largest / scale);
+  for (std::size_t c = 0; c < specular.size(); ++c) {
+    const bool passes = std::isnan(specular[c]) || specular[c] == std::numeric_limits<double>::infinity();
+    specular_out[c] =
+        passes ? specular[c]
+               : scale * target_channel(fit, width.is_wide, alpha, std::max(specular[c], 0.0) / scale);
+  }
+  return from_alpha(fit.target.roughness, width.alpha);
 }
 
 }  // namespace remap

@@ -10,6 +10,7 @@
 
 #include "remap/convention.hpp"
 #include "remap/mapping.hpp"
+#include "remap/regimes.hpp"
 
 namespace remap {
 
@@ -97,7 +98,8 @@ struct Fit {
   ModelSide source;
   ModelSide target;
   Domain domain;
-  MappingKind mapping;
+  MappingKind mapping;  // inside the target's range
+  Regimes regimes;      // at its limits
   std::map<std::string, std::string> method;        // of the regression: hyper-parameters, search, starts
   std::vector<Candidate> candidates;                // of `auto`; else empty
   ErrorFigures alpha_error;                         // of the target's alpha
