@@ -37,7 +37,7 @@ void run_chain(const ChainCommand& command) {
   for (const std::string& name : command.steps) steps.push_back(find_fit(name, command.fit_folder));
   const remap::Fit chain = composed_fit(steps, command.id);
   // A chain exists for its single-pass header, so one that cannot be emitted is an error here.
-  const remap::Lowered lowered = remap::lower(chain.mapping, chain.domain);
+  const remap::Lowered lowered = remap::lower(chain);
   const std::filesystem::path path = write_fit(command, chain);
   const std::string& steps_text = chain.method.at("against its steps one after another");
   if (command.json) {

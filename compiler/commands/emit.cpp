@@ -51,7 +51,7 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
   for (const remap::Fit& fit : chosen.fits) {
     if (code.exact) add_header(fit, emit_header(fit, code));
     if (code.exact && !options.all) continue;
-    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain, code.lowering);
+    const remap::Lowered lowered = remap::lower(fit, code.lowering);
     if (!code.exact) add_header(fit, emit_lowered_header(fit, lowered));
     converters.push_back(remap::converter_data(fit, lowered));
   }

@@ -128,7 +128,7 @@ std::string rows_text(const remap::Fit& fit) {
 
 void print_lowering(const remap::Fit& fit) {
   try {
-    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
+    const remap::Lowered lowered = remap::lower(fit);
     std::cout << "Deviation of its header from the fit: alpha within " << error_text(lowered.alpha.bound)
               << ", " << fit.target.specular << " within " << error_text(lowered.specular.bound)
               << " (proven)\n";

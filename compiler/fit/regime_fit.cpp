@@ -6,6 +6,10 @@
 #include <optional>
 #include <set>
 
+#include <Eigen/Dense>
+
+#include "fit/rows/folds.hpp"
+#include "model/evaluate.hpp"
 #include "model/interpreter.hpp"
 
 namespace remapc {
@@ -15,11 +19,13 @@ constexpr std::size_t kFewestRows = 20, kFewestWidths = 2;
 // Widths beyond the joint to which the mapping is continued. One would do; the second keeps a curve from turning
 // back.
 constexpr std::size_t kContinuedWidths = 2;
+constexpr int kContinuedSpeculars = 5;  // rows of a column
 constexpr int kSpeculars = 33;  // at which a joint is looked for
 constexpr int kHalvings = 40;
 // How far the mapping passes the limit of alpha before it is held: more than its lowering may change.
 constexpr double kBeyondLimit = 5e-4;
 constexpr double kSameSpecular = 1e-9;
+constexpr double kSameJoint = 2e-3;  // between the rows on both sides of a joint, relative to the range of specular
 
 using Column = std::vector<TableRow>;  // rows of one width, by rising specular
 
@@ -34,7 +40,7 @@ bool can_be_fitted(const std::vector<TableRow>& rows) {
   return rows.size() >= kFewestRows && columns_of(rows).size() >= kFewestWidths;
 }
 
-// The rows of one regime in `column`, continued to the other rows of it: specular in proportion, as pictures are.
+// The rows of one regime in `column`, continued to its end: specular in proportion, as pictures are.
 void continue_in_specular(const Column& column, RowRegime regime, const TargetLimits& limits,
                           std::vector<TableRow>* rows) {
   const auto is_own = [&](const TableRow& row) { return regime_of(row, limits) == regime; };
@@ -45,10 +51,12 @@ void continue_in_specular(const Column& column, RowRegime regime, const TargetLi
   const double run = last.specular1 - before.specular1;
   if (!(run > 0.0)) return;
   const double slope = (last.specular2 - before.specular2) / run;
-  for (TableRow row : column) {
-    if (is_own(row) || row.specular1 <= last.specular1) continue;
+  // Few rows, so that they do not outweigh those that were measured.
+  const double room = column.back().specular1 - last.specular1;
+  for (int i = 1; i <= kContinuedSpeculars && room > 0.0; ++i) {
+    TableRow row = last;
+    row.specular1 = last.specular1 + room * i / kContinuedSpeculars;
     row.specular2 = last.specular2 + slope * (row.specular1 - last.specular1);
-    row.alpha2 = last.alpha2;
     rows->push_back(row);
   }
 }
@@ -65,9 +73,10 @@ double parabola(const std::array<double, 3>& at, const std::array<double, 3>& va
   return sum;
 }
 
-// The columns inside, continued to the first wide ones by parabolas through their last three rows of a specular.
+// The columns inside, continued to the first wide ones by parabolas through their last three rows of a specular;
+// `keeps_specular`: in width alone.
 void continue_in_alpha(const std::map<double, Column>& inside, const std::map<double, Column>& wide,
-                       std::vector<TableRow>* rows) {
+                       bool keeps_specular, std::vector<TableRow>* rows) {
   std::size_t done = 0;
   for (const auto& [alpha, column] : wide) {
     if (done == kContinuedWidths) break;
@@ -86,17 +95,26 @@ void continue_in_alpha(const std::map<double, Column>& inside, const std::map<do
         speculars[i] = neighbours[i]->specular2;
       }
       row.alpha2 = parabola(at, alphas, alpha);
-      row.specular2 = parabola(at, speculars, alpha);
+      if (!keeps_specular) row.specular2 = parabola(at, speculars, alpha);
       rows->push_back(row);
     }
   }
 }
 
-Samples samples_of(const std::vector<TableRow>& rows, double TableRow::*output) {
+// The rows of corners that end where the bright regime begins: alpha is at its limit there, and not yet beyond.
+void add_bright_ends(const Column& column, const TargetLimits& limits, std::vector<TableRow>* rows) {
+  for (std::size_t i = 0; i + 1 < column.size(); ++i)
+    if (regime_of(column[i], limits) == RowRegime::kCorner &&
+        regime_of(column[i + 1], limits) == RowRegime::kBright &&
+        column[i + 1].specular1 - column[i].specular1 < kSameJoint * column.back().specular1)
+      rows->push_back(column[i]);
+}
+
+Samples samples_of(const std::vector<TableRow>& rows) {
   Samples samples{2, 1, {}, {}};
   for (const TableRow& row : rows) {
     samples.inputs.insert(samples.inputs.end(), {row.alpha1, row.specular1});
-    samples.outputs.push_back(row.*output);
+    samples.outputs.push_back(row.alpha2);
   }
   return samples;
 }
@@ -113,6 +131,54 @@ std::optional<double> passed_at(const Function& rising, const remap::Range& rang
   return 0.5 * (low + high);
 }
 
+// The polynomial of least squares: powers of specular up to `speculars`, of alpha up to `alphas`.
+remap::TexelPolynomial fitted_polynomial(const std::vector<TableRow>& rows, int alphas, int speculars) {
+  const Eigen::Index width = alphas + 1, count = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd basis(count, width * (speculars + 1));
+  Eigen::VectorXd values(count);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const TableRow& row = rows[static_cast<std::size_t>(r)];
+    values(r) = row.specular2;
+    for (int j = 0; j <= speculars; ++j)
+      for (int i = 0; i <= alphas; ++i)
+        basis(r, j * width + i) = std::pow(row.specular1, j) * std::pow(row.alpha1, i);
+  }
+  const Eigen::VectorXd found = basis.colPivHouseholderQr().solve(values);
+  remap::TexelPolynomial polynomial;
+  for (int j = 0; j <= speculars; ++j)
+    polynomial.emplace_back(found.data() + j * width, found.data() + (j + 1) * width);
+  return polynomial;
+}
+
+struct PolynomialShape {
+  int alphas, speculars;
+};
+
+// By rising size.
+constexpr std::array<PolynomialShape, 8> kShapes = {
+    {{1, 1}, {2, 1}, {3, 1}, {2, 2}, {4, 1}, {3, 2}, {4, 2}, {6, 2}}};
+
+// The smallest shape that counts as equal to the best in cross-validation (folds.hpp).
+PolynomialShape chosen_shape(const std::vector<TableRow>& rows, std::uint64_t seed) {
+  constexpr std::size_t kShapeFolds = 5;
+  const std::vector<Fold> folds = split_folds(rows, kShapeFolds, seed);
+  std::vector<CrossValidated> scores;
+  for (const PolynomialShape& shape : kShapes) {
+    std::vector<std::vector<double>> errors;
+    for (const Fold& fold : folds) {
+      const remap::TexelPolynomial polynomial = fitted_polynomial(fold.training, shape.alphas, shape.speculars);
+      errors.emplace_back();
+      for (const TableRow& row : fold.judging)
+        errors.back().push_back(remap::polynomial_value(polynomial, row.alpha1, row.specular1) - row.specular2);
+    }
+    scores.push_back(cross_validated(errors));
+  }
+  const double bound = error_bound(scores);
+  for (std::size_t i = 0; i < kShapes.size(); ++i)
+    if (scores[i].rms <= bound) return kShapes[i];
+  return kShapes.back();
+}
+
 class RegimeFit {
  public:
   RegimeFit(const RegimeRows& rows, const TargetLimits& limits, const remap::MappingKind& mapping,
@@ -124,10 +190,10 @@ class RegimeFit {
     remap::Regimes regimes;
     regimes.alpha_limit = limits_.alpha;
     regimes.specular_limit = limits_.specular;
-    if (!rows_.wide.empty()) regimes.wide = fit_wide(part_of(progress, 0.0, 0.5));
+    if (!rows_.wide.empty()) regimes.wide = fit_wide();
     if (!rows_.bright.empty()) {
       const double to = regimes.wide ? regimes.wide->from : domain_.alpha.max;
-      regimes.bright = fit_bright(to, part_of(progress, 0.5, 1.0));
+      regimes.bright = fit_bright(to, progress);
     }
     return regimes;
   }
@@ -145,7 +211,7 @@ class RegimeFit {
                      {low->alpha1, high->alpha1}, alpha);
   }
 
-  std::optional<remap::WideRegime> fit_wide(const FitProgress& progress) {
+  std::optional<remap::WideRegime> fit_wide() {
     remap::WideRegime wide{domain_.alpha.max, domain_.alpha.min, {}};
     for (int i = 0; i < kSpeculars; ++i) {
       const double specular = domain_.specular.max * i / (kSpeculars - 1);
@@ -164,7 +230,10 @@ class RegimeFit {
       row.specular2 = mapped(row.alpha1, specular).specular;
       rows.push_back(row);
     }
-    wide.specular = trained("wide", rows, &TableRow::specular2, progress);
+    const PolynomialShape shape = chosen_shape(rows, options_.seed);
+    wide.specular = fitted_polynomial(rows, shape.alphas, shape.speculars);
+    (*method_)["wide"] = "degree " + std::to_string(shape.alphas) + " in alpha, " +
+                         std::to_string(shape.speculars) + " in specular, " + std::to_string(rows.size()) + " rows";
     return wide;
   }
 
@@ -182,15 +251,9 @@ class RegimeFit {
       row.alpha2 = mapped(alpha, *specular).alpha;
       if (row.alpha2 < limits_.alpha) rows.push_back(row);
     }
-    const double least = std::ranges::min_element(rows, {}, &TableRow::specular1)->specular1;
-    return {least, trained("bright", rows, &TableRow::alpha2, progress)};
-  }
-
-  remap::Network trained(const std::string& name, const std::vector<TableRow>& rows, double TableRow::*output,
-                         const FitProgress& progress) {
-    const TrainedNetwork result = train_network(samples_of(rows, output), options_, progress);
-    (*method_)[name] = result.method;
-    return result.network;
+    const TrainedNetwork network = train_network(samples_of(rows), options_, progress);
+    (*method_)["bright"] = network.method;
+    return {std::ranges::min_element(rows, {}, &TableRow::specular1)->specular1, network.network};
   }
 
   const RegimeRows& rows_;
@@ -220,16 +283,15 @@ RegimeRows regime_rows(const std::vector<TableRow>& training, const TargetLimits
         break;
     }
   if (!can_be_fitted(rows.bright)) rows.bright.clear();
-  if (!can_be_fitted(rows.wide)) {
-    rows.inside.insert(rows.inside.end(), rows.wide.begin(), rows.wide.end());
-    rows.wide.clear();
-  }
   const std::map<double, Column> inside = columns_of(rows.inside), wide = columns_of(rows.wide);
+  const bool has_wide = can_be_fitted(rows.wide);
+  if (!has_wide) rows.wide.clear();
   for (const auto& [alpha, column] : columns_of(training)) {
     continue_in_specular(column, RowRegime::kInside, limits, &rows.inside);
-    if (!rows.wide.empty()) continue_in_specular(column, RowRegime::kWide, limits, &rows.wide);
+    if (has_wide) continue_in_specular(column, RowRegime::kWide, limits, &rows.wide);
+    if (!rows.bright.empty()) add_bright_ends(column, limits, &rows.bright);
   }
-  if (!rows.wide.empty()) continue_in_alpha(inside, wide, &rows.inside);
+  continue_in_alpha(inside, wide, !has_wide, &rows.inside);
   return rows;
 }
 

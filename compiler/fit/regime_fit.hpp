@@ -8,11 +8,11 @@
 
 namespace remapc {
 
-// Training rows by regime. A regime of too few rows or widths to be fitted has none: its rows of kWide count as
-// inside, those of kBright are left to the mapping, which is cut off at the limit.
+// Training rows by regime. A regime of too few rows or widths to be fitted has none, and is left to the mapping, which
+// is cut off at the limit.
 struct RegimeRows {
-  // Rows inside, and those of the others continued: what the row would be without the limit, extrapolated from its
-  // neighbours inside. They make the mapping pass the limit where the table does.
+  // Rows inside, and some that continue them beyond the limits, extrapolated from their neighbours: they make the
+  // mapping pass a limit where the table does.
   std::vector<TableRow> inside;
   std::vector<TableRow> wide;    // continued where specular is at its limit, too
   std::vector<TableRow> bright;

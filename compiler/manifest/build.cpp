@@ -176,7 +176,7 @@ class Builder {
   }
 
   std::string header_of(const remap::Fit& fit, LockedItem* record) {
-    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
+    const remap::Lowered lowered = remap::lower(fit);
     record->alpha_bound = lowered.alpha.bound;
     record->specular_bound = lowered.specular.bound;
     remap::ConverterData data = remap::converter_data(fit, lowered);
@@ -294,7 +294,7 @@ class Builder {
       const auto known = converters_.find(fit.id);
       converters[i] = known != converters_.end()
                           ? known->second
-                          : remap::converter_data(fit, remap::lower(fit.mapping, fit.domain));
+                          : remap::converter_data(fit, remap::lower(fit));
     });
     write_changed(folders_.generated / kConverterListName, emit_converter_list(std::move(converters)));
     lock_.converters = converters_hash(folders_, lock_);

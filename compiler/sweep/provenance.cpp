@@ -1,6 +1,5 @@
 #include "sweep/provenance.hpp"
 
-#include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -52,10 +51,9 @@ void add_side(const std::string& role, const ProbedModel& probed_model, Comments
     comments->emplace_back(role + "_specular_knee", number_text(response.knee));
 }
 
-void add_limits(const ProbedModel& target, const EffectiveWidths& widths, Comments* comments) {
-  comments->emplace_back(kAlphaLimitComment, number_text(remap::rounded(widths.effective.max, kLimitDigits)));
-  comments->emplace_back(kSpecularLimitComment,
-                         number_text(remap::rounded(target.linear_range().max, kLimitDigits)));
+void add_limits(const TargetLimits& limits, Comments* comments) {
+  comments->emplace_back(kAlphaLimitComment, number_text(remap::rounded(limits.alpha, kLimitDigits)));
+  comments->emplace_back(kSpecularLimitComment, number_text(remap::rounded(*limits.specular, kLimitDigits)));
 }
 
 void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments) {

@@ -134,7 +134,7 @@ std::unique_ptr<Converter> make_converter(const ConverterData& data, Instruction
 }
 
 std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, InstructionSet set) {
-  return make_lowered_converter(fit, lower(fit.mapping, fit.domain), set);
+  return make_lowered_converter(fit, lower(fit), set);
 }
 
 std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, const Lowered& lowered,

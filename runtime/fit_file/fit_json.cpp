@@ -66,10 +66,13 @@ Json mapping_json(const MappingKind& mapping) {
 Json to_json(const Regimes& regimes) {
   Json json = {{"alpha_limit", finite(regimes.alpha_limit)},
                {"specular_limit", regimes.specular_limit ? Json(finite(*regimes.specular_limit)) : Json()}};
-  if (regimes.wide)
+  if (regimes.wide) {
+    Json factors = Json::array();
+    for (const auto& factor : regimes.wide->specular) factors.push_back(numbers_json(factor));
     json["wide"] = {{"from", finite(regimes.wide->from)},
                     {"mapping_to", finite(regimes.wide->mapping_to)},
-                    {"specular", network_json(regimes.wide->specular)}};
+                    {"specular", factors}};
+  }
   if (regimes.bright)
     json["bright"] = {{"specular_from", finite(regimes.bright->specular_from)},
                       {"alpha", network_json(regimes.bright->alpha)}};
@@ -183,7 +186,7 @@ Regimes read_regimes(const Field& field) {
   if (!field["specular_limit"].is_null()) regimes.specular_limit = read_positive(field["specular_limit"]);
   if (field.json().contains("wide")) {
     const Field wide = field["wide"];
-    regimes.wide = {read_positive(wide["from"]), read_positive(wide["mapping_to"]), read_texel_network(wide["specular"])};
+    regimes.wide = {read_positive(wide["from"]), read_positive(wide["mapping_to"]), wide["specular"].list(1, [](const Field& factor) { return factor.numbers(1); })};
   }
   if (field.json().contains("bright")) {
     const Field bright = field["bright"];

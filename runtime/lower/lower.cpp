@@ -6,6 +6,7 @@
 
 #include "lower/approximate.hpp"
 #include "lower/prove.hpp"
+#include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
 
@@ -18,9 +19,12 @@ constexpr std::size_t kFirstBudget = 2000, kBoxBudget = 6000, kSearchBudget = 12
 
 // Converters take the model's own parameter as a float, so the ends of the domain move by some units in the
 // last place of alpha or, for glossiness, of 1 - sqrt(alpha).
+double room(double alpha) { return 2e-6 * alpha + 1.5e-7 * std::sqrt(alpha); }
+double room_below(double alpha) { return alpha - room(alpha); }
+double room_above(double alpha) { return alpha + room(alpha); }
+
 ProofDomain proof_domain(const Domain& domain) {
-  const auto room = [](double alpha) { return 2e-6 * alpha + 1.5e-7 * std::sqrt(alpha); };
-  return {{domain.alpha.min - room(domain.alpha.min), domain.alpha.max + room(domain.alpha.max)},
+  return {{room_below(domain.alpha.min), room_above(domain.alpha.max)},
           {0.0, domain.specular.max * (1.0 + 2e-6)}};
 }
 
@@ -188,8 +192,8 @@ LoweredFunction lower_output(const Wanted& wanted) {
 }
 
 template <typename Kind>
-Lowered lower_kind(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
-                   const LoweringOptions& options) {
+Wanted wanted_alpha(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
+                    const LoweringOptions& options) {
   Wanted alpha;
   alpha.name = "target alpha";
   alpha.model = mapped_function(alpha_depends_on_specular(mapping),
@@ -197,7 +201,13 @@ Lowered lower_kind(const Kind& kind, const MappingKind& mapping, const ProofDoma
   alpha.domain = domain;
   alpha.tolerance = options.alpha_tolerance;
   alpha.table_limit = options.table_limit;
+  return alpha;
+}
 
+// `limit`: what lies beyond is not looked at, so it is no unit of errors.
+template <typename Kind>
+Wanted wanted_specular(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
+                       const std::optional<double>& limit, const LoweringOptions& options) {
   Wanted specular;
   specular.name = "target specular";
   specular.unit_text = " of its largest value";
@@ -206,18 +216,121 @@ Lowered lower_kind(const Kind& kind, const MappingKind& mapping, const ProofDoma
       !specular.is_factor, [kind](const auto& a, const auto& s) { return target_specular(kind, a, s); });
   specular.domain = specular.is_factor ? ProofDomain{domain.alpha, {1.0, 1.0}} : domain;
   specular.specular_max = domain.specular.max;
-  const double largest = sample(specular.model, specular.domain).largest;
-  if (largest != 0.0) specular.unit = largest * (specular.is_factor ? domain.specular.max : 1.0);
+  const double largest =
+      sample(specular.model, specular.domain).largest * (specular.is_factor ? domain.specular.max : 1.0);
+  if (largest != 0.0) specular.unit = std::min(largest, limit.value_or(largest));
   specular.tolerance = options.specular_tolerance;
   specular.table_limit = options.table_limit;
-  return {lower_output(alpha), lower_output(specular)};
+  return specular;
+}
+
+// Another function of both parameters in place of `like`.
+template <typename Evaluate>
+Wanted wanted_regime(const Wanted& like, const char* name, const ProofDomain& domain, const Evaluate& evaluate) {
+  Wanted wanted = like;
+  wanted.name = name;
+  wanted.is_factor = false;
+  wanted.model = mapped_function(true, evaluate);
+  wanted.domain = domain;
+  return wanted;
+}
+
+// Whether values of the function may pass `limit` on its samples.
+bool may_pass(const Wanted& wanted, double limit) {
+  const double factor = wanted.is_factor ? wanted.specular_max : 1.0;
+  const std::vector<double> values = sample(wanted.model, wanted.domain).values;
+  return factor * *std::ranges::max_element(values) + wanted.tolerance * wanted.unit > limit;
+}
+
+// Beyond the limit of specular, pictures differ by far more than a width that is off by this times the tolerance.
+constexpr double kBrightTolerance = 10.0;
+
+constexpr int kStepSamples = 200;
+
+// The largest steps between regimes where the mapping of `fit` says that they meet.
+void find_steps(const Fit& fit, const ProofDomain& domain, Lowered* lowered) {
+  const auto at = [](const Range& range, int i) { return range.min + (range.max - range.min) * i / kStepSamples; };
+  const auto across = [&](const TexelWidth& a, const TexelWidth& b, double alpha, double specular) {
+    lowered->alpha_step = std::max(lowered->alpha_step, std::fabs(a.alpha - b.alpha));
+    const double step = target_channel(fit, a.is_wide, alpha, specular) - target_channel(fit, b.is_wide, alpha, specular);
+    lowered->specular_step = std::max(lowered->specular_step, std::fabs(step));
+  };
+  // Bisects between neighbours of different regimes, along a line of one parameter.
+  const auto along = [&](const auto& texel_at, const Range& range) {
+    for (int i = 0; i < kStepSamples; ++i) {
+      double low = at(range, i), high = at(range, i + 1);
+      const auto regime = [&](double x) {
+        const auto [alpha, specular] = texel_at(x);
+        const TexelWidth width = target_width(fit, alpha, specular);
+        return std::pair(width.is_wide, is_bright(fit, width.is_wide, alpha, specular));
+      };
+      const auto first = regime(low);
+      if (first == regime(high)) continue;
+      for (int k = 0; k < 40; ++k) {
+        const double middle = 0.5 * (low + high);
+        (regime(middle) == first ? low : high) = middle;
+      }
+      const auto [alpha, specular] = texel_at(high);
+      const auto [before_alpha, before_specular] = texel_at(low);
+      across(target_width(fit, before_alpha, before_specular), target_width(fit, alpha, specular), alpha, specular);
+    }
+  };
+  for (int i = 0; i <= kStepSamples; ++i) {
+    along([&](double s) { return std::pair(at(domain.alpha, i), s); }, domain.specular);
+    along([&](double a) { return std::pair(a, at(domain.specular, i)); }, domain.alpha);
+  }
 }
 
 }  // namespace
 
 Lowered lower(const MappingKind& mapping, const Domain& domain, const LoweringOptions& options) {
-  return std::visit(
-      [&](const auto& kind) { return lower_kind(kind, mapping, proof_domain(domain), options); }, mapping);
+  Fit fit;
+  fit.mapping = mapping;
+  fit.domain = domain;
+  fit.regimes.alpha_limit = INFINITY;
+  return lower(fit, options);
+}
+
+Lowered lower(const Fit& fit, const LoweringOptions& options) {
+  const ProofDomain domain = proof_domain(fit.domain);
+  const Regimes& regimes = fit.regimes;
+  ProofDomain inside = domain;
+  if (regimes.wide) inside.alpha.max = std::min(inside.alpha.max, room_above(regimes.wide->mapping_to));
+  const auto [alpha, specular] = std::visit(
+      [&](const auto& kind) {
+        return std::pair(wanted_alpha(kind, fit.mapping, inside, options),
+                         wanted_specular(kind, fit.mapping, inside, regimes.specular_limit, options));
+      },
+      fit.mapping);
+  Lowered lowered;
+  lowered.alpha = lower_output(alpha);
+  lowered.specular = lower_output(specular);
+  if (may_pass(alpha, regimes.alpha_limit)) lowered.alpha_limit = static_cast<float>(regimes.alpha_limit);
+  if (regimes.specular_limit && may_pass(specular, *regimes.specular_limit))
+    lowered.specular_limit = static_cast<float>(*regimes.specular_limit);
+  if (regimes.wide) {
+    ProofDomain wide = domain;
+    wide.alpha.min = room_below(regimes.wide->from);
+    const Wanted wanted =
+        wanted_regime(specular, "target specular of the wide regime", wide,
+                      [polynomial = regimes.wide->specular](const auto& a, const auto& s) {
+                        return polynomial_value(polynomial, a, s);
+                      });
+    lowered.wide = {static_cast<float>(regimes.wide->from), static_cast<float>(regimes.wide->mapping_to),
+                    lower_output(wanted)};
+  }
+  if (regimes.bright) {
+    ProofDomain bright = domain;
+    bright.specular.min = regimes.bright->specular_from * (1.0 - 2e-6);
+    Wanted wanted = wanted_regime(alpha, "target alpha of the bright regime", bright,
+                                  [network = regimes.bright->alpha](const auto& a, const auto& s) {
+                                    return network_value(network, a, s);
+                                  });
+    wanted.tolerance *= kBrightTolerance;
+    lowered.bright = {static_cast<float>(regimes.bright->specular_from), lower_output(wanted)};
+  }
+  if (regimes.wide || regimes.bright) find_steps(fit, domain, &lowered);
+  return lowered;
 }
 
 }  // namespace remap

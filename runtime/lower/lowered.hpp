@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "remap/fit.hpp"
@@ -45,12 +46,35 @@ struct LoweredFunction {
   bool operator==(const LoweredFunction&) const = default;
 };
 
-// A mapping over the domain of its fit. Bounds of specular are in units of target specular, for specular
-// within the domain.
+// The regimes of remap/regimes.hpp.
+struct LoweredWide {
+  float from = 0.0f, mapping_to = 1.0f;
+  LoweredFunction specular;
+  bool operator==(const LoweredWide&) const = default;
+};
+struct LoweredBright {
+  float specular_from = 0.0f;
+  LoweredFunction alpha;
+  bool operator==(const LoweredBright&) const = default;
+};
+
+// A fit over its domain. Bounds of specular are in units of target specular, for specular within the domain.
 struct Lowered {
   LoweredFunction alpha;     // one power of specular if target alpha does not depend on it
   LoweredFunction specular;  // power 1 alone if the mapping is proportional
+  // Set where a polynomial may pass the limit, which then holds what it gives.
+  std::optional<float> alpha_limit, specular_limit;
+  std::optional<LoweredWide> wide;
+  std::optional<LoweredBright> bright;
+  // The largest difference of target alpha and of target specular between regimes where they meet, found by sampling:
+  // near a joint, floats may select another regime than doubles.
+  double alpha_step = 0.0, specular_step = 0.0;
   bool operator==(const Lowered&) const = default;
+
+  bool has_regimes() const { return alpha_limit.has_value() || specular_limit.has_value(); }
+  // Bounds over all regimes.
+  double alpha_bound() const;
+  double specular_bound() const;
 };
 
 // The value in float arithmetic, in the order of operations of the generated header without contraction.

@@ -100,6 +100,17 @@ Scalar expansion_value(const KernelExpansion& expansion, const Scalar& alpha, co
 }
 
 template <typename Scalar>
+Scalar polynomial_value(const TexelPolynomial& polynomial, const Scalar& alpha, const Scalar& specular) {
+  Scalar sum = alpha * 0.0;
+  for (std::size_t j = polynomial.size(); j-- > 0;) {
+    Scalar factor = alpha * 0.0;
+    for (std::size_t i = polynomial[j].size(); i-- > 0;) factor = factor * alpha + polynomial[j][i];
+    sum = sum * specular + factor;
+  }
+  return sum;
+}
+
+template <typename Scalar>
 Scalar target_alpha(const Parametric& form, const Scalar& alpha, const Scalar& specular) {
   Scalar sum = alpha * 0.0;
   for (std::size_t j = form.alpha.size(); j-- > 0;) {

@@ -18,7 +18,7 @@ double mapping_alpha(const Fit& fit, double alpha) {
 // Target specular without its limits.
 double free_specular(const Fit& fit, bool is_wide, double alpha, double specular) {
   if (is_wide && fit.regimes.wide)
-    return network_value(fit.regimes.wide->specular, std::max(alpha, fit.regimes.wide->from), specular);
+    return polynomial_value(fit.regimes.wide->specular, std::max(alpha, fit.regimes.wide->from), specular);
   return std::visit(
       [&](const auto& kind) { return target_specular(kind, mapping_alpha(fit, alpha), specular); },
       fit.mapping);
@@ -36,14 +36,18 @@ MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double sp
       mapping);
 }
 
+bool is_bright(const Fit& fit, bool is_wide, double alpha, double specular) {
+  return fit.regimes.specular_limit &&
+         free_specular(fit, is_wide, alpha, specular) > *fit.regimes.specular_limit;
+}
+
 TexelWidth target_width(const Fit& fit, double alpha, double top) {
   const Regimes& regimes = fit.regimes;
   const double mapped = std::visit(
       [&](const auto& kind) { return target_alpha(kind, mapping_alpha(fit, alpha), top); }, fit.mapping);
   const bool is_wide = mapped >= regimes.alpha_limit;
   const double width = std::min(mapped, regimes.alpha_limit);
-  if (!regimes.bright || !(free_specular(fit, is_wide, alpha, top) > *regimes.specular_limit))
-    return {width, is_wide};
+  if (!regimes.bright || !is_bright(fit, is_wide, alpha, top)) return {width, is_wide};
   const double bright = network_value(regimes.bright->alpha, alpha, std::max(top, regimes.bright->specular_from));
   return {std::min(bright, regimes.alpha_limit), is_wide};
 }

@@ -18,6 +18,9 @@ struct TexelWidth {
 };
 TexelWidth target_width(const Fit& fit, double alpha, double top);
 
+// Whether target specular of a channel of such a texel is at its limit.
+bool is_bright(const Fit& fit, bool is_wide, double alpha, double specular);
+
 // Target specular of a channel of such a texel, from 0 to the limit.
 double target_channel(const Fit& fit, bool is_wide, double alpha, double specular);
 

@@ -12,23 +12,27 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "remap/mapping.hpp"
 
 namespace remap {
+
+// The sum over powers j of specular and i of alpha of coefficients[j][i] specular^j alpha^i.
+using TexelPolynomial = std::vector<std::vector<double>>;
 
 struct WideRegime {
   // The mapping reaches the limit of alpha between these widths of the source, whatever the specular: it is evaluated
   // up to `mapping_to`, and `specular` from `from`. Beyond, each is held.
   double from = 0.0;
   double mapping_to = 1.0;
-  Network specular;  // of alpha and specular of the source: target specular
+  TexelPolynomial specular;  // target specular
   bool operator==(const WideRegime&) const = default;
 };
 
 struct BrightRegime {
   double specular_from = 0.0;  // the least source specular whose match is bright; below, it is held
-  Network alpha;               // the same: target alpha
+  Network alpha;               // of alpha and specular: target alpha
   bool operator==(const BrightRegime&) const = default;
 };
 
