@@ -101,7 +101,9 @@ Json converter_json(const ChosenConverter& chosen) {
                {"path", path_json(chosen.path)},
                {"expected_error", chosen.path.expected_error},
                {"source", info.source.model},
-               {"target", info.target.model}};
+               {"target", info.target.model},
+               {"closest_of", chosen.workflow.is_closest ? Json(chosen.workflow.renderer) : Json()}};
+  json.update(closeness_json(chosen.path, chosen.closeness));
   if (!chosen.workflow.is_material()) return json;
   json["workflow"] = {
       {"source", end_json(*chosen.workflow.source)},
