@@ -50,14 +50,14 @@ class Draw {
 
 double largest(const Rgb& rgb) { return std::max({rgb[0], rgb[1], rgb[2]}); }
 
-Rgb scaled(Rgb rgb, double factor) {
+Rgb dimmed(Rgb rgb, double factor) {
   for (double& value : rgb) value *= factor;
   return rgb;
 }
 
 // Scales diffuse to the energy that the specular lobe leaves.
 Reflectances reflecting(const Rgb& diffuse, const Rgb& f0) {
-  return {scaled(diffuse, 1.0 - largest(f0)), f0};
+  return {dimmed(diffuse, 1.0 - largest(f0)), f0};
 }
 
 // Colors are uniform in display values, like colors from a color picker.

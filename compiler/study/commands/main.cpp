@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("remap-study ") + remap::kVersion);
   app.require_subcommand(1);
   remapc::add_environments_study(app);
+  remapc::add_reach_study(app);
   remapc::add_workflows_study(app);
   remapc::add_conductors_study(app);
   remapc::add_dielectrics_study(app);

@@ -1,0 +1,63 @@
+#include "study/reach_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "text/number_text.hpp"
+
+namespace remapc {
+namespace {
+
+using remap::number_text;
+
+std::string percent(double share) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3f", 100.0 * share);
+  return text.data();
+}
+
+std::string material_row(const std::string& id, const ReachedMaterial& m) {
+  std::string row = id;
+  for (const double value : {m.alpha, m.specular, m.target_alpha, m.target_specular, m.error, m.least_alpha,
+                             m.least_specular, m.least_error})
+    row += "," + number_text(remap::rounded(value, 6));
+  return row + "\n";
+}
+
+}  // namespace
+
+StudyReport reach_report(const ReachOptions& options, const std::vector<FitReach>& result) {
+  std::vector<const FitReach*> worst_first;
+  for (const FitReach& reach : result) worst_first.push_back(&reach);
+  std::ranges::sort(worst_first, std::greater<>(),
+                    [](const FitReach* reach) { return reach->worst().excess(); });
+  StudyReport report;
+  report.summary =
+      "excess of the image error over the least that the target can reach, % of the source: mean, largest "
+      "(its alpha, specular)\n";
+  std::string table =
+      "fit,alpha,specular,target_alpha,target_specular,error,least_alpha,least_specular,least_error\n";
+  double sum = 0.0;
+  report.figures["fits"] = nlohmann::ordered_json::array();
+  for (const FitReach* reach : worst_first) {
+    const std::string& id = options.fits[reach->fit].id;
+    const ReachedMaterial& worst = reach->worst();
+    sum += reach->mean_excess();
+    report.summary += percent(reach->mean_excess()) + "  " + percent(worst.excess()) + "  (" +
+                      number_text(remap::rounded(worst.alpha, 3)) + ", " +
+                      number_text(remap::rounded(worst.specular, 3)) + ")  " + id + "\n";
+    report.figures["fits"].push_back({{"id", id},
+                                      {"mean_excess", reach->mean_excess()},
+                                      {"largest_excess", worst.excess()},
+                                      {"alpha", worst.alpha},
+                                      {"specular", worst.specular}});
+    for (const ReachedMaterial& material : reach->materials) table += material_row(id, material);
+  }
+  report.figures["mean_excess"] = sum / static_cast<double>(result.size());
+  report.summary += "mean of all " + percent(sum / static_cast<double>(result.size())) + "\n";
+  report.tables.emplace_back("reach.csv", table);
+  return report;
+}
+
+}  // namespace remapc
