@@ -59,7 +59,7 @@ void add_pictures(const Fit& fit, Row* row) {
   const auto least = std::min_element(
       spheres.begin(), spheres.end(),
       [](const remap::SphereSimilarity& a, const remap::SphereSimilarity& b) { return a.ssim < b.ssim; });
-  (*row)["ssim"] = figure(mean_ssim(fit));
+  (*row)["ssim"] = figure(*mean_ssim(fit));
   (*row)["ssim_least"] = figure(least->ssim);
   (*row)["ssim_least_at_alpha"] = figure(least->alpha);
 }

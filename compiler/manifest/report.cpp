@@ -80,7 +80,7 @@ std::string converters_text(const std::vector<const Fit*>& fits, bool with_simil
   std::string text;
   for (const Fit* fit : fits) {
     text += (text.empty() ? "" : ", ") + link(percent_text(image_error(*fit)), fit->id);
-    if (with_similarity && is_measured(*fit)) text += ", " + fixed(mean_ssim(*fit), 3);
+    if (with_similarity && is_measured(*fit)) text += ", " + fixed(*mean_ssim(*fit), 3);
     if (!trust_warning(*fit).empty()) text += kMark;
   }
   return text;

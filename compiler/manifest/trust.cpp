@@ -10,17 +10,11 @@ namespace remapc {
 
 using remap::Fit;
 
-bool is_measured(const Fit& fit) { return fit.image_similarity && !fit.image_similarity->ssim.empty(); }
+bool is_measured(const Fit& fit) { return mean_ssim(fit).has_value(); }
 
 double image_error(const Fit& fit) {
   return fit.image_similarity ? fit.image_similarity->image_error.rms
                               : std::numeric_limits<double>::infinity();
-}
-
-double mean_ssim(const Fit& fit) {
-  double sum = 0.0;
-  for (const remap::SphereSimilarity& sphere : fit.image_similarity->ssim) sum += sphere.ssim;
-  return sum / static_cast<double>(fit.image_similarity->ssim.size());
 }
 
 std::string trust_warning(const Fit& fit) {

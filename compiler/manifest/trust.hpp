@@ -18,9 +18,6 @@ bool is_measured(const remap::Fit& fit);
 // Returns the RMS image error at the best parameters; infinity if no pictures were compared.
 double image_error(const remap::Fit& fit);
 
-// Returns the mean structural similarity of the compared spheres. The fit must be measured.
-double mean_ssim(const remap::Fit& fit);
-
 // Returns why the converter needs a look before use, `image error above 0.33` or `pictures never compared`;
 // empty if it does not. Such converters carry a mark in the report.
 std::string trust_warning(const remap::Fit& fit);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/interpreter.hpp"
 #include "probe/picture_sums.hpp"
 #include "probe/picture_taker.hpp"
 #include "probe/probe.hpp"
-#include "model/interpreter.hpp"
 #include "system/parallel.hpp"
 #include "text/errors.hpp"
 
@@ -47,7 +47,8 @@ TargetWidths target_widths(const PictureTaker& taker, const ProbedModel& target,
   TargetWidths widths;
   widths.speculars = target.linear_range();
   const double least = std::max(target.model.alpha.min, narrowest);
-  for (double alpha = target.model.alpha.max; alpha > least; alpha /= kWidthRatio) widths.alphas.push_back(alpha);
+  for (double alpha = target.model.alpha.max; alpha > least; alpha /= kWidthRatio)
+    widths.alphas.push_back(alpha);
   widths.alphas.push_back(least);
   for (const double alpha : widths.alphas) widths.pictures.push_back(take_affine(taker, target, alpha));
   return widths;
@@ -87,8 +88,8 @@ class Comparison {
   double power_;
 };
 
-// The least value of the parabola through three errors at equal steps, the middle one least, in squares: there losses
-// are parabolas.
+// The least value of the parabola through three errors at equal steps, the middle one least, in squares:
+// there losses are parabolas.
 double least_between(double before, double middle, double after) {
   const double b = before * before, m = middle * middle, a = after * after;
   const double bend = b - 2.0 * m + a;
@@ -138,7 +139,8 @@ class FitStudy {
     for (std::size_t k = 1; k <= options_.materials; ++k) {
       ReachedMaterial material;
       material.alpha = alpha;
-      material.specular = source_.linear_range().max * static_cast<double>(k) / static_cast<double>(options_.materials);
+      material.specular =
+          source_.linear_range().max * static_cast<double>(k) / static_cast<double>(options_.materials);
       for (std::size_t i = 0; i < source.size(); ++i)
         source[i] = pictures.base[i] + static_cast<float>(material.specular) * pictures.slope[i];
       const Comparison comparison(source, taker_.weights(source));
@@ -154,7 +156,8 @@ class FitStudy {
  private:
   void convert(ReachedMaterial* material) const {
     const double own = remap::from_alpha(fit_.source.roughness, material->alpha);
-    const double width = remap::evaluate_texel(fit_, own, {&material->specular, 1}, {&material->target_specular, 1});
+    const double width =
+        remap::evaluate_texel(fit_, own, {&material->specular, 1}, {&material->target_specular, 1});
     material->target_alpha = remap::to_alpha(fit_.target.roughness, width);
   }
 

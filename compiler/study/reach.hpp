@@ -1,5 +1,5 @@
-// The reach study: how much nearer to the source's picture the target could come than a converter brings it, over the
-// whole range of both parameters.
+// The reach study: how much nearer to the source's picture the target could come than a converter brings it,
+// over the whole range of both parameters.
 #pragma once
 
 #include <atomic>
@@ -12,19 +12,19 @@
 namespace remapc {
 
 struct ReachOptions {
-  std::vector<remap::Fit> fits;        // between models of the built-in renderer
-  std::size_t materials = 32;          // of each parameter: their product is compared
-  remap::Range alphas{0.05, 1.0};      // of the source; narrower highlights need more pixels
-  int resolution = 96;                 // width and height of the pictures in pixels
-  unsigned jobs = 0;                   // threads; 0: one per core. Results do not depend on it
-  std::function<void()> progress;      // called progress_steps() times, from any thread
+  std::vector<remap::Fit> fits;    // between models of the built-in renderer
+  std::size_t materials = 32;      // of each parameter: their product is compared
+  remap::Range alphas{0.05, 1.0};  // of the source; narrower highlights need more pixels
+  int resolution = 96;             // width and height of the pictures in pixels
+  unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
+  std::function<void()> progress;  // called progress_steps() times, from any thread
   const std::atomic<bool>* cancelled = nullptr;
 };
 
 std::size_t progress_steps(const ReachOptions& options);
 
-// One source material. Errors are those of the pictures, relative to the source's, as the objective of the fit's
-// table weighs them.
+// One source material. Errors are those of the pictures, relative to the source's, as the objective of the
+// fit's table weighs them.
 struct ReachedMaterial {
   double alpha = 0.0, specular = 0.0;                // of the source
   double target_alpha = 0.0, target_specular = 0.0;  // by the converter
@@ -41,9 +41,10 @@ struct FitReach {
   const ReachedMaterial& worst() const;  // of the largest excess
 };
 
-// Renders every material, its conversion (as converters evaluate it, in floats), and the target at widths a hundredth
-// apart, each at its best specular in closed form. No search of a sweep takes part. Throws kUsage for models that
-// the renderer does not have, kInput for a fit whose table does not name its objective, and kInterrupted.
+// Renders every material, its conversion (as converters evaluate it, in floats), and the target at widths a
+// hundredth apart, each at its best specular in closed form. No search of a sweep takes part. Throws kUsage
+// for models that the renderer does not have, kInput for a fit whose table does not name its objective, and
+// kInterrupted.
 std::vector<FitReach> study_reach(const Renderer& renderer, const ReachOptions& options);
 
 }  // namespace remapc

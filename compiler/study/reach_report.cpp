@@ -33,8 +33,9 @@ StudyReport reach_report(const ReachOptions& options, const std::vector<FitReach
   std::ranges::sort(worst_first, std::greater<>(),
                     [](const FitReach* reach) { return reach->worst().excess(); });
   StudyReport report;
-  report.summary = "excess of the image error over the least that the target can reach, % of the source: mean, largest "
-                   "(its alpha, specular)\n";
+  report.summary =
+      "excess of the image error over the least that the target can reach, % of the source: mean, largest "
+      "(its alpha, specular)\n";
   std::string table =
       "fit,alpha,specular,target_alpha,target_specular,error,least_alpha,least_specular,least_error\n";
   double sum = 0.0;

@@ -30,6 +30,7 @@ ConverterInfo info_of(const Fit& fit) {
           known(fit.alpha_error.rms),
           known(fit.specular_error.rms),
           image_error,
+          mean_ssim(fit),
           InstructionSet::kBaseline,
           {}};
 }

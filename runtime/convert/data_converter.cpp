@@ -39,6 +39,7 @@ ConverterInfo info_of(const ConverterData& data, InstructionSet set) {
           data.roughness_rms_error,
           data.specular_rms_error,
           data.image_rms_error,
+          data.ssim,
           set,
           {}};
 }

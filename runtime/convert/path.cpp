@@ -35,6 +35,18 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+// Refuses a name that is not one of the `known` models.
+[[noreturn]] void fail_unknown_model(const std::string& role, const std::string& name,
+                                     const std::vector<std::string>& known) {
+  std::vector<std::string> of_renderer;
+  for (const std::string& model : known)
+    if (!name.empty() && renderer_of(model) == name) of_renderer.push_back(model);
+  if (!of_renderer.empty())
+    throw Error(ErrorKind::kUsage, role + ": " + name + " is a renderer (choose one of its models: " +
+                                       joined(of_renderer, ", ") + ")");
+  throw Error(ErrorKind::kUsage, "unknown " + role + " '" + name + "'" + suggestion(name, known));
+}
+
 }  // namespace
 
 double expected_error(const ConverterInfo& info) {
@@ -49,6 +61,13 @@ std::vector<std::string> path_models(const ConverterPath& path) {
   std::vector<std::string> models = {path.steps.front()->info().source.model};
   for (const Converter* step : path.steps) models.push_back(step->info().target.model);
   return models;
+}
+
+const std::string& target_model(const ConverterPath& path) { return path.steps.back()->info().target.model; }
+
+std::string renderer_of(const std::string& model) {
+  const std::size_t slash = model.find('/');
+  return slash == std::string::npos ? "" : model.substr(0, slash);
 }
 
 ConverterGraph::ConverterGraph(std::vector<const Converter*> converters, Detours detours)
@@ -89,12 +108,14 @@ std::size_t ConverterGraph::node(const std::string& model) const {
 
 std::vector<std::string> ConverterGraph::names_connected(const std::string& model, bool forwards) const {
   std::vector<std::string> names;
-  if (!holds(models_, model)) return names;
+  if (!has_model(model)) return names;
   const std::vector<bool> met = connected(*graph_, node(model), forwards);
   for (std::size_t i = 0; i < models_.size(); ++i)
     if (met[i] && models_[i] != model) names.push_back(models_[i]);
   return names;
 }
+
+bool ConverterGraph::has_model(const std::string& name) const { return holds(models_, name); }
 
 std::vector<std::string> ConverterGraph::reachable_from(const std::string& model) const {
   return names_connected(model, true);
@@ -102,6 +123,13 @@ std::vector<std::string> ConverterGraph::reachable_from(const std::string& model
 
 std::vector<std::string> ConverterGraph::reaching(const std::string& model) const {
   return names_connected(model, false);
+}
+
+std::vector<std::string> ConverterGraph::models_of(const std::string& renderer) const {
+  std::vector<std::string> models;
+  for (const std::string& model : models_)
+    if (!renderer.empty() && renderer_of(model) == renderer) models.push_back(model);
+  return models;
 }
 
 ConverterPath ConverterGraph::path_of(const std::vector<std::size_t>& edges) const {
@@ -124,6 +152,17 @@ std::vector<ConverterPath> ConverterGraph::find_paths(const PathRequest& request
   return paths;
 }
 
+std::vector<ConverterPath> ConverterGraph::paths_to_renderer(const PathRequest& request) const {
+  std::vector<ConverterPath> paths;
+  for (const std::string& model : models_of(request.target)) {
+    if (model == request.source || holds(request.via, model)) continue;
+    const std::vector<std::size_t> nodes = waypoints({request.source, model, request.via});
+    for (const std::vector<std::size_t>& edges : least_paths(*graph_, nodes, 1))
+      paths.push_back(path_of(edges));
+  }
+  return paths;
+}
+
 // The models that a request names, which the graph knows, each once.
 std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) const {
   std::vector<std::string> sources, targets;
@@ -133,9 +172,7 @@ std::vector<std::size_t> ConverterGraph::waypoints(const PathRequest& request) c
   }
   std::vector<std::size_t> nodes;
   const auto add = [&](const std::string& model, const char* role, std::vector<std::string> known) {
-    if (!holds(models_, model))
-      throw Error(ErrorKind::kUsage, std::string("unknown ") + role + " '" + model + "'" +
-                                         suggestion(model, unique_names(std::move(known))));
+    if (!has_model(model)) fail_unknown_model(role, model, unique_names(std::move(known)));
     if (std::find(nodes.begin(), nodes.end(), node(model)) != nodes.end())
       throw Error(ErrorKind::kUsage,
                   model +

@@ -27,6 +27,10 @@ std::optional<double> two_digits(bool is_known, double error) {
   return is_known ? std::optional<double>(rounded_up(error, 2)) : std::nullopt;
 }
 
+std::optional<double> three_digits(const std::optional<double>& value) {
+  return value ? std::optional<double>(rounded(*value, 3)) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, double specular_error) {
@@ -64,6 +68,7 @@ ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
           two_digits(fit.has_errors(), fit.specular_error.rms),
           two_digits(fit.image_similarity.has_value(),
                      fit.image_similarity ? fit.image_similarity->image_error.rms : 0.0),
+          three_digits(mean_ssim(fit)),
           lowered.alpha.polynomial,
           lowered.specular.polynomial,
           golden_texels(fit, lowered.alpha.bound, lowered.specular.bound)};

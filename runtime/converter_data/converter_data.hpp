@@ -31,6 +31,7 @@ struct ConverterData {
   Range roughness, specular;  // covered, in the source's own parameters
   // Of the fit, as in ConverterInfo; two digits, rounded up.
   std::optional<double> roughness_rms_error, specular_rms_error, image_rms_error;
+  std::optional<double> ssim;  // as in ConverterInfo; three digits
   PiecewisePolynomial alpha_polynomial, specular_polynomial;
   std::vector<GoldenTexel> golden;
   bool operator==(const ConverterData&) const = default;

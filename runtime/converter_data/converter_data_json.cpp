@@ -73,6 +73,7 @@ std::string converter_text(const ConverterData& data) {
   add("target", side_json(data.target).dump());
   add("domain", domain.dump());
   add("rms_error", errors.dump());
+  add("ssim", optional_json(data.ssim).dump());
   add("alpha", polynomial_text(data.alpha_polynomial));
   add("specular", polynomial_text(data.specular_polynomial));
   add("golden", golden_text(data.golden));
@@ -117,7 +118,7 @@ PiecewisePolynomial read_polynomial(const Field& field) {
   return polynomial;
 }
 
-std::optional<double> read_error(const Field& field) {
+std::optional<double> read_optional(const Field& field) {
   return field.is_null() ? std::nullopt : std::optional<double>(field.number());
 }
 
@@ -134,9 +135,10 @@ ConverterData read_converter(const Field& field) {
   data.roughness = read_range(field["domain"]["roughness"]);
   data.specular = read_range(field["domain"]["specular"]);
   field["domain"].require(data.roughness.min >= 0.0 && data.specular.min >= 0.0, "ranges from 0 or more");
-  data.roughness_rms_error = read_error(field["rms_error"]["roughness"]);
-  data.specular_rms_error = read_error(field["rms_error"]["specular"]);
-  data.image_rms_error = read_error(field["rms_error"]["image"]);
+  data.roughness_rms_error = read_optional(field["rms_error"]["roughness"]);
+  data.specular_rms_error = read_optional(field["rms_error"]["specular"]);
+  data.image_rms_error = read_optional(field["rms_error"]["image"]);
+  data.ssim = read_optional(field["ssim"]);
   data.alpha_polynomial = read_polynomial(field["alpha"]);
   data.specular_polynomial = read_polynomial(field["specular"]);
   data.golden = field["golden"].list(1, read_golden);

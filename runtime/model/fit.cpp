@@ -41,6 +41,13 @@ std::string identifier(const std::string& model) {
 
 }  // namespace
 
+std::optional<double> mean_ssim(const Fit& fit) {
+  if (!fit.image_similarity || fit.image_similarity->ssim.empty()) return std::nullopt;
+  double sum = 0.0;
+  for (const SphereSimilarity& sphere : fit.image_similarity->ssim) sum += sphere.ssim;
+  return sum / static_cast<double>(fit.image_similarity->ssim.size());
+}
+
 std::string converter_id(const std::string& source_model, const std::string& target_model) {
   return identifier(source_model) + "_to_" + identifier(target_model);
 }

@@ -31,6 +31,16 @@ void warn(const ConvertOptions& options, const std::string& message) {
   if (!options.quiet) print_message(kProgram, "warning: " + message);
 }
 
+// Says which model `--to` stands for, and how closely the target can look like the source.
+void print_notes(const ConvertOptions& options, const ChosenConverter& chosen) {
+  if (options.quiet) return;
+  const auto note = [](const std::string& text) {
+    if (!text.empty()) print_message(kProgram, "note: " + text);
+  };
+  if (chosen.workflow.is_closest) note(closest_text(chosen.workflow.target_brdf, chosen.path.expected_error));
+  note(closeness_text(chosen.path, chosen.closeness));
+}
+
 // The interpreter runs a fit that cannot be lowered, slowly.
 std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const WorkflowChoice& workflow,
                                             Fit fit, InstructionSet set) {
@@ -59,13 +69,16 @@ void choose_brdf(const ConvertOptions& options, const GivenFit& fit, Instruction
     chosen.owned_brdf = converter_of_fit(
         options, workflow, require_width_and_specular(*fit, ErrorKind::kInput, options.fit), set);
     chosen.path = {{chosen.owned_brdf.get()}, expected_error(chosen.owned_brdf->info())};
+    chosen.closeness = closeness_of(chosen.path, {});
   } else {
     if (options.from.empty() || options.to.empty())
       throw Error(ErrorKind::kUsage,
                   std::string(options.from.empty() ? "--from" : "--to") + " is required (or --fit)");
     if (workflow.is_material() && workflow.source_brdf == workflow.target_brdf && options.via.empty()) return;
-    chosen.path =
-        shipped_graph(set).find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
+    const ConverterGraph graph = shipped_graph(set);
+    chosen.path = graph.find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
+    chosen.closeness =
+        closeness_of(chosen.path, graph.paths_to_renderer({workflow.source_brdf, workflow.renderer, {}}));
     if (chosen.path.steps.size() > 1) chosen.owned_brdf = make_chained_converter(chosen.path.steps);
   }
   chosen.brdf = chosen.owned_brdf ? chosen.owned_brdf.get() : chosen.path.steps.front();
@@ -179,6 +192,7 @@ void convert(const ConvertOptions& options) {
   const TextureSetRequest request = set_request(options, workflow);
   const ChosenConverter chosen = choose_converter(options, fit, std::move(workflow));
   for (const std::string& assumption : chosen.workflow.assumptions) warn(options, assumption);
+  print_notes(options, chosen);
   if (options.folder.empty() && are_constants(request))
     convert_values(options, chosen, request);
   else

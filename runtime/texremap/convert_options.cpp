@@ -38,7 +38,8 @@ void add_source_options(Command& command, ConvertOptions& options) {
       command, options, "Source and target",
       {{"DIR", &O::folder, "", "Folder of texture sets, found by the names of their maps"},
        {"--from", &O::from, "MODEL", "Source model, e.g. mitsuba/ward"},
-       {"--to", &O::to, "MODEL", "Target model, e.g. mitsuba/as"},
+       {"--to", &O::to, "MODEL",
+        "Target model, e.g. mitsuba/as, or a renderer, e.g. cycles-5, for the closest of its models"},
        {"--fit", &O::fit, "FILE", "Convert by this fit (JSON) instead of a shipped converter"},
        {"-r,--recursive", &O::recursive, "", "Convert the subfolders of DIR, too; results mirror the tree"}});
   command.add_option("--via", options.via, "Model that the path must pass through; repeatable, in order")

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "command_line/progress.hpp"
-#include "remap/path.hpp"
+#include "remap/closeness.hpp"
 #include "texremap/conversion_jobs.hpp"
 #include "texture/material_survey.hpp"
 #include "texture/texture_pass.hpp"
@@ -22,6 +22,7 @@ struct ChosenConverter {
   std::unique_ptr<Converter> owned_brdf;  // unless `brdf` is a shipped one
   const Converter* brdf = nullptr;        // of width and specular; null if both ends share a BRDF
   ConverterPath path;                     // the steps of `brdf`
+  Closeness closeness;                    // of the path
   WorkflowChoice workflow;
   std::unique_ptr<Converter> material;  // of whole materials; null if width and specular are all
 

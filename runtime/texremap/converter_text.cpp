@@ -25,13 +25,46 @@ std::string errors_text(const ConverterInfo& info) {
                               ? "rms " + figure_text(*info.roughness_rms_error) + " in alpha and " +
                                     figure_text(*info.specular_rms_error) + " in " + info.target.specular
                               : "unknown";
-  return "image " + text(info.image_rms_error) + ", fit " + fit;
+  const std::string ssim = info.ssim ? ", SSIM " + number_text(rounded(*info.ssim, 3)) : "";
+  return "image " + text(info.image_rms_error) + ssim + ", fit " + fit;
 }
 
 std::string models_text(const ConverterPath& path) {
   std::string text;
   for (const std::string& model : path_models(path)) text += (text.empty() ? "" : " -> ") + model;
   return text;
+}
+
+std::string ssim_text(const ConverterPath& path) {
+  const std::optional<double> ssim = worst_step_ssim(path);
+  if (!ssim) return "";
+  std::string text = "SSIM " + number_text(rounded(*ssim, 3));
+  if (path.steps.size() > 1) text += is_measured(path) ? " in the worst step" : " in the worst step compared";
+  return text;
+}
+
+std::string closeness_text(const ConverterPath& path, const Closeness& closeness) {
+  if (!closeness.looks_different && !closeness.closer) return "";
+  const std::string &source = path.steps.front()->info().source.model, &target = target_model(path);
+  const std::string error = "expected error " + expected_text(path.expected_error);
+  std::string text;
+  if (closeness.looks_different) {
+    const std::string ssim = ssim_text(path);
+    text = target + " will look different from " + source + " (" + error + (ssim.empty() ? "" : ", ") + ssim +
+           ")";
+  }
+  if (!closeness.closer) return text;
+  const std::string& closer = target_model(*closeness.closer);
+  const std::string closer_error = "expected error " + expected_text(closeness.closer->expected_error);
+  if (text.empty())
+    return closer + " would look closer to " + source + " than " + target + " (" + closer_error +
+           " instead of " + expected_text(path.expected_error) + ")";
+  return text + "; " + closer + " would look closer (" + closer_error + ")";
+}
+
+std::string closest_text(const std::string& model, double error) {
+  return model + " is the closest model of " + renderer_of(model) + " (expected error " +
+         expected_text(error) + ")";
 }
 
 Json side_json(const ModelSide& side) {
@@ -52,10 +85,24 @@ Json errors_json(const ConverterInfo& info) {
           {"image", json(info.image_rms_error)}};
 }
 
+Json ssim_json(const ConverterInfo& info) { return info.ssim ? Json(*info.ssim) : Json(); }
+
 Json path_json(const ConverterPath& path) {
   Json ids = Json::array();
   for (const Converter* step : path.steps) ids.push_back(step->info().id);
   return ids;
+}
+
+Json closeness_json(const ConverterPath& path, const Closeness& closeness) {
+  const std::optional<double> ssim = worst_step_ssim(path);
+  Json closer;
+  if (closeness.closer)
+    closer = {{"model", target_model(*closeness.closer)},
+              {"path", path_json(*closeness.closer)},
+              {"expected_error", closeness.closer->expected_error}};
+  return {{"looks_different", path.steps.empty() ? Json() : Json(closeness.looks_different)},
+          {"worst_step_ssim", ssim ? Json(*ssim) : Json()},
+          {"closer_model", closer}};
 }
 
 }  // namespace remap

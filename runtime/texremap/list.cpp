@@ -3,10 +3,12 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "command_line/command.hpp"
+#include "remap/closeness.hpp"
 #include "remap/error.hpp"
-#include "remap/path.hpp"
 #include "remap/shipped_converters.hpp"
 #include "remap/workflow_models.hpp"
 #include "texremap/commands.hpp"
@@ -21,18 +23,38 @@ struct ListOptions {
   bool json = false;
 };
 
-Json converter_json(const Converter& converter) {
+// A converter as a path of one step.
+struct ListedConverter {
+  const Converter& converter;
+  ConverterPath path;
+  Closeness closeness;
+};
+
+ListedConverter listed(const ConverterGraph& graph, const Converter& converter) {
   const ConverterInfo& info = converter.info();
-  return {{"id", info.id},
-          {"source", side_json(info.source)},
-          {"target", side_json(info.target)},
-          {"domain", domain_json(info)},
-          {"rms_error", errors_json(info)},
-          {"instructions", std::string(instruction_set_name(info.instructions))},
-          {"self_test", converter.self_test()}};
+  ConverterPath path{{&converter}, expected_error(info)};
+  Closeness closeness =
+      closeness_of(path, graph.paths_to_renderer({info.source.model, renderer_of(info.target.model), {}}));
+  return {converter, std::move(path), std::move(closeness)};
 }
 
-void print_converter(const Converter& converter) {
+Json converter_json(const ListedConverter& entry) {
+  const ConverterInfo& info = entry.converter.info();
+  Json json = {{"id", info.id},
+               {"source", side_json(info.source)},
+               {"target", side_json(info.target)},
+               {"domain", domain_json(info)},
+               {"rms_error", errors_json(info)},
+               {"ssim", ssim_json(info)},
+               {"expected_error", entry.path.expected_error},
+               {"instructions", std::string(instruction_set_name(info.instructions))},
+               {"self_test", entry.converter.self_test()}};
+  json.update(closeness_json(entry.path, entry.closeness));
+  return json;
+}
+
+void print_converter(const ListedConverter& entry) {
+  const Converter& converter = entry.converter;
   const ConverterInfo& info = converter.info();
   std::cout << info.id << '\n'
             << "  from   " << info.source.model << ", " << domain_text(info) << '\n'
@@ -41,16 +63,19 @@ void print_converter(const Converter& converter) {
             << "  error  " << errors_text(info) << '\n'
             << "  test   " << (converter.self_test() ? "passed" : "FAILED") << " with "
             << instruction_set_name(info.instructions) << " instructions\n";
+  if (const std::string text = closeness_text(entry.path, entry.closeness); !text.empty())
+    std::cout << "  note   " << text << '\n';
 }
 
 void list_converters(const ListOptions& options) {
+  const ConverterGraph graph = shipped_graph();
   Json all = Json::array();
   std::string failed;
   for (const auto& converter : shipped_converters()) {
     if (options.json)
-      all.push_back(converter_json(*converter));
+      all.push_back(converter_json(listed(graph, *converter)));
     else
-      print_converter(*converter);
+      print_converter(listed(graph, *converter));
     if (!converter->self_test()) failed += (failed.empty() ? "" : ", ") + converter->info().id;
   }
   if (options.json) std::cout << all.dump(2) << '\n';
@@ -67,6 +92,22 @@ ModelSide side_of(const std::string& model) {
   return {};
 }
 
+Json reached_json(const ConverterPath& path, const Closeness& closeness) {
+  Json json = {
+      {"model", target_model(path)}, {"path", path_json(path)}, {"expected_error", path.expected_error}};
+  json.update(closeness_json(path, closeness));
+  return json;
+}
+
+void print_reached(const ConverterPath& path, const Closeness& closeness) {
+  std::cout << "  reaches  " << target_model(path) << ", expected error "
+            << expected_text(path.expected_error);
+  if (path.steps.size() > 1) std::cout << ", in " << path.steps.size() << " steps";
+  if (closeness.looks_different) std::cout << ", will look different";
+  if (closeness.closer) std::cout << ", " << target_model(*closeness.closer) << " would look closer";
+  std::cout << '\n';
+}
+
 void list_models(const ListOptions& options) {
   const ConverterGraph graph = shipped_graph();
   Json all = Json::array();
@@ -77,15 +118,15 @@ void list_models(const ListOptions& options) {
       std::cout << model << '\n'
                 << "  takes    " << entry["roughness"].get<std::string>() << " and "
                 << entry["specular"].get<std::string>() << '\n';
-    for (const std::string& target : graph.reachable_from(model)) {
-      const ConverterPath path = graph.find_paths({model, target, {}}).front();
+    std::vector<ConverterPath> paths;
+    for (const std::string& target : graph.reachable_from(model))
+      paths.push_back(graph.find_paths({model, target, {}}).front());
+    for (const ConverterPath& path : paths) {
+      const Closeness closeness = closeness_of(path, paths);
       if (options.json)
-        entry["reaches"].push_back(
-            {{"model", target}, {"path", path_json(path)}, {"expected_error", path.expected_error}});
+        entry["reaches"].push_back(reached_json(path, closeness));
       else
-        std::cout << "  reaches  " << target << ", expected error " << expected_text(path.expected_error)
-                  << (path.steps.size() > 1 ? ", in " + std::to_string(path.steps.size()) + " steps" : "")
-                  << '\n';
+        print_reached(path, closeness);
     }
     all.push_back(entry);
   }

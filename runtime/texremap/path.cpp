@@ -4,6 +4,7 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,13 @@ constexpr std::size_t kPathsShown = 3;
 struct PathOptions {
   PathRequest request;
   bool json = false;
+};
+
+// What is printed of a conversion that needs converters.
+struct Plan {
+  std::vector<ConverterPath> paths;  // the chosen one and the next best
+  ConverterInfo whole;               // of the chosen one
+  Closeness closeness;               // of the chosen one
 };
 
 // The reason why the first of `paths` was chosen.
@@ -44,14 +52,17 @@ void print_step(std::size_t number, const ConverterInfo& info) {
   std::cout << '\n';
 }
 
-void print_text(const std::vector<ConverterPath>& paths, const ConverterInfo& whole) {
+void print_text(const Plan& plan) {
+  const std::vector<ConverterPath>& paths = plan.paths;
   const ConverterPath& path = paths.front();
   std::cout << models_text(path) << '\n';
   for (std::size_t i = 0; i < path.steps.size(); ++i) print_step(i + 1, path.steps[i]->info());
   std::cout << "expected error " << expected_text(path.expected_error)
             << (path.steps.size() > 1 ? ", the sum of the steps'" : "") << '\n'
-            << "covers " << domain_text(whole) << '\n'
+            << "covers " << domain_text(plan.whole) << '\n'
             << "chosen because " << reason(paths) << '\n';
+  if (const std::string text = closeness_text(path, plan.closeness); !text.empty())
+    std::cout << "note: " << text << '\n';
   for (std::size_t i = 1; i < paths.size(); ++i) {
     std::cout << (i == 1 ? "next best: " : "           ") << models_text(paths[i]) << ", expected error "
               << expected_text(paths[i].expected_error) << " (";
@@ -67,11 +78,12 @@ Json step_json(const ConverterInfo& info) {
           {"target", side_json(info.target)},
           {"domain", domain_json(info)},
           {"rms_error", errors_json(info)},
+          {"ssim", ssim_json(info)},
           {"expected_error", expected_error(info)}};
 }
 
-void print_json(const std::vector<ConverterPath>& paths, const ConverterInfo& whole,
-                const std::vector<std::string>& stages) {
+Json plan_json(const Plan& plan) {
+  const std::vector<ConverterPath>& paths = plan.paths;
   Json steps = Json::array(), alternatives = Json::array();
   for (const Converter* step : paths.front().steps) steps.push_back(step_json(step->info()));
   for (std::size_t i = 1; i < paths.size(); ++i)
@@ -82,12 +94,12 @@ void print_json(const std::vector<ConverterPath>& paths, const ConverterInfo& wh
                  {"path", path_json(paths.front())},
                  {"expected_error", paths.front().expected_error},
                  {"assumed_image_error", kAssumedImageError},
-                 {"domain", domain_json(whole)},
+                 {"domain", domain_json(plan.whole)},
                  {"steps", steps},
                  {"reason", reason(paths)},
                  {"alternatives", alternatives}};
-  if (!stages.empty()) result["stages"] = stages;
-  std::cout << result.dump(2) << '\n';
+  result.update(closeness_json(paths.front(), plan.closeness));
+  return result;
 }
 
 std::string end_text(const WorkflowEnd& end, const std::string& brdf) {
@@ -109,32 +121,38 @@ std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
   return stages;
 }
 
-void explain(const PathOptions& asked) {
-  PathOptions options = asked;
+Plan plan_of(const PathRequest& request, const WorkflowChoice& choice) {
+  const ConverterGraph graph = shipped_graph();
+  Plan plan;
+  plan.paths = graph.find_paths(request, kPathsShown);
+  plan.whole = make_chained_converter(plan.paths.front().steps)->info();
+  plan.closeness =
+      closeness_of(plan.paths.front(), graph.paths_to_renderer({request.source, choice.renderer, {}}));
+  return plan;
+}
+
+void explain(const PathOptions& options) {
   ConvertOptions ends;
-  ends.from = asked.request.source;
-  ends.to = asked.request.target;
+  ends.from = options.request.source;
+  ends.to = options.request.target;
+  ends.via = options.request.via;
   const WorkflowChoice choice = workflow_choice(ends);
-  options.request.source = choice.source_brdf;
-  options.request.target = choice.target_brdf;
-  const bool has_path =
-      !choice.is_material() || choice.source_brdf != choice.target_brdf || !asked.request.via.empty();
   const std::vector<std::string> stages =
       choice.is_material() ? stage_texts(choice) : std::vector<std::string>{};
-  if (!options.json)
-    for (const std::string& stage : stages) std::cout << stage << '\n';
-  if (!has_path) {
-    if (options.json)
-      std::cout << Json{{"stages", stages}, {"path", Json::array()}, {"expected_error", 0.0}}.dump(2) << '\n';
+  std::optional<Plan> plan;
+  if (!choice.is_material() || choice.source_brdf != choice.target_brdf || !ends.via.empty())
+    plan = plan_of({choice.source_brdf, choice.target_brdf, ends.via}, choice);
+  if (options.json) {
+    Json result = plan ? plan_json(*plan) : Json{{"path", Json::array()}, {"expected_error", 0.0}};
+    result["closest_of"] = choice.is_closest ? Json(choice.renderer) : Json();
+    if (choice.is_material()) result["stages"] = stages;
+    std::cout << result.dump(2) << '\n';
     return;
   }
-  const ConverterGraph graph = shipped_graph();
-  const std::vector<ConverterPath> paths = graph.find_paths(options.request, kPathsShown);
-  const ConverterInfo whole = make_chained_converter(paths.front().steps)->info();
-  if (options.json)
-    print_json(paths, whole, stages);
-  else
-    print_text(paths, whole);
+  if (choice.is_closest)
+    std::cout << closest_text(choice.target_brdf, plan ? plan->paths.front().expected_error : 0.0) << '\n';
+  for (const std::string& stage : stages) std::cout << stage << '\n';
+  if (plan) print_text(*plan);
 }
 
 }  // namespace
@@ -145,7 +163,10 @@ void add_path_command(Command& app) {
   command->add_option("--from", options->request.source, "Source model, e.g. mitsuba/ward")
       ->required()
       ->type_name("MODEL");
-  command->add_option("--to", options->request.target, "Target model, e.g. mitsuba/as")
+  command
+      ->add_option(
+          "--to", options->request.target,
+          "Target model, e.g. mitsuba/as, or a renderer, e.g. cycles-5, for the closest of its models")
       ->required()
       ->type_name("MODEL");
   command

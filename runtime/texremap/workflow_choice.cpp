@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "remap/closeness.hpp"
 #include "remap/error.hpp"
-#include "remap/path.hpp"
 #include "remap/shipped_converters.hpp"
 #include "text/number_text.hpp"
 
@@ -46,6 +46,24 @@ NamedEnd named_end(const std::string& option, const std::string& name, const std
                                        std::string(kind_name(end.model->end)) + " workflow, not " + kind +
                                        " (remove this option)");
   return end;
+}
+
+// The model that `--to` names: of a renderer the closest one to the source. A workflow around the source's
+// own model of that renderer needs no other model.
+std::string target_named(const ConvertOptions& options, const NamedEnd& from) {
+  if (!options.fit.empty() || options.from.empty() || find_workflow_model(options.to) != nullptr)
+    return options.to;
+  const ConverterGraph graph = shipped_graph();
+  const std::string source = from.workflow().brdf;
+  if (graph.has_model(options.to) || graph.models_of(options.to).empty()) return options.to;
+  if (renderer_of(source) == options.to) {
+    if (from.has_workflow() || !options.to_workflow.empty()) return source;
+    throw Error(ErrorKind::kUsage,
+                "--to: " + source + " is a model of " + options.to + " already (choose another model)");
+  }
+  const std::vector<ConverterPath> paths = graph.paths_to_renderer({source, options.to, options.via});
+  if (paths.empty()) return graph.models_of(options.to).front();  // refused by the search for a path
+  return target_model(closest_path(paths));
 }
 
 void set_diffuse(WorkflowEnd& end, DiffuseConvention convention) {
@@ -165,11 +183,14 @@ bool WorkflowChoice::has_source(Parameter parameter) const {
 }
 
 WorkflowChoice workflow_choice(const ConvertOptions& options) {
-  const NamedEnd from = named_end("--from", options.from, options.from_workflow),
-                 to = named_end("--to", options.to, options.to_workflow);
+  const NamedEnd from = named_end("--from", options.from, options.from_workflow);
+  const std::string target_name = target_named(options, from);
+  const NamedEnd to = named_end("--to", target_name, options.to_workflow);
   WorkflowChoice choice;
   choice.source_brdf = options.from;
-  choice.target_brdf = options.to;
+  choice.target_brdf = target_name;
+  choice.is_closest = target_name != options.to;
+  choice.renderer = renderer_of(target_name);
   if (from.has_workflow() || to.has_workflow()) {
     if (options.from.empty() || options.to.empty())
       throw Error(ErrorKind::kUsage, std::string(options.from.empty() ? "--from" : "--to") + " is required");

@@ -16,6 +16,8 @@ namespace remap {
 
 struct WorkflowChoice {
   std::string source_brdf, target_brdf;  // models of the graph of converters
+  std::string renderer;                  // that --to names or belongs to; empty for a workflow such as gltf
+  bool is_closest = false;  // --to names the renderer, and target_brdf is the closest of its models
   // Both or neither are set. Without them, roughness and specular alone are converted.
   std::optional<WorkflowEnd> source, target;
   std::map<Parameter, ConstantValues> constants;  // source values in place of missing maps
@@ -34,8 +36,9 @@ struct WorkflowChoice {
   bool has_source(Parameter parameter) const;
 };
 
-// `--from` and `--to` are optional with `--fit`. Throws kUsage for an unknown name, for a workflow that
-// contradicts the named model, and for options that require a workflow where neither end has one.
+// `--from` and `--to` are optional with `--fit`. A renderer as `--to` stands for the closest of its models,
+// by paths through `--via`. Throws kUsage for an unknown name, for a workflow that contradicts the named
+// model, and for options that require a workflow where neither end has one.
 WorkflowChoice workflow_choice(const ConvertOptions& options);
 
 // The choice for a warp: both ends have diffuse, specular and roughness, in the encoding that the options

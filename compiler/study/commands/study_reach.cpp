@@ -21,7 +21,8 @@ struct ReachCommand {
 
 bool is_builtin(const std::string& model) { return model.rfind("mitsuba/", 0) == 0; }
 
-// The fits that were asked for, else all between models of the built-in renderer that were matched by pictures.
+// The fits that were asked for, else all between models of the built-in renderer that were matched by
+// pictures.
 std::vector<remap::Fit> chosen_fits(const ReachCommand& command) {
   const std::filesystem::path folder = fit_folder_of(command.fit_folder);
   if (folder.empty()) throw usage_error("--fits: there is no folder `fits` here (name one)");

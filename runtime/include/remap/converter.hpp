@@ -28,6 +28,9 @@ struct ConverterInfo {
   std::optional<double> roughness_rms_error;
   std::optional<double> specular_rms_error;
   std::optional<double> image_rms_error;  // of the pictures at the best parameters, relative; none if unknown
+  // Structural similarity of spheres at the best parameters, mean over widths; none if unknown. Of a chained
+  // converter: that of its worst step.
+  std::optional<double> ssim;
   InstructionSet instructions = InstructionSet::kBaseline;  // that it runs on; changes no bit of the results
   std::vector<std::string> steps;  // ids of what a chained converter runs; otherwise empty
 };

@@ -114,6 +114,9 @@ struct Fit {
   bool operator==(const Fit&) const = default;
 };
 
+// The mean of the compared spheres' structural similarities; none where no spheres were compared.
+std::optional<double> mean_ssim(const Fit& fit);
+
 // `mitsuba_ward_to_mitsuba_as` for `mitsuba/ward` and `mitsuba/as`: characters that an identifier cannot hold
 // become underscores.
 std::string converter_id(const std::string& source_model, const std::string& target_model);

@@ -36,6 +36,12 @@ struct ConverterPath {
 
 // The models of the path, from the source to the target.
 std::vector<std::string> path_models(const ConverterPath& path);
+// The last of them.
+const std::string& target_model(const ConverterPath& path);
+
+// The renderer that a model belongs to, the part of its name before the first slash: cycles-5 of
+// cycles-5/ggx. Empty for a name without a slash.
+std::string renderer_of(const std::string& model);
 
 // From `source` to `target` through the models `via`, in their order.
 struct PathRequest {
@@ -63,6 +69,14 @@ class ConverterGraph {
   const std::vector<std::string>& models() const noexcept { return models_; }
   std::vector<std::string> reachable_from(const std::string& model) const;
   std::vector<std::string> reaching(const std::string& model) const;
+  bool has_model(const std::string& name) const;
+  // Sorted names of the models of a renderer.
+  std::vector<std::string> models_of(const std::string& renderer) const;
+
+  // The best path to each model of the renderer `request.target` that is neither the source nor in `via`, by
+  // the name of the model. Empty if the renderer has no such model that a path leads to. Throws kUsage if
+  // another name is unknown or `via` would be visited twice.
+  std::vector<ConverterPath> paths_to_renderer(const PathRequest& request) const;
 
   // Up to `count` (1 or more) paths that visit no model twice, sorted by expected error, then by the number
   // of steps, then by the ids of the steps; at least one. Errors are compared and added in units of 1e-9, so

@@ -16,9 +16,21 @@ TEST_CASE("converter data: reads back exactly, in the order of their ids") {
   remap::ConverterData other = data;
   other.id = "a_to_b";
   other.image_rms_error = std::nullopt;
+  other.ssim = std::nullopt;
   const std::string text = emit_converter_list({data, other});
   CHECK(text == emit_converter_list({other, data}));
   CHECK(remap::converters_from_json(text, "list") == std::vector<remap::ConverterData>{other, data});
+}
+
+TEST_CASE("converter data: the SSIM is the mean of the fit's spheres, in three digits") {
+  remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
+  const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
+  fit.image_similarity->ssim = {{0.1, 0.5}, {0.5, 0.75}, {0.9, 0.751}};
+  CHECK(remap::converter_data(fit, lowered).ssim == 0.667);
+  fit.image_similarity->ssim.clear();
+  CHECK_FALSE(remap::converter_data(fit, lowered).ssim.has_value());
+  fit.image_similarity.reset();
+  CHECK_FALSE(remap::converter_data(fit, lowered).ssim.has_value());
 }
 
 TEST_CASE("converter data: a damaged file is refused with the place") {
@@ -33,6 +45,7 @@ TEST_CASE("converter data: a damaged file is refused with the place") {
     CHECK_THROWS_WITH(remap::converters_from_json(damaged, "list"), Catch::StartsWith("list" + place));
   };
   refused("\"version\": 1", "\"version\": 2", ".version");
+  refused("\"ssim\": 0", "\"ssim\": \"0\", \"of\": 0", ".converters[0].ssim");
   refused("\"cell_count\":32", "\"cell_count\":31", ".converters[0].alpha.coefficients");
   refused("\"cell_count\":32", "\"cell_count\":0", ".converters[0].alpha.cell_count");
   refused("\"roughness\":\"exponent\"", "\"roughness\":\"width\"", ".converters[0].source.roughness");

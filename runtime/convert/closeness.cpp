@@ -1,0 +1,75 @@
+#include "remap/closeness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "remap/chained_converter.hpp"
+#include "text/number_text.hpp"
+
+namespace remap {
+namespace {
+
+// The part of the source's alpha and specular plane that all steps cover.
+double covered_area(const ConverterPath& path) {
+  const SourceDomain domain = chained_domain(path.steps);
+  const RoughnessConvention convention = path.steps.front()->info().source.roughness;
+  const double alphas =
+      std::fabs(to_alpha(convention, domain.roughness.max) - to_alpha(convention, domain.roughness.min));
+  return alphas * (domain.specular.max - domain.specular.min);
+}
+
+bool is_less(const ConverterPath& a, const ConverterPath& b) {
+  return rounded_up(a.expected_error, 3) < rounded_up(b.expected_error, 3);
+}
+
+// Of the steps whose pictures were compared.
+double measured_error(const ConverterPath& path) {
+  double error = 0.0;
+  for (const Converter* step : path.steps)
+    if (step->info().image_rms_error) error += expected_error(step->info());
+  return error;
+}
+
+}  // namespace
+
+std::optional<double> worst_step_ssim(const ConverterPath& path) {
+  std::optional<double> worst;
+  for (const Converter* step : path.steps)
+    if (const std::optional<double>& ssim = step->info().ssim) worst = std::min(worst.value_or(*ssim), *ssim);
+  return worst;
+}
+
+bool is_measured(const ConverterPath& path) {
+  return std::all_of(path.steps.begin(), path.steps.end(),
+                     [](const Converter* step) { return step->info().image_rms_error.has_value(); });
+}
+
+const ConverterPath& closest_path(const std::vector<ConverterPath>& paths) {
+  std::vector<double> areas;
+  for (const ConverterPath& path : paths) areas.push_back(covered_area(path));
+  const double least_area = kLeastCoverage * *std::max_element(areas.begin(), areas.end());
+  const ConverterPath* closest = nullptr;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    if (areas[i] >= least_area && (closest == nullptr || is_less(paths[i], *closest))) closest = &paths[i];
+  return *closest;
+}
+
+Closeness closeness_of(const ConverterPath& path, const std::vector<ConverterPath>& others) {
+  Closeness closeness;
+  closeness.looks_different = measured_error(path) > kLooksDifferent;
+  if (!is_measured(path) || path.expected_error <= kUnseenError) return closeness;
+  const std::string& model = target_model(path);
+  const std::string renderer = renderer_of(model);
+  std::vector<ConverterPath> closer;
+  for (const ConverterPath& other : others)
+    if (target_model(other) != model && renderer_of(target_model(other)) == renderer &&
+        other.expected_error <= kCloserShare * path.expected_error && is_measured(other))
+      closer.push_back(other);
+  if (closer.empty() || renderer.empty()) return closeness;
+  const double least_area = kLeastCoverage * covered_area(path);
+  std::erase_if(closer, [&](const ConverterPath& other) { return covered_area(other) < least_area; });
+  if (!closer.empty()) closeness.closer = *std::min_element(closer.begin(), closer.end(), is_less);
+  return closeness;
+}
+
+}  // namespace remap

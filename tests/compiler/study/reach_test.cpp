@@ -1,0 +1,79 @@
+// The reach study against conversions whose excess is known.
+#include <catch2/catch.hpp>
+
+#include "compiler/report/scaled_fit.hpp"
+#include "study/reach_report.hpp"
+#include "sweep/sweep.hpp"
+
+using namespace remapc;
+
+namespace {
+
+ReachOptions small_reach(remap::Fit fit) {
+  fit.table.comments["objective"] = "natural";
+  ReachOptions options;
+  options.fits = {std::move(fit)};
+  options.materials = 6;
+  options.alphas = {0.15, 0.9};
+  options.resolution = 48;
+  return options;
+}
+
+FitReach reach_of(const remap::Fit& fit) {
+  return study_reach(*make_builtin_renderer(), small_reach(fit)).front();
+}
+
+}  // namespace
+
+TEST_CASE("reach: a model reaches itself, and the identity leaves nothing", "[study]") {
+  for (const ReachedMaterial& material :
+       reach_of(scaled_fit("mitsuba/ward", "mitsuba/ward", 1.0)).materials) {
+    CHECK(material.error < 1e-6);
+    CHECK(material.least_error < 4e-3);  // widths of the bank are a hundredth apart
+    CHECK(material.least_alpha == Approx(material.alpha).epsilon(0.006));
+    CHECK(material.least_specular == Approx(material.specular).epsilon(0.02));
+  }
+}
+
+TEST_CASE("reach: a conversion that is off has the excess of its error", "[study]") {
+  const FitReach reach = reach_of(scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.1));
+  for (const ReachedMaterial& material : reach.materials) {
+    CHECK(material.target_alpha == Approx(1.1 * material.alpha));
+    CHECK(material.excess() > 0.02);
+    CHECK(material.excess() == Approx(material.error).margin(4e-3));
+  }
+  CHECK(reach.mean_excess() <= reach.worst().excess());
+}
+
+TEST_CASE("reach: the least error is that of the sweep, which finds it another way", "[study]") {
+  const FitReach reach = reach_of(scaled_fit("mitsuba/beckmann", "mitsuba/as", 1.0));
+  SweepOptions sweep;
+  sweep.source = "mitsuba/beckmann";
+  sweep.target = "mitsuba/as";
+  sweep.objective = objective_preset("natural");
+  sweep.objective_name = "natural";
+  sweep.resolution = 48;
+  for (const ReachedMaterial& material : reach.materials)
+    sweep.samples.push_back({material.alpha, material.specular});
+  const Table table = run_sweep(*make_builtin_renderer(), sweep, {});
+  for (std::size_t i = 0; i < reach.materials.size(); ++i) {
+    INFO(reach.materials[i].alpha << " " << reach.materials[i].specular);
+    CHECK(reach.materials[i].least_error == Approx(table.rows[i].error).margin(2e-4));
+  }
+}
+
+TEST_CASE("reach: the report has a row for each material and the mean of all", "[study]") {
+  const ReachOptions options = small_reach(scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.1));
+  const std::vector<FitReach> result = study_reach(*make_builtin_renderer(), options);
+  const StudyReport report = reach_report(options, result);
+  CHECK(std::count(report.tables.front().second.begin(), report.tables.front().second.end(), '\n') == 37);
+  CHECK(report.figures["fits"][0]["id"] == "test");
+  CHECK(report.figures["mean_excess"].get<double>() == Approx(result.front().mean_excess()));
+}
+
+TEST_CASE("reach: a fit of another table is refused", "[study]") {
+  ReachOptions options = small_reach(scaled_fit("mitsuba/ggx", "mitsuba/ggx", 1.1));
+  options.fits.front().table.comments.clear();
+  CHECK_THROWS_WITH(study_reach(*make_builtin_renderer(), options),
+                    Catch::Matchers::Contains("does not name an objective"));
+}

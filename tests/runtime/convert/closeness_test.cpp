@@ -1,0 +1,235 @@
+// Which model looks closest: made-up converters with known errors, SSIMs and domains.
+#include "remap/closeness.hpp"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "remap/error.hpp"
+
+using namespace remap;
+using Names = std::vector<std::string>;
+
+namespace {
+
+// Keeps width and specular.
+class UnchangingConverter final : public Converter {
+ public:
+  explicit UnchangingConverter(ConverterInfo info) : Converter(std::move(info)) {}
+  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
+                           const MaterialRows<float>& out, std::uint8_t*) const override {
+    std::copy_n(in[Parameter::kWidth].row[0], count, out[Parameter::kWidth].row[0]);
+    for (std::size_t c = 0; c < in[Parameter::kSpecular].count; ++c)
+      std::copy_n(in[Parameter::kSpecular].row[c], count, out[Parameter::kSpecular].row[c]);
+    return 0;
+  }
+};
+
+// Converters of alpha 0 to 1 without fit errors: what is expected of each is its image error.
+class Converters {
+ public:
+  void add(const std::string& source, const std::string& target, std::optional<double> image_error,
+           std::optional<double> ssim = {}, double largest_specular = 1.0) {
+    ConverterInfo info;
+    info.id = converter_id(source, target);
+    info.source.model = source;
+    info.target.model = target;
+    info.roughness = {0.0, 1.0};
+    info.specular = {0.0, largest_specular};
+    info.image_rms_error = image_error;
+    info.ssim = ssim;
+    all_.push_back(std::make_unique<UnchangingConverter>(info));
+  }
+  ConverterGraph graph() const {
+    std::vector<const Converter*> pointers;
+    for (const auto& converter : all_) pointers.push_back(converter.get());
+    return ConverterGraph(std::move(pointers), Detours::kRefused);
+  }
+  ConverterPath path(const std::string& source, const std::string& target) const {
+    return graph().find_paths({source, target, {}}).front();
+  }
+  // The model of `renderer` that is closest to `source`.
+  std::string closest(const std::string& source, const std::string& renderer) const {
+    return target_model(closest_path(graph().paths_to_renderer({source, renderer, {}})));
+  }
+  // The model that looks closer than `target`; `none` if there is none.
+  std::string closer(const std::string& source, const std::string& target) const {
+    const ConverterGraph whole = graph();
+    std::vector<ConverterPath> others;
+    for (const std::string& model : whole.reachable_from(source)) others.push_back(path(source, model));
+    const Closeness closeness = closeness_of(path(source, target), others);
+    return closeness.closer ? target_model(*closeness.closer) : "none";
+  }
+  bool looks_different(const std::string& source, const std::string& target) const {
+    return closeness_of(path(source, target), {}).looks_different;
+  }
+
+ private:
+  std::vector<std::unique_ptr<Converter>> all_;
+};
+
+}  // namespace
+
+TEST_CASE("closeness: the renderer of a model is what stands before the first slash") {
+  CHECK(renderer_of("cycles-5/ggx") == "cycles-5");
+  CHECK(renderer_of("studio/cycles/ggx") == "studio");
+  CHECK(renderer_of("metallic").empty());
+  Converters converters;
+  converters.add("r/a", "r/b", 0.1);
+  converters.add("r/a", "r2/c", 0.1);
+  converters.add("r/a", "alone", 0.1);
+  const ConverterGraph graph = converters.graph();
+  CHECK(graph.models_of("r") == Names{"r/a", "r/b"});
+  CHECK(graph.models_of("r2") == Names{"r2/c"});
+  CHECK(graph.models_of("alone").empty());
+  CHECK(graph.models_of("").empty());
+  CHECK(graph.has_model("alone"));
+  CHECK_FALSE(graph.has_model("r"));
+}
+
+TEST_CASE("closeness: paths to a renderer leave out the source, models between, and what is not reached") {
+  Converters converters;
+  converters.add("r/a", "r/b", 0.1);
+  converters.add("r/b", "r/c", 0.1);
+  converters.add("r/d", "r/a", 0.1);
+  const ConverterGraph graph = converters.graph();
+  const auto targets = [&](const PathRequest& request) {
+    Names names;
+    for (const ConverterPath& path : graph.paths_to_renderer(request)) names.push_back(target_model(path));
+    return names;
+  };
+  CHECK(targets({"r/a", "r", {}}) == Names{"r/b", "r/c"});
+  CHECK(targets({"r/a", "r", {"r/b"}}) == Names{"r/c"});
+  CHECK(targets({"r/c", "r", {}}).empty());
+  CHECK(targets({"r/a", "s", {}}).empty());
+  CHECK_THROWS_WITH(targets({"r/x", "r", {}}), Catch::StartsWith("unknown source model 'r/x'"));
+}
+
+TEST_CASE("closeness: a renderer in the place of a model is refused with its models") {
+  Converters converters;
+  converters.add("r/a", "s/b", 0.1);
+  converters.add("r/c", "s/b", 0.1);
+  const ConverterGraph graph = converters.graph();
+  CHECK_THROWS_WITH(graph.find_paths({"r", "s/b", {}}),
+                    "source model: r is a renderer (choose one of its models: r/a, r/c)");
+  CHECK_THROWS_WITH(graph.find_paths({"r/a", "s", {}}),
+                    "target model: s is a renderer (choose one of its models: s/b)");
+  // A source that no converter starts from is not among the models to choose from.
+  CHECK_THROWS_WITH(graph.find_paths({"s", "r/a", {}}), Catch::StartsWith("unknown source model 's'"));
+}
+
+TEST_CASE("closeness: the closest model of a renderer has the least expected error, at any number of steps") {
+  Converters converters;
+  converters.add("a/source", "b/direct", 0.2);
+  converters.add("a/source", "a/hub", 0.05);
+  converters.add("a/hub", "b/far", 0.06);
+  converters.add("a/source", "c/other", 0.01);
+  CHECK(converters.closest("a/source", "b") == "b/far");
+}
+
+TEST_CASE("closeness: of models whose errors agree in three digits the first by name is the closest") {
+  Converters converters;
+  converters.add("a/source", "b/y", 0.05001);
+  converters.add("a/source", "b/x", 0.05009);
+  CHECK(converters.closest("a/source", "b") == "b/x");
+  converters.add("a/source", "b/z", 0.04999);
+  CHECK(converters.closest("a/source", "b") == "b/z");
+}
+
+TEST_CASE("closeness: a model that covers few materials is not the closest, nor called closer") {
+  Converters converters;
+  converters.add("a/source", "b/dielectric", 0.01, {}, 0.08);
+  converters.add("a/source", "b/metal", 0.2);
+  CHECK(converters.closest("a/source", "b") == "b/metal");
+  CHECK(converters.closer("a/source", "b/metal") == "none");
+  converters.add("a/source", "b/most", 0.05, {}, 0.5);
+  CHECK(converters.closest("a/source", "b") == "b/most");
+  CHECK(converters.closer("a/source", "b/metal") == "b/most");
+  // For a source that is a dielectric itself, nothing is narrow.
+  converters.add("d/source", "b/dielectric", 0.01, {}, 0.08);
+  converters.add("d/source", "b/metal", 0.2, {}, 0.08);
+  CHECK(converters.closest("d/source", "b") == "b/dielectric");
+  CHECK(converters.closer("d/source", "b/metal") == "b/dielectric");
+}
+
+TEST_CASE("closeness: what a later step does not cover counts as not covered") {
+  Converters converters;
+  converters.add("a/source", "a/hub", 0.0);
+  converters.add("a/hub", "b/dielectric", 0.01, {}, 0.08);
+  converters.add("a/hub", "b/metal", 0.2);
+  CHECK(converters.closest("a/source", "b") == "b/metal");
+  CHECK(converters.closer("a/source", "b/metal") == "none");
+}
+
+TEST_CASE("closeness: a model of the same renderer with at most half the error looks closer") {
+  Converters converters;
+  converters.add("a/source", "b/x", 0.25);
+  converters.add("a/source", "b/y", 0.126);
+  converters.add("a/source", "c/z", 0.01);
+  CHECK(converters.closer("a/source", "b/x") == "none");
+  converters.add("a/source", "b/half", 0.125);
+  CHECK(converters.closer("a/source", "b/x") == "b/half");
+  converters.add("a/source", "b/best", 0.08);
+  CHECK(converters.closer("a/source", "b/x") == "b/best");
+  CHECK(converters.closer("a/source", "b/half") == "none");
+  CHECK(converters.closer("a/source", "b/best") == "none");
+  CHECK(converters.closer("a/source", "c/z") == "none");
+}
+
+TEST_CASE("closeness: names without a renderer have no other models") {
+  Converters converters;
+  converters.add("a/source", "x", 0.5);
+  converters.add("a/source", "y", 0.1);
+  CHECK(converters.closer("a/source", "x") == "none");
+}
+
+TEST_CASE("closeness: where nobody sees a difference no model is called closer") {
+  Converters converters;
+  converters.add("a/source", "b/x", kUnseenError);
+  converters.add("a/source", "b/y", 0.001);
+  CHECK(converters.closer("a/source", "b/x") == "none");
+  converters.add("a/source", "b/z", 1.01 * kUnseenError);
+  CHECK(converters.closer("a/source", "b/z") == "b/y");
+}
+
+TEST_CASE("closeness: pictures that were never compared are not judged") {
+  Converters converters;
+  converters.add("a/source", "b/formula", {});
+  converters.add("a/source", "b/far", 0.5);
+  converters.add("a/source", "c/x", 0.01);
+  converters.add("a/hub", "c/x", {});
+  converters.add("a/hub", "c/y", 0.01);
+  CHECK(expected_error(converters.path("a/source", "b/formula").steps.front()->info()) == 0.1);
+  CHECK(converters.closer("a/source", "b/far") == "none");
+  CHECK(converters.closer("a/hub", "c/x") == "none");
+  CHECK_FALSE(is_measured(converters.path("a/source", "b/formula")));
+  CHECK(is_measured(converters.path("a/source", "b/far")));
+}
+
+TEST_CASE("closeness: a conversion looks different above a tenth, by the steps that were compared") {
+  Converters converters;
+  converters.add("a/a", "a/b", 0.06);
+  converters.add("a/b", "a/c", 0.05);
+  converters.add("a/b", "a/d", {});
+  converters.add("a/d", "a/e", 0.03);
+  converters.add("a/d", "a/f", 0.2);
+  converters.add("a/a", "a/g", kLooksDifferent);
+  CHECK_FALSE(converters.looks_different("a/a", "a/b"));
+  CHECK(converters.looks_different("a/a", "a/c"));
+  CHECK_FALSE(converters.looks_different("a/a", "a/d"));
+  CHECK_FALSE(converters.looks_different("a/a", "a/e"));
+  CHECK(converters.looks_different("a/a", "a/f"));
+  CHECK_FALSE(converters.looks_different("a/a", "a/g"));
+}
+
+TEST_CASE("closeness: the SSIM of a path is that of its worst step") {
+  Converters converters;
+  converters.add("a/a", "a/b", 0.1, 0.9);
+  converters.add("a/b", "a/c", 0.1, 0.8);
+  converters.add("a/c", "a/d", 0.1, 0.95);
+  converters.add("a/d", "a/e", {});
+  CHECK(worst_step_ssim(converters.path("a/a", "a/b")) == 0.9);
+  CHECK(worst_step_ssim(converters.path("a/a", "a/d")) == 0.8);
+  CHECK(worst_step_ssim(converters.path("a/a", "a/e")) == 0.8);
+  CHECK_FALSE(worst_step_ssim(converters.path("a/d", "a/e")).has_value());
+}
