@@ -38,12 +38,57 @@ static void find_terms(Count count, Terms& terms) noexcept {
 }
 )";
 
+constexpr std::string_view kRegimeFunctions =
+    R"(// The limits of the target, and between which widths its regimes take over.
+static constexpr bool has_wide = @has_wide@, has_bright = @has_bright@;
+static constexpr float alpha_limit = @alpha_limit@, specular_limit = @specular_limit@;
+static constexpr float mapping_to = @mapping_to@, wide_from = @wide_from@, bright_from = @bright_from@;
+static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  @wide_specular@
+}
+static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+  @bright_alpha@
+}
+template <class Count>
+static void find_wide_terms(Count, Terms&) noexcept {}
+template <class Count>
+static void find_bright_terms(Count, Terms&) noexcept {}
+)";
+
+// Without a limit: larger than any number that a mapping gives.
+std::string limit_literal(const std::optional<float>& limit) {
+  return limit ? literal(static_cast<double>(*limit)) : "3.4028235e38f";
+}
+
+// A regime that a table does not have continues the mapping.
+std::string regime_functions(const remap::Lowered& lowered) {
+  const auto& wide = lowered.wide;
+  const auto& bright = lowered.bright;
+  const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
+  return fill_template(
+      kRegimeFunctions,
+      {{"has_wide", truth(wide.has_value())},
+       {"has_bright", truth(bright.has_value())},
+       {"alpha_limit", limit_literal(lowered.alpha_limit)},
+       {"specular_limit", limit_literal(lowered.specular_limit)},
+       {"mapping_to", limit_literal(wide ? std::optional(wide->mapping_to) : std::nullopt)},
+       {"wide_from", literal(wide ? static_cast<double>(wide->from) : 0.0)},
+       {"bright_from", literal(bright ? static_cast<double>(bright->specular_from) : 0.0)},
+       {"wide_specular",
+        wide ? "const float alpha = float_from_bits(larger(bits(terms.source_alpha[i]), bits(wide_from)));\n"
+               "return detail::wide_specular(alpha, specular);"
+             : "return detail::target_specular(terms, i, specular);"},
+       {"bright_alpha", bright ? "return detail::bright_alpha(terms.source_alpha[i], specular);"
+                               : "return detail::target_alpha(terms.alpha[i], specular);"}});
+}
+
 // The functions of Mapping, and the loops over a block that call them.
 struct RuleParts {
   std::string functions, loops;
 };
 
-RuleParts parts_of(const MappingCode& code, bool alpha_by_specular) {
+RuleParts parts_of(const ConverterHeader& header, const MappingCode& code) {
+  const std::string by_specular = header.alpha_by_specular ? "true" : "false";
   switch (code.form) {
     case CodeForm::kProportional:
       return {fill_template(kProportionalFunctions,
@@ -51,8 +96,12 @@ RuleParts parts_of(const MappingCode& code, bool alpha_by_specular) {
                                                         : "held_channel(detail::specular_slope(alpha))"}}),
               code_files({"proportional"})};
     case CodeForm::kTerms:
-      return {fill_template(kTermsFunctions, {{"alpha_by_specular", alpha_by_specular ? "true" : "false"}}),
-              code_files({"scale", "terms"})};
+      return {fill_template(kTermsFunctions, {{"alpha_by_specular", by_specular}}),
+              code_files({"scale", "texels", "terms"})};
+    case CodeForm::kRegimes:
+      return {fill_template(kTermsFunctions, {{"alpha_by_specular", by_specular}}) +
+                  regime_functions(std::get<remap::Lowered>(header.mapping.code)),
+              code_files({"scale", "texels", "regimes"})};
     case CodeForm::kRows:
       break;
   }
@@ -63,7 +112,7 @@ RuleParts parts_of(const MappingCode& code, bool alpha_by_specular) {
 
 std::string block_code(const ConverterHeader& header, const std::string& specular_name,
                        const MappingCode& code) {
-  const RuleParts parts = parts_of(code, header.alpha_by_specular);
+  const RuleParts parts = parts_of(header, code);
   return code_files({"lanes", "domain"}) +
          fill_template(kMapping, {{"in_roughness", std::string(convention_name(header.source))},
                                   {"in_specular", specular_name},

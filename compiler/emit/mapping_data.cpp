@@ -173,10 +173,14 @@ MappingData fitted(const remap::Chain& chain, const Domain&) {
 std::string two_digits(double error) { return remap::number_text(remap::rounded_up(error, 2)); }
 
 MappingData lowered_mapping(const remap::Lowered& lowered) {
-  return {lowered,
-          "Lowered from the fit. Target alpha: " + shape_text(lowered.alpha) +
-              ".\nTarget specular: " + shape_text(lowered.specular) + ".",
-          lowered.alpha.bound, lowered.specular.bound};
+  std::string text = "Lowered from the fit. Target alpha: " + shape_text(lowered.alpha) +
+                     ".\nTarget specular: " + shape_text(lowered.specular) + ".";
+  if (lowered.wide) text += "\nWhere alpha is at its limit, target specular: " + shape_text(lowered.wide->specular) + ".";
+  if (lowered.bright) text += "\nWhere specular is at its limit, target alpha: " + shape_text(lowered.bright->alpha) + ".";
+  if (lowered.wide || lowered.bright)
+    text += "\nWhere these meet they differ by at most " + two_digits(lowered.alpha_step) + " in alpha, " +
+            two_digits(lowered.specular_step) + " in specular.";
+  return {lowered, text, lowered.alpha_bound(), lowered.specular_bound()};
 }
 
 MappingData exact_mapping(const remap::MappingKind& mapping, const Domain& domain) {

@@ -31,6 +31,16 @@ std::optional<double> three_digits(const std::optional<double>& value) {
   return value ? std::optional<double>(rounded(*value, 3)) : std::nullopt;
 }
 
+std::optional<ConverterData::Wide> wide_of(const Lowered& lowered) {
+  if (!lowered.wide) return std::nullopt;
+  return ConverterData::Wide{lowered.wide->from, lowered.wide->mapping_to, lowered.wide->specular.polynomial};
+}
+
+std::optional<ConverterData::Bright> bright_of(const Lowered& lowered) {
+  if (!lowered.bright) return std::nullopt;
+  return ConverterData::Bright{lowered.bright->specular_from, lowered.bright->alpha.polynomial};
+}
+
 }  // namespace
 
 std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, double specular_error) {
@@ -71,7 +81,11 @@ ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
           three_digits(mean_ssim(fit)),
           lowered.alpha.polynomial,
           lowered.specular.polynomial,
-          golden_texels(fit, lowered.alpha.bound, lowered.specular.bound)};
+          lowered.alpha_limit,
+          lowered.specular_limit,
+          wide_of(lowered),
+          bright_of(lowered),
+          golden_texels(fit, lowered.alpha_bound(), lowered.specular_bound())};
 }
 
 }  // namespace remap

@@ -32,7 +32,21 @@ struct ConverterData {
   // Of the fit, as in ConverterInfo; two digits, rounded up.
   std::optional<double> roughness_rms_error, specular_rms_error, image_rms_error;
   std::optional<double> ssim;  // as in ConverterInfo; three digits
+  // The polynomials of a lowered fit, its limits and regimes (lower/lowered.hpp).
+  struct Wide {
+    float from = 0.0f, mapping_to = 1.0f;
+    PiecewisePolynomial specular;
+    bool operator==(const Wide&) const = default;
+  };
+  struct Bright {
+    float specular_from = 0.0f;
+    PiecewisePolynomial alpha;
+    bool operator==(const Bright&) const = default;
+  };
   PiecewisePolynomial alpha_polynomial, specular_polynomial;
+  std::optional<float> alpha_limit, specular_limit;
+  std::optional<Wide> wide;
+  std::optional<Bright> bright;
   std::vector<GoldenTexel> golden;
   bool operator==(const ConverterData&) const = default;
 };

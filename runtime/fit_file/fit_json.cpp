@@ -254,7 +254,7 @@ Fit read_fit(const Field& root) {
   root["domain"]["alpha"].require(fit.domain.alpha.min > 0.0, "an alpha above 0");
   root["domain"]["specular"].require(fit.domain.specular.min == 0.0, "a range from 0");
   fit.mapping = read_mapping(root["mapping"]);
-  fit.regimes = read_regimes(root["regimes"]);
+  if (root.json().contains("regimes")) fit.regimes = read_regimes(root["regimes"]);
   fit.method = root["method"].text_dictionary();
   fit.candidates = root["candidates"].list(0, read_candidate);
   fit.alpha_error = read_figures(root["error_on_held_out_rows"]["alpha"]);

@@ -71,7 +71,7 @@ struct Lowered {
   double alpha_step = 0.0, specular_step = 0.0;
   bool operator==(const Lowered&) const = default;
 
-  bool has_regimes() const { return alpha_limit.has_value() || specular_limit.has_value(); }
+  bool has_limits() const { return alpha_limit.has_value() || specular_limit.has_value(); }
   // Bounds over all regimes.
   double alpha_bound() const;
   double specular_bound() const;
