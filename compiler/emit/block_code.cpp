@@ -42,7 +42,11 @@ constexpr std::string_view kRegimeFunctions =
     R"(// The limits of the target, and between which widths its regimes take over.
 static constexpr bool has_wide = @has_wide@, has_bright = @has_bright@;
 static constexpr float alpha_limit = @alpha_limit@, specular_limit = @specular_limit@;
-static constexpr float mapping_to = @mapping_to@, wide_from = @wide_from@, bright_from = @bright_from@;
+static constexpr float mapping_to = @mapping_to@, wide_from = @wide_from@;
+static constexpr float bright_alpha_from = @bright_alpha_from@, bright_from = @bright_from@;
+static float held_above(float value, float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
 static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   @wide_specular@
 }
@@ -73,12 +77,12 @@ std::string regime_functions(const remap::Lowered& lowered) {
        {"specular_limit", limit_literal(lowered.specular_limit)},
        {"mapping_to", limit_literal(wide ? std::optional(wide->mapping_to) : std::nullopt)},
        {"wide_from", literal(wide ? static_cast<double>(wide->from) : 0.0)},
+       {"bright_alpha_from", literal(bright ? static_cast<double>(bright->alpha_from) : 0.0)},
        {"bright_from", literal(bright ? static_cast<double>(bright->specular_from) : 0.0)},
        {"wide_specular",
-        wide ? "const float alpha = float_from_bits(larger(bits(terms.source_alpha[i]), bits(wide_from)));\n"
-               "return detail::wide_specular(alpha, specular);"
+        wide ? "return detail::wide_specular(held_above(terms.source_alpha[i], wide_from), specular);"
              : "return detail::target_specular(terms, i, specular);"},
-       {"bright_alpha", bright ? "return detail::bright_alpha(terms.source_alpha[i], specular);"
+       {"bright_alpha", bright ? "return detail::bright_alpha(held_above(terms.source_alpha[i], bright_alpha_from), specular);"
                                : "return detail::target_alpha(terms.alpha[i], specular);"}});
 }
 

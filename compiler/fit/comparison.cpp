@@ -24,12 +24,15 @@ constexpr std::size_t kFolds = 5;
 constexpr std::size_t kRepeats = 2;  // of the cross-validation, each with different folds
 constexpr double kEdgeFactor = 2.0;
 constexpr double kEdgeMargin = 2e-3;
+constexpr double kShareFactor = 2.0;
+constexpr double kShareMargin = 2e-3;
 // The share of the progress for the fits with their searches; the rest is for the folds.
 constexpr double kShareOfFits = 0.5;
 
 // The errors of one contender on the held-out rows of a fold.
 struct FoldErrors {
   Residuals residuals;
+  std::vector<double> relative;  // of specular
   std::string failure;
 };
 
@@ -60,6 +63,7 @@ class ComparisonRun {
     for (Contender& contender : comparison_.contenders) judge_beyond(contender);
     judge_by_lowering();
     judge_by_folds();
+    refuse_bad_shares();
     judge_by_edge();
     decide();
     return std::move(comparison_);
@@ -127,6 +131,9 @@ class ComparisonRun {
     errors.failure = failure_of("not fitted in a fold", [&] {
       errors.residuals =
           residuals_of(fold.judging, regress_again(contender.regression, fold.training, single_threaded()));
+      for (std::size_t i = 0; i < fold.judging.size(); ++i)
+        if (fold.judging[i].specular2 > 0.0)
+          errors.relative.push_back(errors.residuals.specular[i] / fold.judging[i].specular2);
     });
     return errors;
   }
@@ -147,6 +154,10 @@ class ComparisonRun {
     Candidate& candidate = contender.candidate;
     candidate.alpha_standard_error = join(&Residuals::alpha, &candidate.alpha);
     candidate.specular_standard_error = join(&Residuals::specular, &candidate.specular);
+    std::vector<double> relative;
+    for (const FoldErrors& fold : folds)
+      relative.insert(relative.end(), fold.relative.begin(), fold.relative.end());
+    candidate.relative_specular_rms = error_figures(std::move(relative)).rms;
   }
 
   void judge_beyond(Contender& contender) {
@@ -188,6 +199,17 @@ class ComparisonRun {
       if (contender.sound && !(contender.candidate.edge_alpha_rms <= bound(best_alpha) &&
                                contender.candidate.edge_specular_rms <= bound(best_specular)))
         reject(contender, "worse at the edge");
+  }
+
+  // Dark materials are as common as bright ones, and an error of specular shows as a share of it.
+  void refuse_bad_shares() {
+    double best = 1e300;
+    for (const Contender& contender : comparison_.contenders)
+      if (contender.sound) best = std::min(best, contender.candidate.relative_specular_rms);
+    for (Contender& contender : comparison_.contenders)
+      if (contender.sound &&
+          !(contender.candidate.relative_specular_rms <= std::max(kShareFactor * best, best + kShareMargin)))
+        reject(contender, "specular is off by too large a share of itself");
   }
 
   // Rejects contenders that `remapc emit` would refuse, if another one can be emitted.

@@ -110,6 +110,25 @@ void add_bright_ends(const Column& column, const TargetLimits& limits, std::vect
       rows->push_back(column[i]);
 }
 
+// The columns continued to specular `from` by the line through their first two rows, so that a network that bends in
+// the corner without rows does not need a large table.
+void continue_downwards(double from, std::vector<TableRow>* rows) {
+  std::vector<TableRow> more;
+  for (const auto& [alpha, column] : columns_of(*rows)) {
+    const double room = column.front().specular1 - from;
+    if (column.size() < 2 || !(room > 0.0)) continue;
+    const std::size_t next = column.size() / 3 + 1 < column.size() ? column.size() / 3 + 1 : column.size() - 1;
+    const double slope = (column[next].alpha2 - column[0].alpha2) / (column[next].specular1 - column[0].specular1);
+    for (int i = 1; i <= kContinuedSpeculars; ++i) {
+      TableRow row = column.front();
+      row.specular1 -= room * i / kContinuedSpeculars;
+      row.alpha2 += slope * (row.specular1 - column.front().specular1);
+      more.push_back(row);
+    }
+  }
+  rows->insert(rows->end(), more.begin(), more.end());
+}
+
 Samples samples_of(const std::vector<TableRow>& rows) {
   Samples samples{2, 1, {}, {}};
   for (const TableRow& row : rows) {
@@ -251,9 +270,12 @@ class RegimeFit {
       row.alpha2 = mapped(alpha, *specular).alpha;
       if (row.alpha2 < limits_.alpha) rows.push_back(row);
     }
+    const double specular_from = std::ranges::min_element(rows, {}, &TableRow::specular1)->specular1;
+    const double alpha_from = std::ranges::min_element(rows, {}, &TableRow::alpha1)->alpha1;
+    continue_downwards(specular_from, &rows);
     const TrainedNetwork network = train_network(samples_of(rows), options_, progress);
     (*method_)["bright"] = network.method;
-    return {std::ranges::min_element(rows, {}, &TableRow::specular1)->specular1, network.network};
+    return {alpha_from, specular_from, network.network};
   }
 
   const RegimeRows& rows_;

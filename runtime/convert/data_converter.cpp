@@ -87,6 +87,7 @@ class DataConverter final : public Converter {
     }
     if (data.bright) {
       bright_.emplace(data.bright->alpha);
+      pass_.bright_alpha_from = data.bright->alpha_from;
       pass_.bright_from = data.bright->specular_from;
       pass_.bright = bright_->rows();
     }

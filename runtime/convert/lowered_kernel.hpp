@@ -41,7 +41,7 @@ struct LoweredPass {
   // Of kRegimes: the largest float where there is no limit, without degrees where there is no regime
   // (lower/lowered.hpp).
   float alpha_limit = 0.0f, specular_limit = 0.0f;
-  float mapping_to = 0.0f, wide_from = 0.0f, bright_from = 0.0f;
+  float mapping_to = 0.0f, wide_from = 0.0f, bright_alpha_from = 0.0f, bright_from = 0.0f;
   PolynomialRows wide, bright;
 };
 

@@ -38,7 +38,8 @@ std::optional<ConverterData::Wide> wide_of(const Lowered& lowered) {
 
 std::optional<ConverterData::Bright> bright_of(const Lowered& lowered) {
   if (!lowered.bright) return std::nullopt;
-  return ConverterData::Bright{lowered.bright->specular_from, lowered.bright->alpha.polynomial};
+  return ConverterData::Bright{lowered.bright->alpha_from, lowered.bright->specular_from,
+                               lowered.bright->alpha.polynomial};
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ struct ConverterData {
     bool operator==(const Wide&) const = default;
   };
   struct Bright {
-    float specular_from = 0.0f;
+    float alpha_from = 0.0f, specular_from = 0.0f;
     PiecewisePolynomial alpha;
     bool operator==(const Bright&) const = default;
   };

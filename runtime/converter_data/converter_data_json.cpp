@@ -85,7 +85,8 @@ std::string converter_text(const ConverterData& data) {
     add("wide_specular", polynomial_text(data.wide->specular));
   }
   if (data.bright) {
-    const Json ends = {{"specular_from", decimal(data.bright->specular_from)}};
+    const Json ends = {{"alpha_from", decimal(data.bright->alpha_from)},
+                       {"specular_from", decimal(data.bright->specular_from)}};
     add("bright", ends.dump());
     add("bright_alpha", polynomial_text(data.bright->alpha));
   }
@@ -166,7 +167,7 @@ ConverterData read_converter(const Field& field) {
     data.wide = {read_float(field["wide"]["from"]), read_float(field["wide"]["mapping_to"]),
                  read_polynomial(field["wide_specular"])};
   if (field.json().contains("bright"))
-    data.bright = {read_float(field["bright"]["specular_from"]), read_polynomial(field["bright_alpha"])};
+    data.bright = {read_float(field["bright"]["alpha_from"]), read_float(field["bright"]["specular_from"]), read_polynomial(field["bright_alpha"])};
   field.require(!data.wide || data.alpha_limit, "a limit of alpha beside the wide regime");
   field.require(!data.bright || data.specular_limit, "a limit of specular beside the bright regime");
   data.golden = field["golden"].list(1, read_golden);

@@ -74,7 +74,8 @@ Json to_json(const Regimes& regimes) {
                     {"specular", factors}};
   }
   if (regimes.bright)
-    json["bright"] = {{"specular_from", finite(regimes.bright->specular_from)},
+    json["bright"] = {{"alpha_from", finite(regimes.bright->alpha_from)},
+                      {"specular_from", finite(regimes.bright->specular_from)},
                       {"alpha", network_json(regimes.bright->alpha)}};
   return json;
 }
@@ -86,6 +87,7 @@ Json to_json(const Candidate& candidate) {
           {"alpha_standard_error", finite(candidate.alpha_standard_error)},
           {"specular", figures_json(candidate.specular)},
           {"specular_standard_error", finite(candidate.specular_standard_error)},
+          {"relative_specular_rms", finite(candidate.relative_specular_rms)},
           {"edge_alpha_rms", finite(candidate.edge_alpha_rms)},
           {"edge_specular_rms", finite(candidate.edge_specular_rms)},
           {"raw_edge_alpha_rms", finite(candidate.raw_edge_alpha_rms)},
@@ -191,7 +193,7 @@ Regimes read_regimes(const Field& field) {
   if (field.json().contains("bright")) {
     const Field bright = field["bright"];
     bright.require(regimes.specular_limit.has_value(), "a specular_limit beside it");
-    regimes.bright = {bright["specular_from"].number(), read_texel_network(bright["alpha"])};
+    regimes.bright = {bright["alpha_from"].number(), bright["specular_from"].number(), read_texel_network(bright["alpha"])};
   }
   return regimes;
 }
@@ -203,6 +205,7 @@ Candidate read_candidate(const Field& field) {
           read_figures(field["specular"]),
           field["alpha_standard_error"].number(),
           field["specular_standard_error"].number(),
+          field.json().contains("relative_specular_rms") ? field["relative_specular_rms"].number() : 0.0,
           field["edge_alpha_rms"].number(),
           field["edge_specular_rms"].number(),
           field["raw_edge_alpha_rms"].number(),

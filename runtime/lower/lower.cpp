@@ -321,13 +321,15 @@ Lowered lower(const Fit& fit, const LoweringOptions& options) {
   }
   if (regimes.bright) {
     ProofDomain bright = domain;
+    bright.alpha.min = std::max(bright.alpha.min, room_below(regimes.bright->alpha_from));
     bright.specular.min = regimes.bright->specular_from * (1.0 - 2e-6);
     Wanted wanted = wanted_regime(alpha, "target alpha of the bright regime", bright,
                                   [network = regimes.bright->alpha](const auto& a, const auto& s) {
                                     return network_value(network, a, s);
                                   });
     wanted.tolerance *= kBrightTolerance;
-    lowered.bright = {static_cast<float>(regimes.bright->specular_from), lower_output(wanted)};
+    lowered.bright = {static_cast<float>(regimes.bright->alpha_from),
+                      static_cast<float>(regimes.bright->specular_from), lower_output(wanted)};
   }
   if (regimes.wide || regimes.bright) find_steps(fit, domain, &lowered);
   return lowered;

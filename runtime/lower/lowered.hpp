@@ -53,7 +53,7 @@ struct LoweredWide {
   bool operator==(const LoweredWide&) const = default;
 };
 struct LoweredBright {
-  float specular_from = 0.0f;
+  float alpha_from = 0.0f, specular_from = 0.0f;
   LoweredFunction alpha;
   bool operator==(const LoweredBright&) const = default;
 };

@@ -48,7 +48,8 @@ TexelWidth target_width(const Fit& fit, double alpha, double top) {
   const bool is_wide = mapped >= regimes.alpha_limit;
   const double width = std::min(mapped, regimes.alpha_limit);
   if (!regimes.bright || !is_bright(fit, is_wide, alpha, top)) return {width, is_wide};
-  const double bright = network_value(regimes.bright->alpha, alpha, std::max(top, regimes.bright->specular_from));
+  const double bright = network_value(regimes.bright->alpha, std::max(alpha, regimes.bright->alpha_from),
+                    std::max(top, regimes.bright->specular_from));
   return {std::min(bright, regimes.alpha_limit), is_wide};
 }
 

@@ -69,6 +69,7 @@ struct Candidate {
   ErrorFigures alpha, specular;       // of cross-validation, all folds
   double alpha_standard_error = 0.0;  // of alpha.rms over the folds
   double specular_standard_error = 0.0;
+  double relative_specular_rms = 0.0;  // of cross-validation, relative to target specular, which is what pictures show
   double edge_alpha_rms = 0.0;  // on the outermost rows, fitted without them, with the domain rule
   double edge_specular_rms = 0.0;
   double raw_edge_alpha_rms = 0.0;  // the same without the domain rule

@@ -31,7 +31,8 @@ struct WideRegime {
 };
 
 struct BrightRegime {
-  double specular_from = 0.0;  // the least source specular whose match is bright; below, it is held
+  // The least width and specular of the source whose matches are bright; below, each is held.
+  double alpha_from = 0.0, specular_from = 0.0;
   Network alpha;               // of alpha and specular: target alpha
   bool operator==(const BrightRegime&) const = default;
 };
