@@ -1,5 +1,8 @@
 // The domain rule as C++: the text of runtime/convert/code, which texremap also runs over vectors of texels,
 // with the definitions that this text needs.
+#include <limits>
+#include <optional>
+
 #include "emit/convention_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
@@ -39,19 +42,14 @@ static void find_terms(Count count, Terms& terms) noexcept {
 )";
 
 constexpr std::string_view kRegimeFunctions =
-    R"(// The limits of the target, and between which widths its regimes take over.
-static constexpr bool has_wide = @has_wide@, has_bright = @has_bright@;
+    R"(static constexpr bool has_wide = @has_wide@, has_bright = @has_bright@;  // regimes of the table
 static constexpr float alpha_limit = @alpha_limit@, specular_limit = @specular_limit@;
-static constexpr float mapping_to = @mapping_to@, wide_from = @wide_from@;
-static constexpr float bright_alpha_from = @bright_alpha_from@, bright_from = @bright_from@;
-static float held_above(float value, float least) noexcept {
-  return float_from_bits(larger(bits(value), bits(least)));
-}
+static constexpr float mapping_to = @mapping_to@;  // the mapping has reached the limit of alpha before
 static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  @wide_specular@
+  return @wide_specular@;
 }
 static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
-  @bright_alpha@
+  return @bright_alpha@;
 }
 template <class Count>
 static void find_wide_terms(Count, Terms&) noexcept {}
@@ -59,31 +57,37 @@ template <class Count>
 static void find_bright_terms(Count, Terms&) noexcept {}
 )";
 
-// Without a limit: larger than any number that a mapping gives.
+// Without a limit: the largest float, which no mapping gives.
 std::string limit_literal(const std::optional<float>& limit) {
-  return limit ? literal(static_cast<double>(*limit)) : "3.4028235e38f";
+  return literal(static_cast<double>(limit.value_or(std::numeric_limits<float>::max())));
 }
 
-// A regime that a table does not have continues the mapping.
+// Calls the function of a regime; one that a table does not have continues the mapping.
+std::string regime_call(const std::string& name, const std::optional<remap::LoweredSeries>& regime,
+                        const std::string& otherwise) {
+  if (!regime) return otherwise;
+  const auto held = [](const std::string& value, float least) {
+    return "held_above(" + value + ", " + literal(static_cast<double>(least)) + ")";
+  };
+  return "detail::" + name + "(" + held("terms.source_alpha[i]", regime->alpha_from) + ", " +
+         held("specular", regime->specular_from) + ")";
+}
+
 std::string regime_functions(const remap::Lowered& lowered) {
-  const auto& wide = lowered.wide;
-  const auto& bright = lowered.bright;
   const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
+  const auto wide = lowered.wide ? std::optional(lowered.wide->specular) : std::nullopt;
+  std::optional<float> mapping_to;
+  if (lowered.wide) mapping_to = lowered.wide->mapping_to;
   return fill_template(
       kRegimeFunctions,
       {{"has_wide", truth(wide.has_value())},
-       {"has_bright", truth(bright.has_value())},
+       {"has_bright", truth(lowered.bright.has_value())},
        {"alpha_limit", limit_literal(lowered.alpha_limit)},
        {"specular_limit", limit_literal(lowered.specular_limit)},
-       {"mapping_to", limit_literal(wide ? std::optional(wide->mapping_to) : std::nullopt)},
-       {"wide_from", literal(wide ? static_cast<double>(wide->from) : 0.0)},
-       {"bright_alpha_from", literal(bright ? static_cast<double>(bright->alpha_from) : 0.0)},
-       {"bright_from", literal(bright ? static_cast<double>(bright->specular_from) : 0.0)},
-       {"wide_specular",
-        wide ? "return detail::wide_specular(held_above(terms.source_alpha[i], wide_from), specular);"
-             : "return detail::target_specular(terms, i, specular);"},
-       {"bright_alpha", bright ? "return detail::bright_alpha(held_above(terms.source_alpha[i], bright_alpha_from), specular);"
-                               : "return detail::target_alpha(terms.alpha[i], specular);"}});
+       {"mapping_to", limit_literal(mapping_to)},
+       {"wide_specular", regime_call("wide_specular", wide, "detail::target_specular(terms, i, specular)")},
+       {"bright_alpha",
+        regime_call("bright_alpha", lowered.bright, "detail::target_alpha(terms.alpha[i], specular)")}});
 }
 
 // The functions of Mapping, and the loops over a block that call them.
@@ -117,7 +121,7 @@ RuleParts parts_of(const ConverterHeader& header, const MappingCode& code) {
 std::string block_code(const ConverterHeader& header, const std::string& specular_name,
                        const MappingCode& code) {
   const RuleParts parts = parts_of(header, code);
-  return code_files({"lanes", "domain"}) +
+  return code_files({"lanes", "domain"}) + (code.form == CodeForm::kRegimes ? code_files({"limits"}) : "") +
          fill_template(kMapping, {{"in_roughness", std::string(convention_name(header.source))},
                                   {"in_specular", specular_name},
                                   {"inverse_edge", literal(1.0 / header.specular.max)},

@@ -146,18 +146,18 @@ MappingCode mapping_code(const remap::Lowered& lowered) {
                                                        : CodeForm::kTerms;
   code.is_positive = lowered.specular.rises_with_specular;
   std::vector<const PiecewisePolynomial*> all = {&alpha, &specular};
-  if (lowered.wide) all.push_back(&lowered.wide->specular.polynomial);
-  if (lowered.bright) all.push_back(&lowered.bright->alpha.polynomial);
+  if (lowered.wide) all.push_back(&lowered.wide->specular.function.polynomial);
+  if (lowered.bright) all.push_back(&lowered.bright->function.polynomial);
   if (std::ranges::any_of(all, [](const PiecewisePolynomial* one) { return one->cell_count > 1; }))
     code.functions += kCellOf;
   const bool is_proportional = code.form == CodeForm::kProportional;
   code.functions += texel_code(alpha, "target_alpha", "kAlphaTable", !is_proportional) +
                     (is_proportional ? slope_code(specular) : polynomial_terms(specular, code.form));
   if (lowered.wide)
-    code.functions += texel_code(lowered.wide->specular.polynomial, "wide_specular", "kWideTable", true,
+    code.functions += texel_code(lowered.wide->specular.function.polynomial, "wide_specular", "kWideTable", true,
                                  "// Target specular where target alpha is at its limit.");
   if (lowered.bright)
-    code.functions += texel_code(lowered.bright->alpha.polynomial, "bright_alpha", "kBrightTable", true,
+    code.functions += texel_code(lowered.bright->function.polynomial, "bright_alpha", "kBrightTable", true,
                                  "// Target alpha where target specular is at its limit.");
   return code;
 }

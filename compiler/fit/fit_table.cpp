@@ -86,16 +86,13 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
   fit.image_similarity = image_similarity(table, answers);
   const TargetLimits limits = target_limits(table);
-  const RegimeRows rows = regime_rows(split.training, limits);
-  MlpOptions network;
-  network.seed = options.regression.seed;
-  network.jobs = options.regression.jobs;
+  const RegimeRows rows = regime_rows(split.training, answers, limits);
   const remap::Domain inside = covered_domain(rows.inside);
   const auto fit_of = [&](const Regression& regression) {
     remap::Fit one = fit;
     one.mapping = regression.mapping;
     one.method = regression.method;
-    one.regimes = fit_regimes(rows, limits, one.mapping, fit.domain, network, &one.method);
+    one.regimes = fit_regimes(rows, limits, one.mapping, fit.domain, options.regression.seed, &one.method);
     const RowErrors errors = row_errors(one, split.held_out);
     one.alpha_error = errors.alpha;
     one.specular_error = errors.specular;

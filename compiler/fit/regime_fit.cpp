@@ -22,6 +22,8 @@ constexpr std::size_t kContinuedWidths = 2;
 constexpr int kContinuedSpeculars = 5;  // rows of a column
 constexpr int kSpeculars = 33;  // at which a joint is looked for
 constexpr int kHalvings = 40;
+// Pictures are affine in specular, nearly so after the match.
+constexpr int kWideSpeculars = 2;
 // How far the mapping passes the limit of alpha before it is held: more than its lowering may change.
 constexpr double kBeyondLimit = 5e-4;
 constexpr double kSameSpecular = 1e-9;
@@ -61,19 +63,22 @@ void continue_in_specular(const Column& column, RowRegime regime, const TargetLi
   }
 }
 
-// The value at `x` of the parabola through three points.
-double parabola(const std::array<double, 3>& at, const std::array<double, 3>& values, double x) {
+constexpr std::size_t kExtrapolated = 4;  // rows that a continuation in width passes through
+
+// The value at `x` of the polynomial through the points.
+double through(const std::array<double, kExtrapolated>& at, const std::array<double, kExtrapolated>& values,
+               double x) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < kExtrapolated; ++i) {
     double term = values[i];
-    for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t j = 0; j < kExtrapolated; ++j)
       if (j != i) term *= (x - at[j]) / (at[i] - at[j]);
     sum += term;
   }
   return sum;
 }
 
-// The columns inside, continued to the first wide ones by parabolas through their last three rows of a specular;
+// The columns inside, continued to the first wide ones by polynomials through their last rows of a specular;
 // `keeps_specular`: in width alone.
 void continue_in_alpha(const std::map<double, Column>& inside, const std::map<double, Column>& wide,
                        bool keeps_specular, std::vector<TableRow>* rows) {
@@ -83,19 +88,19 @@ void continue_in_alpha(const std::map<double, Column>& inside, const std::map<do
     ++done;
     for (TableRow row : column) {
       std::vector<const TableRow*> neighbours;
-      for (auto other = inside.rbegin(); other != inside.rend() && neighbours.size() < 3; ++other)
+      for (auto other = inside.rbegin(); other != inside.rend() && neighbours.size() < kExtrapolated; ++other)
         for (const TableRow& candidate : other->second)
           if (other->first < alpha && std::fabs(candidate.specular1 - row.specular1) < kSameSpecular)
             neighbours.push_back(&candidate);
-      if (neighbours.size() < 3) continue;
-      std::array<double, 3> at{}, alphas{}, speculars{};
-      for (std::size_t i = 0; i < 3; ++i) {
+      if (neighbours.size() < kExtrapolated) continue;
+      std::array<double, kExtrapolated> at{}, alphas{}, speculars{};
+      for (std::size_t i = 0; i < kExtrapolated; ++i) {
         at[i] = neighbours[i]->alpha1;
         alphas[i] = neighbours[i]->alpha2;
         speculars[i] = neighbours[i]->specular2;
       }
-      row.alpha2 = parabola(at, alphas, alpha);
-      if (!keeps_specular) row.specular2 = parabola(at, speculars, alpha);
+      row.alpha2 = through(at, alphas, alpha);
+      if (!keeps_specular) row.specular2 = through(at, speculars, alpha);
       rows->push_back(row);
     }
   }
@@ -110,34 +115,6 @@ void add_bright_ends(const Column& column, const TargetLimits& limits, std::vect
       rows->push_back(column[i]);
 }
 
-// The columns continued to specular `from` by the line through their first two rows, so that a network that bends in
-// the corner without rows does not need a large table.
-void continue_downwards(double from, std::vector<TableRow>* rows) {
-  std::vector<TableRow> more;
-  for (const auto& [alpha, column] : columns_of(*rows)) {
-    const double room = column.front().specular1 - from;
-    if (column.size() < 2 || !(room > 0.0)) continue;
-    const std::size_t next = column.size() / 3 + 1 < column.size() ? column.size() / 3 + 1 : column.size() - 1;
-    const double slope = (column[next].alpha2 - column[0].alpha2) / (column[next].specular1 - column[0].specular1);
-    for (int i = 1; i <= kContinuedSpeculars; ++i) {
-      TableRow row = column.front();
-      row.specular1 -= room * i / kContinuedSpeculars;
-      row.alpha2 += slope * (row.specular1 - column.front().specular1);
-      more.push_back(row);
-    }
-  }
-  rows->insert(rows->end(), more.begin(), more.end());
-}
-
-Samples samples_of(const std::vector<TableRow>& rows) {
-  Samples samples{2, 1, {}, {}};
-  for (const TableRow& row : rows) {
-    samples.inputs.insert(samples.inputs.end(), {row.alpha1, row.specular1});
-    samples.outputs.push_back(row.alpha2);
-  }
-  return samples;
-}
-
 // Where a rising function passes `value`; none if it does not in the range.
 template <typename Function>
 std::optional<double> passed_at(const Function& rising, const remap::Range& range, double value) {
@@ -150,69 +127,115 @@ std::optional<double> passed_at(const Function& rising, const remap::Range& rang
   return 0.5 * (low + high);
 }
 
-// The polynomial of least squares: powers of specular up to `speculars`, of alpha up to `alphas`.
-remap::TexelPolynomial fitted_polynomial(const std::vector<TableRow>& rows, int alphas, int speculars) {
-  const Eigen::Index width = alphas + 1, count = static_cast<Eigen::Index>(rows.size());
-  Eigen::MatrixXd basis(count, width * (speculars + 1));
-  Eigen::VectorXd values(count);
-  for (Eigen::Index r = 0; r < count; ++r) {
-    const TableRow& row = rows[static_cast<std::size_t>(r)];
-    values(r) = row.specular2;
-    for (int j = 0; j <= speculars; ++j)
-      for (int i = 0; i <= alphas; ++i)
-        basis(r, j * width + i) = std::pow(row.specular1, j) * std::pow(row.alpha1, i);
+// The shape of a series: the sum of the degrees of its terms is at most `degree`, that in specular at most
+// `of_specular`.
+struct SeriesShape {
+  int degree, of_specular;
+  std::size_t count() const {
+    std::size_t terms = 0;
+    for (int j = 0; j <= std::min(degree, of_specular); ++j) terms += static_cast<std::size_t>(degree - j + 1);
+    return terms;
   }
-  const Eigen::VectorXd found = basis.colPivHouseholderQr().solve(values);
-  remap::TexelPolynomial polynomial;
-  for (int j = 0; j <= speculars; ++j)
-    polynomial.emplace_back(found.data() + j * width, found.data() + (j + 1) * width);
-  return polynomial;
-}
-
-struct PolynomialShape {
-  int alphas, speculars;
 };
 
-// By rising size.
-constexpr std::array<PolynomialShape, 8> kShapes = {
-    {{1, 1}, {2, 1}, {3, 1}, {2, 2}, {4, 1}, {3, 2}, {4, 2}, {6, 2}}};
+// Weight of the squares of coefficients, relative to one row: nothing where there are rows, but it keeps the series
+// from growing in the part of its box where there are none.
+constexpr double kRidge = 1e-4;
 
-// The smallest shape that counts as equal to the best in cross-validation (folds.hpp).
-PolynomialShape chosen_shape(const std::vector<TableRow>& rows, std::uint64_t seed) {
-  constexpr std::size_t kShapeFolds = 5;
-  const std::vector<Fold> folds = split_folds(rows, kShapeFolds, seed);
+// Errors count relative to the value, as pictures show them; below this share of a limit as those of the share.
+constexpr double kLeastValue = 0.02;
+double weight_of(double value) { return 1.0 / std::max(value, kLeastValue); }
+
+// T_0 to T_degree of `value` in its range.
+Eigen::VectorXd chebyshev_row(const remap::Range& range, double value, int degree) {
+  const double x = 2.0 * (value - range.min) / (range.max - range.min) - 1.0;
+  Eigen::VectorXd row(degree + 1);
+  row(0) = 1.0;
+  if (degree > 0) row(1) = x;
+  for (int i = 2; i <= degree; ++i) row(i) = 2.0 * x * row(i - 1) - row(i - 2);
+  return row;
+}
+
+// The series of least squares over the box of `series`.
+remap::TexelSeries fitted_series(const std::vector<TableRow>& rows, double TableRow::*output,
+                                 remap::TexelSeries series, const SeriesShape& shape) {
+  const auto count = static_cast<Eigen::Index>(rows.size()), terms = static_cast<Eigen::Index>(shape.count());
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(count + terms, terms);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(count + terms);
+  const int powers = std::min(shape.degree, shape.of_specular);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const TableRow& row = rows[static_cast<std::size_t>(r)];
+    const Eigen::VectorXd of_alpha = chebyshev_row(series.alpha, row.alpha1, shape.degree);
+    const Eigen::VectorXd of_specular = chebyshev_row(series.specular, row.specular1, powers);
+    const double weight = weight_of(row.*output);
+    values(r) = weight * row.*output;
+    Eigen::Index term = 0;
+    for (int j = 0; j <= powers; ++j)
+      for (int i = 0; i <= shape.degree - j; ++i) basis(r, term++) = weight * of_alpha(i) * of_specular(j);
+  }
+  Eigen::Index term = 0;
+  for (int j = 0; j <= powers; ++j)
+    for (int i = 0; i <= shape.degree - j; ++i, ++term) basis(count + term, term) = kRidge * (1.0 + i + j);
+  const Eigen::VectorXd found = basis.householderQr().solve(values);
+  series.coefficients.clear();
+  const double* next = found.data();
+  for (int j = 0; j <= powers; ++j, next += shape.degree - j + 2)
+    series.coefficients.emplace_back(next, next + shape.degree - j + 1);
+  return series;
+}
+
+constexpr std::size_t kSeriesFolds = 5;
+constexpr double kRowsATerm = 1.5;  // at least
+constexpr std::array kDegrees = {1, 2, 3, 4, 6, 8, 10, 12};
+
+// The simplest series that counts as equal to the best in cross-validation (folds.hpp). `widths`: the number of
+// different alpha1, which a degree stays below.
+remap::TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t widths, double TableRow::*output,
+                               const remap::TexelSeries& box, int of_specular, std::uint64_t seed) {
+  const std::vector<Fold> folds = split_folds(rows, kSeriesFolds, seed);
+  std::vector<SeriesShape> shapes;
   std::vector<CrossValidated> scores;
-  for (const PolynomialShape& shape : kShapes) {
+  for (const int degree : kDegrees) {
+    const SeriesShape shape{degree, of_specular};
+    const bool is_determined = static_cast<std::size_t>(degree) + 1 <= widths &&
+                               kRowsATerm * static_cast<double>(shape.count()) <= static_cast<double>(rows.size());
+    if (degree > 1 && !is_determined) break;
     std::vector<std::vector<double>> errors;
     for (const Fold& fold : folds) {
-      const remap::TexelPolynomial polynomial = fitted_polynomial(fold.training, shape.alphas, shape.speculars);
+      const remap::TexelSeries series = fitted_series(fold.training, output, box, shape);
       errors.emplace_back();
       for (const TableRow& row : fold.judging)
-        errors.back().push_back(remap::polynomial_value(polynomial, row.alpha1, row.specular1) - row.specular2);
+        errors.back().push_back((remap::series_value(series, row.alpha1, row.specular1) - row.*output) *
+                                weight_of(row.*output));
     }
+    shapes.push_back(shape);
     scores.push_back(cross_validated(errors));
   }
   const double bound = error_bound(scores);
-  for (std::size_t i = 0; i < kShapes.size(); ++i)
-    if (scores[i].rms <= bound) return kShapes[i];
-  return kShapes.back();
+  const auto chosen =
+      std::ranges::find_if(scores, [&](const CrossValidated& score) { return score.rms <= bound; });
+  return fitted_series(rows, output, box, shapes[static_cast<std::size_t>(chosen - scores.begin())]);
+}
+
+std::string series_text(const remap::TexelSeries& series, std::size_t rows) {
+  return "degree " + std::to_string(series.coefficients.front().size() - 1) + ", up to " +
+         std::to_string(series.coefficients.size() - 1) + " in specular, " + std::to_string(rows) + " rows";
 }
 
 class RegimeFit {
  public:
   RegimeFit(const RegimeRows& rows, const TargetLimits& limits, const remap::MappingKind& mapping,
-            const remap::Domain& domain, const MlpOptions& options,
-            std::map<std::string, std::string>* method)
-      : rows_(rows), limits_(limits), mapping_(mapping), domain_(domain), options_(options), method_(method) {}
+            const remap::Domain& domain, std::uint64_t seed, std::map<std::string, std::string>* method)
+      : rows_(rows), limits_(limits), mapping_(mapping), domain_(domain), seed_(seed), method_(method) {}
 
-  remap::Regimes fit(const FitProgress& progress) {
+  remap::Regimes fit() {
     remap::Regimes regimes;
     regimes.alpha_limit = limits_.alpha;
     regimes.specular_limit = limits_.specular;
     if (!rows_.wide.empty()) regimes.wide = fit_wide();
     if (!rows_.bright.empty()) {
-      const double to = regimes.wide ? regimes.wide->from : domain_.alpha.max;
-      regimes.bright = fit_bright(to, progress);
+      const double to = regimes.wide ? regimes.wide->specular.alpha.min : domain_.alpha.max;
+      regimes.bright = fit_bright(to);
     }
     return regimes;
   }
@@ -231,12 +254,13 @@ class RegimeFit {
   }
 
   std::optional<remap::WideRegime> fit_wide() {
-    remap::WideRegime wide{domain_.alpha.max, domain_.alpha.min, {}};
+    remap::WideRegime wide{domain_.alpha.min, {domain_.alpha, domain_.specular, {}}};
+    wide.specular.alpha.min = domain_.alpha.max;
     for (int i = 0; i < kSpeculars; ++i) {
       const double specular = domain_.specular.max * i / (kSpeculars - 1);
       const auto from = joint(specular, limits_.alpha), to = joint(specular, limits_.alpha + kBeyondLimit);
       if (!from || !to) return std::nullopt;
-      wide.from = std::min(wide.from, *from);
+      wide.specular.alpha.min = std::min(wide.specular.alpha.min, *from);
       wide.mapping_to = std::max(wide.mapping_to, *to);
     }
     std::vector<TableRow> rows = rows_.wide;
@@ -249,15 +273,13 @@ class RegimeFit {
       row.specular2 = mapped(row.alpha1, specular).specular;
       rows.push_back(row);
     }
-    const PolynomialShape shape = chosen_shape(rows, options_.seed);
-    wide.specular = fitted_polynomial(rows, shape.alphas, shape.speculars);
-    (*method_)["wide"] = "degree " + std::to_string(shape.alphas) + " in alpha, " +
-                         std::to_string(shape.speculars) + " in specular, " + std::to_string(rows.size()) + " rows";
+    wide.specular = best_series(rows, columns_of(rows_.wide).size() + 1, &TableRow::specular2, wide.specular, kWideSpeculars, seed_);
+    (*method_)["wide"] = series_text(wide.specular, rows.size());
     return wide;
   }
 
   // `mapping_to`: the largest width at which the mapping is joined.
-  remap::BrightRegime fit_bright(double mapping_to, const FitProgress& progress) {
+  remap::TexelSeries fit_bright(double mapping_to) {
     std::vector<TableRow> rows = rows_.bright;
     for (const auto& [alpha, column] : columns_of(rows_.bright)) {
       if (alpha > mapping_to) break;
@@ -270,25 +292,35 @@ class RegimeFit {
       row.alpha2 = mapped(alpha, *specular).alpha;
       if (row.alpha2 < limits_.alpha) rows.push_back(row);
     }
-    const double specular_from = std::ranges::min_element(rows, {}, &TableRow::specular1)->specular1;
-    const double alpha_from = std::ranges::min_element(rows, {}, &TableRow::alpha1)->alpha1;
-    continue_downwards(specular_from, &rows);
-    const TrainedNetwork network = train_network(samples_of(rows), options_, progress);
-    (*method_)["bright"] = network.method;
-    return {alpha_from, specular_from, network.network};
+    const auto least = [&](double TableRow::*input) { return (*std::ranges::min_element(rows, {}, input)).*input; };
+    const remap::TexelSeries box{{width_before(least(&TableRow::alpha1)), domain_.alpha.max},
+                                 {least(&TableRow::specular1), domain_.specular.max},
+                                 {}};
+    const remap::TexelSeries series = best_series(rows, columns_of(rows).size(), &TableRow::alpha2, box, kDegrees.back(), seed_);
+    (*method_)["bright"] = series_text(series, rows.size());
+    return series;
+  }
+
+  // The width of the table before `alpha`: between the two, the first bright texels lie.
+  double width_before(double alpha) const {
+    double before = domain_.alpha.min;
+    for (const TableRow& row : rows_.inside)
+      if (row.alpha1 < alpha) before = std::max(before, row.alpha1);
+    return before;
   }
 
   const RegimeRows& rows_;
   const TargetLimits& limits_;
   const remap::MappingKind& mapping_;
   const remap::Domain& domain_;
-  const MlpOptions& options_;
+  std::uint64_t seed_;
   std::map<std::string, std::string>* method_;
 };
 
 }  // namespace
 
-RegimeRows regime_rows(const std::vector<TableRow>& training, const TargetLimits& limits) {
+RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<TableRow>& all,
+                       const TargetLimits& limits) {
   RegimeRows rows;
   for (const TableRow& row : training) switch (regime_of(row, limits)) {
       case RowRegime::kInside:
@@ -305,7 +337,12 @@ RegimeRows regime_rows(const std::vector<TableRow>& training, const TargetLimits
         break;
     }
   if (!can_be_fitted(rows.bright)) rows.bright.clear();
-  const std::map<double, Column> inside = columns_of(rows.inside), wide = columns_of(rows.wide);
+  std::map<double, Column> inside, wide;
+  for (const auto& [alpha, column] : columns_of(all))
+    for (const TableRow& row : column) {
+      if (regime_of(row, limits) == RowRegime::kInside) inside[alpha].push_back(row);
+      if (regime_of(row, limits) == RowRegime::kWide) wide[alpha].push_back(row);
+    }
   const bool has_wide = can_be_fitted(rows.wide);
   if (!has_wide) rows.wide.clear();
   for (const auto& [alpha, column] : columns_of(training)) {
@@ -318,9 +355,9 @@ RegimeRows regime_rows(const std::vector<TableRow>& training, const TargetLimits
 }
 
 remap::Regimes fit_regimes(const RegimeRows& rows, const TargetLimits& limits, const remap::MappingKind& mapping,
-                           const remap::Domain& domain, const MlpOptions& options,
-                           std::map<std::string, std::string>* method, const FitProgress& progress) {
-  return RegimeFit(rows, limits, mapping, domain, options, method).fit(progress);
+                           const remap::Domain& domain, std::uint64_t seed,
+                           std::map<std::string, std::string>* method) {
+  return RegimeFit(rows, limits, mapping, domain, seed, method).fit();
 }
 
 }  // namespace remapc

@@ -1,9 +1,12 @@
 // Fits the regimes of a table (remap/regimes.hpp), each on its own rows.
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
-#include "fit/network/mlp.hpp"
+#include "fit/rows/regression.hpp"
 #include "table/row_regime.hpp"
 
 namespace remapc {
@@ -17,13 +20,15 @@ struct RegimeRows {
   std::vector<TableRow> wide;    // continued where specular is at its limit, too
   std::vector<TableRow> bright;
 };
-RegimeRows regime_rows(const std::vector<TableRow>& training, const TargetLimits& limits);
+// `all`: the rows of the table, from whose neighbours the training rows are continued.
+RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<TableRow>& all,
+                       const TargetLimits& limits);
 
-// Fits a small network to each regime that has rows, for a `mapping` of rows.inside. At the joints, the mapping gives
-// further rows. `domain`: that of the fit. `method` receives the hyper-parameters of each network. Throws the errors
-// of train_network().
+// Fits a series to each regime that has rows, for a `mapping` of rows.inside. Where regimes meet, the mapping gives further
+// rows. `domain`: that of the fit. The degree is chosen by cross-validation, whose folds depend on `seed`. `method`
+// receives it.
 remap::Regimes fit_regimes(const RegimeRows& rows, const TargetLimits& limits, const remap::MappingKind& mapping,
-                           const remap::Domain& domain, const MlpOptions& options,
-                           std::map<std::string, std::string>* method, const FitProgress& progress = {});
+                           const remap::Domain& domain, std::uint64_t seed,
+                           std::map<std::string, std::string>* method);
 
 }  // namespace remapc

@@ -153,15 +153,19 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
     // Between two samples lies at most one corner, so at most two joints.
     TableRow below = sorted[i];
     for (int joint = 0; joint < 2 && differ(below, sorted[i + 1]); ++joint) {
+      const TableRow start = below;
       TableRow above = sorted[i + 1];
-      const double from = below.specular1;
+      // The last two on each side, so that one is left where the other is held out.
+      std::vector<TableRow> on_this_side, beyond;
       for (int k = 0; k < kJointHalvings; ++k) {
         const double middle = remap::rounded(0.5 * (below.specular1 + above.specular1), kSampleDigits);
         const TableRow row = match->at({below.alpha1, middle});
         (differ(row, below) ? above : below) = row;
+        (differ(row, start) ? beyond : on_this_side).push_back(row);
       }
-      if (below.specular1 > from) rows->push_back(below);
-      if (above.specular1 < sorted[i + 1].specular1) rows->push_back(above);
+      for (const auto* side : {&on_this_side, &beyond})
+        for (std::size_t k = side->size() - std::min<std::size_t>(side->size(), 2); k < side->size(); ++k)
+          rows->push_back((*side)[k]);
       below = above;
     }
   }

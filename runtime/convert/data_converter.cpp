@@ -21,8 +21,8 @@ void require_evaluable(const ConverterData& data) {
     throw Error(ErrorKind::kNumeric, data.id + ": " + what);
   };
   std::vector<const PiecewisePolynomial*> polynomials = {&data.alpha_polynomial, &data.specular_polynomial};
-  if (data.wide) polynomials.push_back(&data.wide->specular);
-  if (data.bright) polynomials.push_back(&data.bright->alpha);
+  if (data.wide) polynomials.push_back(&data.wide->polynomial);
+  if (data.bright) polynomials.push_back(&data.bright->polynomial);
   for (const PiecewisePolynomial* polynomial : polynomials)
     if (polynomial->degrees.size() > kMostPowers)
       refuse("the degree in specular is " + std::to_string(polynomial->degrees.size() - 1) + " (at most " +
@@ -79,18 +79,11 @@ class DataConverter final : public Converter {
     pass_.specular = specular_.rows();
     pass_.alpha_limit = data.alpha_limit.value_or(kNone);
     pass_.specular_limit = data.specular_limit.value_or(kNone);
-    pass_.mapping_to = data.wide ? data.wide->mapping_to : kNone;
-    if (data.wide) {
-      wide_.emplace(data.wide->specular);
-      pass_.wide_from = data.wide->from;
-      pass_.wide = wide_->rows();
-    }
-    if (data.bright) {
-      bright_.emplace(data.bright->alpha);
-      pass_.bright_alpha_from = data.bright->alpha_from;
-      pass_.bright_from = data.bright->specular_from;
-      pass_.bright = bright_->rows();
-    }
+    pass_.mapping_to = data.wide ? data.mapping_to : kNone;
+    if (data.wide) pass_.wide = {data.wide->alpha_from, data.wide->specular_from, wide_.emplace(data.wide->polynomial).rows()};
+    if (data.bright)
+      pass_.bright = {data.bright->alpha_from, data.bright->specular_from,
+                      bright_.emplace(data.bright->polynomial).rows()};
   }
 
   std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,

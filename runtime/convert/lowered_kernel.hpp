@@ -21,6 +21,12 @@ struct PolynomialRows {
   const float* numbers = nullptr;  // for each coefficient of a cell, those of all cells
 };
 
+// The polynomial of a regime, and where its domain begins.
+struct RegimeRows {
+  float alpha_from = 0.0f, specular_from = 0.0f;
+  PolynomialRows polynomial;
+};
+
 // The loops of a pass, from the fastest.
 enum class LoweredForm {
   kProportional,  // target specular is a factor times specular, target alpha free of it
@@ -40,9 +46,8 @@ struct LoweredPass {
   PolynomialRows specular;
   // Of kRegimes: the largest float where there is no limit, without degrees where there is no regime
   // (lower/lowered.hpp).
-  float alpha_limit = 0.0f, specular_limit = 0.0f;
-  float mapping_to = 0.0f, wide_from = 0.0f, bright_alpha_from = 0.0f, bright_from = 0.0f;
-  PolynomialRows wide, bright;
+  float alpha_limit = 0.0f, specular_limit = 0.0f, mapping_to = 0.0f;
+  RegimeRows wide, bright;
 };
 
 // A polynomial that owns its numbers.

@@ -31,15 +31,8 @@ std::optional<double> three_digits(const std::optional<double>& value) {
   return value ? std::optional<double>(rounded(*value, 3)) : std::nullopt;
 }
 
-std::optional<ConverterData::Wide> wide_of(const Lowered& lowered) {
-  if (!lowered.wide) return std::nullopt;
-  return ConverterData::Wide{lowered.wide->from, lowered.wide->mapping_to, lowered.wide->specular.polynomial};
-}
-
-std::optional<ConverterData::Bright> bright_of(const Lowered& lowered) {
-  if (!lowered.bright) return std::nullopt;
-  return ConverterData::Bright{lowered.bright->alpha_from, lowered.bright->specular_from,
-                               lowered.bright->alpha.polynomial};
+ConverterData::Series series_of(const LoweredSeries& lowered) {
+  return {lowered.alpha_from, lowered.specular_from, lowered.function.polynomial};
 }
 
 }  // namespace
@@ -84,8 +77,9 @@ ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
           lowered.specular.polynomial,
           lowered.alpha_limit,
           lowered.specular_limit,
-          wide_of(lowered),
-          bright_of(lowered),
+          lowered.wide ? lowered.wide->mapping_to : 0.0f,
+          lowered.wide ? std::optional(series_of(lowered.wide->specular)) : std::nullopt,
+          lowered.bright ? std::optional(series_of(*lowered.bright)) : std::nullopt,
           golden_texels(fit, lowered.alpha_bound(), lowered.specular_bound())};
 }
 

@@ -63,20 +63,18 @@ Json mapping_json(const MappingKind& mapping) {
   return json;
 }
 
+Json to_json(const TexelSeries& series) {
+  Json rows = Json::array();
+  for (const auto& row : series.coefficients) rows.push_back(numbers_json(row));
+  return {{"alpha", to_json(series.alpha)}, {"specular", to_json(series.specular)}, {"coefficients", rows}};
+}
+
 Json to_json(const Regimes& regimes) {
   Json json = {{"alpha_limit", finite(regimes.alpha_limit)},
                {"specular_limit", regimes.specular_limit ? Json(finite(*regimes.specular_limit)) : Json()}};
-  if (regimes.wide) {
-    Json factors = Json::array();
-    for (const auto& factor : regimes.wide->specular) factors.push_back(numbers_json(factor));
-    json["wide"] = {{"from", finite(regimes.wide->from)},
-                    {"mapping_to", finite(regimes.wide->mapping_to)},
-                    {"specular", factors}};
-  }
-  if (regimes.bright)
-    json["bright"] = {{"alpha_from", finite(regimes.bright->alpha_from)},
-                      {"specular_from", finite(regimes.bright->specular_from)},
-                      {"alpha", network_json(regimes.bright->alpha)}};
+  if (regimes.wide)
+    json["wide"] = {{"mapping_to", finite(regimes.wide->mapping_to)}, {"specular", to_json(regimes.wide->specular)}};
+  if (regimes.bright) json["bright"] = {{"alpha", to_json(*regimes.bright)}};
   return json;
 }
 
@@ -182,18 +180,20 @@ double read_positive(const Field& field) {
   return field.number();
 }
 
+TexelSeries read_series(const Field& field) {
+  return {read_range(field["alpha"]), read_range(field["specular"]),
+          field["coefficients"].list(1, [](const Field& row) { return row.numbers(1); })};
+}
+
 Regimes read_regimes(const Field& field) {
   Regimes regimes;
   regimes.alpha_limit = read_positive(field["alpha_limit"]);
   if (!field["specular_limit"].is_null()) regimes.specular_limit = read_positive(field["specular_limit"]);
-  if (field.json().contains("wide")) {
-    const Field wide = field["wide"];
-    regimes.wide = {read_positive(wide["from"]), read_positive(wide["mapping_to"]), wide["specular"].list(1, [](const Field& factor) { return factor.numbers(1); })};
-  }
+  if (field.json().contains("wide"))
+    regimes.wide = {read_positive(field["wide"]["mapping_to"]), read_series(field["wide"]["specular"])};
   if (field.json().contains("bright")) {
-    const Field bright = field["bright"];
-    bright.require(regimes.specular_limit.has_value(), "a specular_limit beside it");
-    regimes.bright = {bright["alpha_from"].number(), bright["specular_from"].number(), read_texel_network(bright["alpha"])};
+    field.require(regimes.specular_limit.has_value(), "a specular_limit beside the regime bright");
+    regimes.bright = read_series(field["bright"]["alpha"]);
   }
   return regimes;
 }

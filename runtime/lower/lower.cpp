@@ -224,15 +224,16 @@ Wanted wanted_specular(const Kind& kind, const MappingKind& mapping, const Proof
   return specular;
 }
 
-// Another function of both parameters in place of `like`.
-template <typename Evaluate>
-Wanted wanted_regime(const Wanted& like, const char* name, const ProofDomain& domain, const Evaluate& evaluate) {
+// Lowers a series of both parameters to the tolerance of `like`.
+LoweredSeries lower_series(const Wanted& like, const char* name, const TexelSeries& series) {
   Wanted wanted = like;
   wanted.name = name;
   wanted.is_factor = false;
-  wanted.model = mapped_function(true, evaluate);
-  wanted.domain = domain;
-  return wanted;
+  wanted.model =
+      mapped_function(true, [series](const auto& a, const auto& s) { return series_value(series, a, s); });
+  wanted.domain = {{room_below(series.alpha.min), room_above(series.alpha.max)},
+                   {series.specular.min * (1.0 - 2e-6), series.specular.max * (1.0 + 2e-6)}};
+  return {static_cast<float>(series.alpha.min), static_cast<float>(series.specular.min), lower_output(wanted)};
 }
 
 // Whether values of the function may pass `limit` on its samples.
@@ -308,28 +309,13 @@ Lowered lower(const Fit& fit, const LoweringOptions& options) {
   if (may_pass(alpha, regimes.alpha_limit)) lowered.alpha_limit = static_cast<float>(regimes.alpha_limit);
   if (regimes.specular_limit && may_pass(specular, *regimes.specular_limit))
     lowered.specular_limit = static_cast<float>(*regimes.specular_limit);
-  if (regimes.wide) {
-    ProofDomain wide = domain;
-    wide.alpha.min = room_below(regimes.wide->from);
-    const Wanted wanted =
-        wanted_regime(specular, "target specular of the wide regime", wide,
-                      [polynomial = regimes.wide->specular](const auto& a, const auto& s) {
-                        return polynomial_value(polynomial, a, s);
-                      });
-    lowered.wide = {static_cast<float>(regimes.wide->from), static_cast<float>(regimes.wide->mapping_to),
-                    lower_output(wanted)};
-  }
+  if (regimes.wide)
+    lowered.wide = {static_cast<float>(regimes.wide->mapping_to),
+                    lower_series(specular, "target specular of the wide regime", regimes.wide->specular)};
   if (regimes.bright) {
-    ProofDomain bright = domain;
-    bright.alpha.min = std::max(bright.alpha.min, room_below(regimes.bright->alpha_from));
-    bright.specular.min = regimes.bright->specular_from * (1.0 - 2e-6);
-    Wanted wanted = wanted_regime(alpha, "target alpha of the bright regime", bright,
-                                  [network = regimes.bright->alpha](const auto& a, const auto& s) {
-                                    return network_value(network, a, s);
-                                  });
-    wanted.tolerance *= kBrightTolerance;
-    lowered.bright = {static_cast<float>(regimes.bright->alpha_from),
-                      static_cast<float>(regimes.bright->specular_from), lower_output(wanted)};
+    Wanted bright = alpha;
+    bright.tolerance *= kBrightTolerance;
+    lowered.bright = lower_series(bright, "target alpha of the bright regime", *regimes.bright);
   }
   if (regimes.wide || regimes.bright) find_steps(fit, domain, &lowered);
   return lowered;

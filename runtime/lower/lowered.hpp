@@ -46,16 +46,16 @@ struct LoweredFunction {
   bool operator==(const LoweredFunction&) const = default;
 };
 
-// The regimes of remap/regimes.hpp.
-struct LoweredWide {
-  float from = 0.0f, mapping_to = 1.0f;
-  LoweredFunction specular;
-  bool operator==(const LoweredWide&) const = default;
-};
-struct LoweredBright {
+// A regime (remap/regimes.hpp): its function, and where its domain begins, below which a parameter is held.
+struct LoweredSeries {
   float alpha_from = 0.0f, specular_from = 0.0f;
-  LoweredFunction alpha;
-  bool operator==(const LoweredBright&) const = default;
+  LoweredFunction function;
+  bool operator==(const LoweredSeries&) const = default;
+};
+struct LoweredWide {
+  float mapping_to = 1.0f;
+  LoweredSeries specular;
+  bool operator==(const LoweredWide&) const = default;
 };
 
 // A fit over its domain. Bounds of specular are in units of target specular, for specular within the domain.
@@ -65,7 +65,7 @@ struct Lowered {
   // Set where a polynomial may pass the limit, which then holds what it gives.
   std::optional<float> alpha_limit, specular_limit;
   std::optional<LoweredWide> wide;
-  std::optional<LoweredBright> bright;
+  std::optional<LoweredSeries> bright;  // target alpha
   // The largest difference of target alpha and of target specular between regimes where they meet, found by sampling:
   // near a joint, floats may select another regime than doubles.
   double alpha_step = 0.0, specular_step = 0.0;

@@ -99,15 +99,27 @@ Scalar expansion_value(const KernelExpansion& expansion, const Scalar& alpha, co
   return scaled_back(expansion.output, gaussian_sum(expansion, inputs) + expansion.bias);
 }
 
-template <typename Scalar>
-Scalar polynomial_value(const TexelPolynomial& polynomial, const Scalar& alpha, const Scalar& specular) {
-  Scalar sum = alpha * 0.0;
-  for (std::size_t j = polynomial.size(); j-- > 0;) {
-    Scalar factor = alpha * 0.0;
-    for (std::size_t i = polynomial[j].size(); i-- > 0;) factor = factor * alpha + polynomial[j][i];
-    sum = sum * specular + factor;
+// By Clenshaw's recurrence; 2 x - 1 is the parameter in its range. `at(i)`: the coefficient of T_i.
+template <typename Scalar, typename Coefficient>
+Scalar chebyshev_sum(const Range& range, const Scalar& parameter, std::size_t count, const Coefficient& at) {
+  const double width = range.max - range.min;
+  const Scalar x = (parameter - range.min) * (2.0 / width) - 1.0;
+  Scalar next = parameter * 0.0, after = next;
+  for (std::size_t i = count; i-- > 1;) {
+    const Scalar sum = x * next * 2.0 - after + at(i);
+    after = next;
+    next = sum;
   }
-  return sum;
+  return x * next - after + at(0);
+}
+
+// Inside the ranges of the series.
+template <typename Scalar>
+Scalar series_value(const TexelSeries& series, const Scalar& alpha, const Scalar& specular) {
+  return chebyshev_sum(series.specular, specular, series.coefficients.size(), [&](std::size_t j) {
+    const std::vector<double>& row = series.coefficients[j];
+    return chebyshev_sum(series.alpha, alpha, row.size(), [&](std::size_t i) { return row[i]; });
+  });
 }
 
 template <typename Scalar>

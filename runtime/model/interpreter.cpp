@@ -15,10 +15,15 @@ double mapping_alpha(const Fit& fit, double alpha) {
   return fit.regimes.wide ? std::min(alpha, fit.regimes.wide->mapping_to) : alpha;
 }
 
+double held_value(const TexelSeries& series, double alpha, double specular) {
+  const auto held = [](const Range& range, double value) { return std::clamp(value, range.min, range.max); };
+  return series_value(series, held(series.alpha, alpha), held(series.specular, specular));
+}
+
 // Target specular without its limits.
 double free_specular(const Fit& fit, bool is_wide, double alpha, double specular) {
   if (is_wide && fit.regimes.wide)
-    return polynomial_value(fit.regimes.wide->specular, std::max(alpha, fit.regimes.wide->from), specular);
+    return held_value(fit.regimes.wide->specular, alpha, specular);
   return std::visit(
       [&](const auto& kind) { return target_specular(kind, mapping_alpha(fit, alpha), specular); },
       fit.mapping);
@@ -48,8 +53,7 @@ TexelWidth target_width(const Fit& fit, double alpha, double top) {
   const bool is_wide = mapped >= regimes.alpha_limit;
   const double width = std::min(mapped, regimes.alpha_limit);
   if (!regimes.bright || !is_bright(fit, is_wide, alpha, top)) return {width, is_wide};
-  const double bright = network_value(regimes.bright->alpha, std::max(alpha, regimes.bright->alpha_from),
-                    std::max(top, regimes.bright->specular_from));
+  const double bright = held_value(*regimes.bright, alpha, top);
   return {std::min(bright, regimes.alpha_limit), is_wide};
 }
 

@@ -242,7 +242,7 @@ Rates polish(const Projection& projection, Rates rates) {
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  if (summary.termination_type != ceres::CONVERGENCE || !std::isfinite(summary.final_cost)) return {};
+  if (!summary.IsSolutionUsable() || !std::isfinite(summary.final_cost)) return {};
   rates.cost = 2.0 * summary.final_cost;
   return rates;
 }

@@ -10,16 +10,10 @@
 
 #include "remap/convention.hpp"
 #include "remap/mapping.hpp"
+#include "remap/range.hpp"
 #include "remap/regimes.hpp"
 
 namespace remap {
-
-struct Range {
-  double min = 0.0;
-  double max = 0.0;
-  bool contains(double value) const noexcept { return value >= min && value <= max; }
-  bool operator==(const Range&) const = default;
-};
 
 // One end of a conversion: a model and the meaning of its two parameters.
 struct ModelSide {

@@ -15,26 +15,23 @@
 #include <vector>
 
 #include "remap/mapping.hpp"
+#include "remap/range.hpp"
 
 namespace remap {
 
-// The sum over powers j of specular and i of alpha of coefficients[j][i] specular^j alpha^i.
-using TexelPolynomial = std::vector<std::vector<double>>;
-
-struct WideRegime {
-  // The mapping reaches the limit of alpha between these widths of the source, whatever the specular: it is evaluated
-  // up to `mapping_to`, and `specular` from `from`. Beyond, each is held.
-  double from = 0.0;
-  double mapping_to = 1.0;
-  TexelPolynomial specular;  // target specular
-  bool operator==(const WideRegime&) const = default;
+// The sum over j and i of coefficients[j][i] T_j(specular) T_i(alpha), T the Chebyshev polynomials (Trefethen 2013,
+// chapter 3) of the parameter mapped from its range to [-1, 1]. Beyond the ranges a parameter is held.
+struct TexelSeries {
+  Range alpha, specular;  // of the source
+  std::vector<std::vector<double>> coefficients;
+  bool operator==(const TexelSeries&) const = default;
 };
 
-struct BrightRegime {
-  // The least width and specular of the source whose matches are bright; below, each is held.
-  double alpha_from = 0.0, specular_from = 0.0;
-  Network alpha;               // of alpha and specular: target alpha
-  bool operator==(const BrightRegime&) const = default;
+struct WideRegime {
+  // The mapping reaches the limit of alpha before this width of the source, whatever the specular, and is held beyond.
+  double mapping_to = 1.0;
+  TexelSeries specular;  // target specular
+  bool operator==(const WideRegime&) const = default;
 };
 
 // Without a regime, the mapping is cut off at the limit.
@@ -42,7 +39,7 @@ struct Regimes {
   double alpha_limit = 1.0;              // the largest target alpha, canonical
   std::optional<double> specular_limit;  // the largest target specular; none: not known
   std::optional<WideRegime> wide;
-  std::optional<BrightRegime> bright;  // needs specular_limit
+  std::optional<TexelSeries> bright;  // target alpha; needs specular_limit
   bool operator==(const Regimes&) const = default;
 };
 
