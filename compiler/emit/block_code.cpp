@@ -44,6 +44,7 @@ static void find_terms(Count count, Terms& terms) noexcept {
 constexpr std::string_view kRegimeFunctions =
     R"(static constexpr bool has_wide = @has_wide@, has_bright = @has_bright@;  // regimes of the table
 static constexpr float alpha_limit = @alpha_limit@, specular_limit = @specular_limit@;
+static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
 static constexpr float mapping_to = @mapping_to@;  // the mapping has reached the limit of alpha before
 static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   return @wide_specular@;

@@ -178,8 +178,8 @@ MappingData lowered_mapping(const remap::Lowered& lowered) {
   if (lowered.wide) text += "\nWhere alpha is at its limit, target specular: " + shape_text(lowered.wide->specular.function) + ".";
   if (lowered.bright) text += "\nWhere specular is at its limit, target alpha: " + shape_text(lowered.bright->function) + ".";
   if (lowered.wide || lowered.bright)
-    text += "\nWhere these meet they differ by at most " + two_digits(lowered.alpha_step) + " in alpha, " +
-            two_digits(lowered.specular_step) + " in specular.";
+    text += "\nAll together within " + two_digits(lowered.alpha_bound()) + " in alpha, " +
+            two_digits(lowered.specular_bound()) + " in specular.";
   return {lowered, text, lowered.alpha_bound(), lowered.specular_bound()};
 }
 

@@ -24,8 +24,8 @@ constexpr int kSpeculars = 33;  // at which a joint is looked for
 constexpr int kHalvings = 40;
 // Pictures are affine in specular, nearly so after the match.
 constexpr int kWideSpeculars = 2;
-// How far the mapping passes the limit of alpha before it is held: more than its lowering may change.
-constexpr double kBeyondLimit = 5e-4;
+// Times the limit of alpha: where the mapping is held, more than its lowering may change beyond the seam.
+constexpr double kBeyondLimit = 1.0 + remap::kSeam + 1e-4;
 constexpr double kSameSpecular = 1e-9;
 constexpr double kSameJoint = 2e-3;  // between the rows on both sides of a joint, relative to the range of specular
 
@@ -258,7 +258,7 @@ class RegimeFit {
     wide.specular.alpha.min = domain_.alpha.max;
     for (int i = 0; i < kSpeculars; ++i) {
       const double specular = domain_.specular.max * i / (kSpeculars - 1);
-      const auto from = joint(specular, limits_.alpha), to = joint(specular, limits_.alpha + kBeyondLimit);
+      const auto from = joint(specular, limits_.alpha), to = joint(specular, limits_.alpha * kBeyondLimit);
       if (!from || !to) return std::nullopt;
       wide.specular.alpha.min = std::min(wide.specular.alpha.min, *from);
       wide.mapping_to = std::max(wide.mapping_to, *to);

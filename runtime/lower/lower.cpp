@@ -246,40 +246,31 @@ bool may_pass(const Wanted& wanted, double limit) {
 // Beyond the limit of specular, pictures differ by far more than a width that is off by this times the tolerance.
 constexpr double kBrightTolerance = 10.0;
 
-constexpr int kStepSamples = 200;
+constexpr int kSeamSamples = 400;
 
-// The largest steps between regimes where the mapping of `fit` says that they meet.
-void find_steps(const Fit& fit, const ProofDomain& domain, Lowered* lowered) {
-  const auto at = [](const Range& range, int i) { return range.min + (range.max - range.min) * i / kStepSamples; };
-  const auto across = [&](const TexelWidth& a, const TexelWidth& b, double alpha, double specular) {
-    lowered->alpha_step = std::max(lowered->alpha_step, std::fabs(a.alpha - b.alpha));
-    const double step = target_channel(fit, a.is_wide, alpha, specular) - target_channel(fit, b.is_wide, alpha, specular);
-    lowered->specular_step = std::max(lowered->specular_step, std::fabs(step));
-  };
-  // Bisects between neighbours of different regimes, along a line of one parameter.
-  const auto along = [&](const auto& texel_at, const Range& range) {
-    for (int i = 0; i < kStepSamples; ++i) {
-      double low = at(range, i), high = at(range, i + 1);
-      const auto regime = [&](double x) {
-        const auto [alpha, specular] = texel_at(x);
-        const TexelWidth width = target_width(fit, alpha, specular);
-        return std::pair(width.is_wide, is_bright(fit, width.is_wide, alpha, specular));
-      };
-      const auto first = regime(low);
-      if (first == regime(high)) continue;
-      for (int k = 0; k < 40; ++k) {
-        const double middle = 0.5 * (low + high);
-        (regime(middle) == first ? low : high) = middle;
+// The largest difference between regimes in the seams, times the errors of their shares.
+void find_seams(const Fit& fit, const ProofDomain& domain, Lowered* lowered) {
+  const auto at = [](const Range& range, int i) { return range.min + (range.max - range.min) * i / kSeamSamples; };
+  const auto in_seam = [](double share) { return share > 0.0 && share < 1.0; };
+  double alpha_gap = 0.0, specular_gap = 0.0;
+  for (int i = 0; i <= kSeamSamples; ++i)
+    for (int j = 0; j <= kSeamSamples; ++j) {
+      const double alpha = at(domain.alpha, i), specular = at(domain.specular, j);
+      const TexelWidth width = target_width(fit, alpha, specular);
+      if (in_seam(width.bright)) {
+        const double held = fit.regimes.wide ? std::min(alpha, fit.regimes.wide->mapping_to) : alpha;
+        const double inside = evaluate_mapping(fit.mapping, held, specular).alpha;
+        const double moved = width.alpha - std::min(inside, fit.regimes.alpha_limit);
+        alpha_gap = std::max(alpha_gap, std::fabs(moved) / width.bright);
       }
-      const auto [alpha, specular] = texel_at(high);
-      const auto [before_alpha, before_specular] = texel_at(low);
-      across(target_width(fit, before_alpha, before_specular), target_width(fit, alpha, specular), alpha, specular);
+      if (in_seam(width.wide))
+        specular_gap = std::max(specular_gap, std::fabs(target_channel(fit, 1.0, alpha, specular) -
+                                                        target_channel(fit, 0.0, alpha, specular)));
     }
-  };
-  for (int i = 0; i <= kStepSamples; ++i) {
-    along([&](double s) { return std::pair(at(domain.alpha, i), s); }, domain.specular);
-    along([&](double a) { return std::pair(a, at(domain.specular, i)); }, domain.alpha);
-  }
+  const double limit = fit.regimes.specular_limit.value_or(1.0);
+  const double specular_bound = std::max(lowered->specular.bound, lowered->wide ? lowered->wide->specular.function.bound : 0.0);
+  lowered->specular_seam = specular_gap * lowered->alpha.bound / (kSeam * fit.regimes.alpha_limit);
+  lowered->alpha_seam = alpha_gap * (specular_bound + lowered->specular_seam) / (kSeam * limit);
 }
 
 }  // namespace
@@ -317,7 +308,7 @@ Lowered lower(const Fit& fit, const LoweringOptions& options) {
     bright.tolerance *= kBrightTolerance;
     lowered.bright = lower_series(bright, "target alpha of the bright regime", *regimes.bright);
   }
-  if (regimes.wide || regimes.bright) find_steps(fit, domain, &lowered);
+  if (regimes.wide || regimes.bright) find_seams(fit, domain, &lowered);
   return lowered;
 }
 

@@ -14,11 +14,11 @@ std::size_t coefficient_count(const std::vector<int>& degrees) {
 }
 
 double Lowered::alpha_bound() const {
-  return std::max(alpha.bound, bright ? bright->function.bound : 0.0) + alpha_step;
+  return std::max(alpha.bound, bright ? bright->function.bound : 0.0) + alpha_seam;
 }
 
 double Lowered::specular_bound() const {
-  return std::max(specular.bound, wide ? wide->specular.function.bound : 0.0) + specular_step;
+  return std::max(specular.bound, wide ? wide->specular.function.bound : 0.0) + specular_seam;
 }
 
 float value(const PiecewisePolynomial& polynomial, float alpha, float specular) {

@@ -66,9 +66,8 @@ struct Lowered {
   std::optional<float> alpha_limit, specular_limit;
   std::optional<LoweredWide> wide;
   std::optional<LoweredSeries> bright;  // target alpha
-  // The largest difference of target alpha and of target specular between regimes where they meet, found by sampling:
-  // near a joint, floats may select another regime than doubles.
-  double alpha_step = 0.0, specular_step = 0.0;
+  // What the errors of the shares add where one regime takes over from another, found by sampling.
+  double alpha_seam = 0.0, specular_seam = 0.0;
   bool operator==(const Lowered&) const = default;
 
   bool has_limits() const { return alpha_limit.has_value() || specular_limit.has_value(); }

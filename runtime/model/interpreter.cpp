@@ -20,13 +20,16 @@ double held_value(const TexelSeries& series, double alpha, double specular) {
   return series_value(series, held(series.alpha, alpha), held(series.specular, specular));
 }
 
+// The share of the regime that takes over where `value` passes `limit`.
+double share_beyond(double value, double limit) { return std::clamp((value / limit - 1.0) / kSeam, 0.0, 1.0); }
+
 // Target specular without its limits.
-double free_specular(const Fit& fit, bool is_wide, double alpha, double specular) {
-  if (is_wide && fit.regimes.wide)
-    return held_value(fit.regimes.wide->specular, alpha, specular);
-  return std::visit(
+double free_specular(const Fit& fit, double wide, double alpha, double specular) {
+  const double inside = std::visit(
       [&](const auto& kind) { return target_specular(kind, mapping_alpha(fit, alpha), specular); },
       fit.mapping);
+  if (wide == 0.0 || !fit.regimes.wide) return inside;
+  return inside + wide * (held_value(fit.regimes.wide->specular, alpha, specular) - inside);
 }
 
 Range as_floats(const Range& range) { return {rounded_to_float(range.min), rounded_to_float(range.max)}; }
@@ -41,30 +44,27 @@ MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double sp
       mapping);
 }
 
-bool is_bright(const Fit& fit, bool is_wide, double alpha, double specular) {
-  return fit.regimes.specular_limit &&
-         free_specular(fit, is_wide, alpha, specular) > *fit.regimes.specular_limit;
-}
-
 TexelWidth target_width(const Fit& fit, double alpha, double top) {
   const Regimes& regimes = fit.regimes;
   const double mapped = std::visit(
       [&](const auto& kind) { return target_alpha(kind, mapping_alpha(fit, alpha), top); }, fit.mapping);
-  const bool is_wide = mapped >= regimes.alpha_limit;
+  const double wide = share_beyond(mapped, regimes.alpha_limit);
   const double width = std::min(mapped, regimes.alpha_limit);
-  if (!regimes.bright || !is_bright(fit, is_wide, alpha, top)) return {width, is_wide};
-  const double bright = held_value(*regimes.bright, alpha, top);
-  return {std::min(bright, regimes.alpha_limit), is_wide};
+  if (!regimes.bright) return {width, wide, 0.0};
+  const double bright = share_beyond(free_specular(fit, wide, alpha, top), *regimes.specular_limit);
+  if (bright == 0.0) return {width, wide, 0.0};
+  const double free = std::min(held_value(*regimes.bright, alpha, top), regimes.alpha_limit);
+  return {width + bright * (free - width), wide, bright};
 }
 
-double target_channel(const Fit& fit, bool is_wide, double alpha, double specular) {
-  const double mapped = std::max(free_specular(fit, is_wide, alpha, specular), 0.0);
+double target_channel(const Fit& fit, double wide, double alpha, double specular) {
+  const double mapped = std::max(free_specular(fit, wide, alpha, specular), 0.0);
   return fit.regimes.specular_limit ? std::min(mapped, *fit.regimes.specular_limit) : mapped;
 }
 
 MappedTexel evaluate_fit(const Fit& fit, double alpha, double specular) {
   const TexelWidth width = target_width(fit, alpha, specular);
-  return {width.alpha, target_channel(fit, width.is_wide, alpha, specular)};
+  return {width.alpha, target_channel(fit, width.wide, alpha, specular)};
 }
 
 Range own_roughness_range(const Fit& fit) {
@@ -96,7 +96,7 @@ double evaluate_texel(const Fit& fit, double roughness, std::span<const double> 
     const bool passes = std::isnan(specular[c]) || specular[c] == std::numeric_limits<double>::infinity();
     specular_out[c] =
         passes ? specular[c]
-               : scale * target_channel(fit, width.is_wide, alpha, std::max(specular[c], 0.0) / scale);
+               : scale * target_channel(fit, width.wide, alpha, std::max(specular[c], 0.0) / scale);
   }
   return from_alpha(fit.target.roughness, width.alpha);
 }

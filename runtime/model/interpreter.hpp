@@ -14,15 +14,13 @@ MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double sp
 // Target alpha of a texel whose largest channel is `top`, without the domain rule.
 struct TexelWidth {
   double alpha = 0.0;
-  bool is_wide = false;  // the mapping reaches the limit of alpha; specular is that of the wide regime
+  // The shares of the regimes that take over, 0 to 1: of the wide one in specular, of the bright one in alpha.
+  double wide = 0.0, bright = 0.0;
 };
 TexelWidth target_width(const Fit& fit, double alpha, double top);
 
-// Whether target specular of a channel of such a texel is at its limit.
-bool is_bright(const Fit& fit, bool is_wide, double alpha, double specular);
-
 // Target specular of a channel of such a texel, from 0 to the limit.
-double target_channel(const Fit& fit, bool is_wide, double alpha, double specular);
+double target_channel(const Fit& fit, double wide, double alpha, double specular);
 
 // Both, of a texel of one channel.
 MappedTexel evaluate_fit(const Fit& fit, double alpha, double specular);

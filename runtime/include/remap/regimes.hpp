@@ -7,8 +7,9 @@
 //   corner  both are at their limits
 //
 // The answer of each regime is a smooth function of the source's parameters, and neighbours agree where they meet.
-// So each is fitted by itself, and evaluation selects: the mapping says whether alpha reaches its limit, then the
-// specular of that regime says whether specular does.
+// So each is fitted by itself: the mapping says whether alpha reaches its limit, then the specular of that regime says
+// whether specular does. A regime takes over in proportion while the parameter passes its limit by kSeam, so that
+// results are continuous whatever the errors of the fits.
 #pragma once
 
 #include <optional>
@@ -19,6 +20,9 @@
 
 namespace remap {
 
+// The share of a limit over which a regime takes over.
+inline constexpr double kSeam = 0.005;
+
 // The sum over j and i of coefficients[j][i] T_j(specular) T_i(alpha), T the Chebyshev polynomials (Trefethen 2013,
 // chapter 3) of the parameter mapped from its range to [-1, 1]. Beyond the ranges a parameter is held.
 struct TexelSeries {
@@ -28,7 +32,8 @@ struct TexelSeries {
 };
 
 struct WideRegime {
-  // The mapping reaches the limit of alpha before this width of the source, whatever the specular, and is held beyond.
+  // The mapping passes the limit of alpha by kSeam before this width of the source, whatever the specular, and is held
+  // beyond.
   double mapping_to = 1.0;
   TexelSeries specular;  // target specular
   bool operator==(const WideRegime&) const = default;
