@@ -6,7 +6,7 @@
 #include "model/interpreter.hpp"
 #include "probe/picture_sums.hpp"
 #include "probe/picture_taker.hpp"
-#include "probe/probe.hpp"
+#include "sweep/sweep.hpp"
 #include "system/parallel.hpp"
 #include "text/errors.hpp"
 
@@ -38,9 +38,9 @@ struct TargetWidths {
   Range speculars;
 };
 
-ProbedModel probed(const PictureTaker& taker, const Renderer& renderer, const std::string& name) {
+ProbedModel probed(const Renderer& renderer, const std::string& name) {
   const ModelDescription model = renderer.model(name);
-  return {model, probe_specular(taker, model, {0.1, model.alpha.max})};
+  return {model, specular_response(renderer, model)};
 }
 
 TargetWidths target_widths(const PictureTaker& taker, const ProbedModel& target, double narrowest) {
@@ -126,8 +126,8 @@ class FitStudy {
       : options_(options),
         fit_(fit),
         taker_(renderer, objective_of(fit), options.resolution, 1),
-        source_(probed(taker_, renderer, fit.source.model)),
-        target_(probed(taker_, renderer, fit.target.model)),
+        source_(probed(renderer, fit.source.model)),
+        target_(probed(renderer, fit.target.model)),
         widths_(target_widths(taker_, target_, kNarrowest * options.alphas.min)) {}
 
   // The materials of one source width.

@@ -41,8 +41,8 @@ struct FitReach {
   const ReachedMaterial& worst() const;  // of the largest excess
 };
 
-// Renders every material, its conversion (as converters evaluate it, in floats), and the target at widths a
-// hundredth apart, each at its best specular in closed form. No search of a sweep takes part. Throws kUsage
+// Renders every material, its conversion (by the interpreter, with the domain rule), and the target at widths
+// a hundredth apart, each at its best specular in closed form. No search of a sweep takes part. Throws kUsage
 // for models that the renderer does not have, kInput for a fit whose table does not name its objective, and
 // kInterrupted.
 std::vector<FitReach> study_reach(const Renderer& renderer, const ReachOptions& options);

@@ -1,21 +1,16 @@
 #include "study/reach_report.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "text/number_text.hpp"
+#include "text/report_text.hpp"
 
 namespace remapc {
 namespace {
 
 using remap::number_text;
 
-std::string percent(double share) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3f", 100.0 * share);
-  return text.data();
-}
+std::string excess_text(double share) { return fixed(100.0 * share, 3); }
 
 std::string material_row(const std::string& id, const ReachedMaterial& m) {
   std::string row = id;
@@ -44,7 +39,7 @@ StudyReport reach_report(const ReachOptions& options, const std::vector<FitReach
     const std::string& id = options.fits[reach->fit].id;
     const ReachedMaterial& worst = reach->worst();
     sum += reach->mean_excess();
-    report.summary += percent(reach->mean_excess()) + "  " + percent(worst.excess()) + "  (" +
+    report.summary += excess_text(reach->mean_excess()) + "  " + excess_text(worst.excess()) + "  (" +
                       number_text(remap::rounded(worst.alpha, 3)) + ", " +
                       number_text(remap::rounded(worst.specular, 3)) + ")  " + id + "\n";
     report.figures["fits"].push_back({{"id", id},
@@ -55,7 +50,7 @@ StudyReport reach_report(const ReachOptions& options, const std::vector<FitReach
     for (const ReachedMaterial& material : reach->materials) table += material_row(id, material);
   }
   report.figures["mean_excess"] = sum / static_cast<double>(result.size());
-  report.summary += "mean of all " + percent(sum / static_cast<double>(result.size())) + "\n";
+  report.summary += "mean of all " + excess_text(sum / static_cast<double>(result.size())) + "\n";
   report.tables.emplace_back("reach.csv", table);
   return report;
 }

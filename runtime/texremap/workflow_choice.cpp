@@ -51,8 +51,9 @@ NamedEnd named_end(const std::string& option, const std::string& name, const std
 // The model that `--to` names: of a renderer the closest one to the source. A workflow around the source's
 // own model of that renderer needs no other model.
 std::string target_named(const ConvertOptions& options, const NamedEnd& from) {
-  if (!options.fit.empty() || options.from.empty() || find_workflow_model(options.to) != nullptr)
-    return options.to;
+  const bool is_model =
+      options.to.find('/') != std::string::npos || find_workflow_model(options.to) != nullptr;
+  if (!options.fit.empty() || options.from.empty() || is_model) return options.to;
   const ConverterGraph graph = shipped_graph();
   const std::string source = from.workflow().brdf;
   if (graph.has_model(options.to) || graph.models_of(options.to).empty()) return options.to;

@@ -1,7 +1,6 @@
 // `remap-study reach`: how much nearer the target could come than converters bring it.
-#include <iomanip>
+#include <algorithm>
 #include <memory>
-#include <sstream>
 
 #include "manifest/fit_folder.hpp"
 #include "study/commands/studies.hpp"

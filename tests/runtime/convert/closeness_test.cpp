@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
+#include "runtime/convert/named_converters.hpp"
 
 using namespace remap;
 using Names = std::vector<std::string>;
@@ -25,26 +26,16 @@ class UnchangingConverter final : public Converter {
   }
 };
 
-// Converters of alpha 0 to 1 without fit errors: what is expected of each is its image error.
-class Converters {
+class Converters : public NamedConverters<UnchangingConverter> {
  public:
   void add(const std::string& source, const std::string& target, std::optional<double> image_error,
            std::optional<double> ssim = {}, double largest_specular = 1.0) {
-    ConverterInfo info;
-    info.id = converter_id(source, target);
-    info.source.model = source;
-    info.target.model = target;
-    info.roughness = {0.0, 1.0};
-    info.specular = {0.0, largest_specular};
-    info.image_rms_error = image_error;
-    info.ssim = ssim;
-    all_.push_back(std::make_unique<UnchangingConverter>(info));
+    ConverterInfo made = info(source, target, image_error);
+    made.specular.max = largest_specular;
+    made.ssim = ssim;
+    NamedConverters::add(std::move(made));
   }
-  ConverterGraph graph() const {
-    std::vector<const Converter*> pointers;
-    for (const auto& converter : all_) pointers.push_back(converter.get());
-    return ConverterGraph(std::move(pointers), Detours::kRefused);
-  }
+  ConverterGraph graph() const { return ConverterGraph(pointers(), Detours::kRefused); }
   ConverterPath path(const std::string& source, const std::string& target) const {
     return graph().find_paths({source, target, {}}).front();
   }
@@ -63,9 +54,6 @@ class Converters {
   bool looks_different(const std::string& source, const std::string& target) const {
     return closeness_of(path(source, target), {}).looks_different;
   }
-
- private:
-  std::vector<std::unique_ptr<Converter>> all_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "remap/error.hpp"
 #include "remap/shipped_converters.hpp"
+#include "runtime/convert/named_converters.hpp"
 
 using namespace remap;
 using Names = std::vector<std::string>;
@@ -24,28 +25,15 @@ class NamedConverter final : public Converter {
   }
 };
 
-// Converters without fit errors: what is expected of each is its image error.
-class Converters {
+class Converters : public NamedConverters<NamedConverter> {
  public:
   void add(const std::string& source, const std::string& target, std::optional<double> image_error,
            const std::string& suffix = "") {
-    ConverterInfo info;
-    info.id = converter_id(source, target) + suffix;
-    info.source.model = source;
-    info.target.model = target;
-    info.roughness = info.specular = {0.0, 1.0};
-    info.image_rms_error = image_error;
-    all_.push_back(std::make_unique<NamedConverter>(info));
-  }
-  std::vector<const Converter*> pointers() const {
-    std::vector<const Converter*> pointers;
-    for (const auto& converter : all_) pointers.push_back(converter.get());
-    return pointers;
+    ConverterInfo made = info(source, target, image_error);
+    made.id += suffix;
+    NamedConverters::add(std::move(made));
   }
   ConverterGraph graph() const { return ConverterGraph(pointers()); }
-
- private:
-  std::vector<std::unique_ptr<Converter>> all_;
 };
 
 Names ids(const ConverterPath& path) {
