@@ -77,7 +77,7 @@ Entry entry_of(const NamedFit& named, const std::string& name, const std::vector
   candidate.number_count = remap::number_count(fit.mapping);
   candidate.alpha = errors.alpha;
   candidate.specular = errors.specular;
-  candidate.chroma_shift = look_beyond(fit.mapping, fit.domain).chroma_shift;
+  candidate.chroma_shift = look_beyond(fit.mapping, mapping_domain(fit)).chroma_shift;
   if (own_table) candidate.verdict = "fitted from this table, training rows included";
   if (outside != 0)
     candidate.verdict +=

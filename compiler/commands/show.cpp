@@ -91,7 +91,10 @@ struct PrintMapping {
     print("alpha2", mlp.alpha);
     print("specular2", mlp.specular);
   }
-
+  void operator()(const remap::Series& series) const {
+    print("alpha2", series.alpha);
+    print("specular2", series.specular);
+  }
   void operator()(const remap::Chain& chain) const {
     for (const remap::ChainStep& step : chain.steps) {
       std::cout << "  " << step.id << "\n";
@@ -108,6 +111,10 @@ struct PrintMapping {
     std::cout << "  " << output << ": a network of " << inputs_text(network.inputs.size()) << ", layers";
     for (const remap::Layer& layer : network.layers) std::cout << " " << layer.output_count();
     std::cout << ", " << activation_name(network.activation) << "\n";
+  }
+  static void print(const std::string& output, const remap::TexelSeries& series) {
+    std::cout << "  " << output << ": a Chebyshev series, degree " << series.coefficients.front().size() - 1
+              << " in alpha, " << series.coefficients.size() - 1 << " in specular\n";
   }
 };
 

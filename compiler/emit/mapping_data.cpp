@@ -163,6 +163,10 @@ MappingData fitted(const remap::Mlp& mlp, const Domain& domain) {
           error_of(networks.alpha, domain), error_of(networks.specular, domain)};
 }
 
+MappingData fitted(const remap::Series&, const Domain&) {
+  throw remap::Error(remap::ErrorKind::kUsage, "emit: a series has no exact form (remove --exact)");
+}
+
 MappingData fitted(const remap::Chain& chain, const Domain&) {
   throw remap::Error(remap::ErrorKind::kUsage, "emit: a chain of " + std::to_string(chain.steps.size()) +
                                                    " steps has no exact form (remove --exact)");

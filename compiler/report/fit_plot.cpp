@@ -102,7 +102,7 @@ class Plot {
   void write_residuals(std::size_t f) {
     out_ << "$residuals" << f << " << EOD\n";
     for (const TableRow& row : rows_) {
-      const remap::MappedTexel texel = remap::evaluate_mapping(fits_[f].mapping, row.alpha1, row.specular1);
+      const remap::MappedTexel texel = remap::evaluate_fit(fits_[f], row.alpha1, row.specular1);
       out_ << number_text(row.alpha1) << ' ' << shown_error(texel.alpha - row.alpha2) << ' '
            << shown_error(texel.specular - row.specular2) << '\n';
     }
@@ -115,7 +115,7 @@ class Plot {
     for (int i = 0; i <= kCurvePoints; ++i) {
       const double alpha = range.min + (range.max - range.min) * i / kCurvePoints;
       out_ << number_text(alpha) << ' '
-           << number_text(remap::evaluate_mapping(fits_[f].mapping, alpha, specular).alpha) << '\n';
+           << number_text(remap::evaluate_fit(fits_[f], alpha, specular).alpha) << '\n';
     }
     out_ << "EOD\n";
   }
@@ -127,7 +127,7 @@ class Plot {
       for (int i = 0; i <= kCurvePoints / 4; ++i) {
         const double specular = fit_.domain.specular.max * i / (kCurvePoints / 4);
         out_ << number_text(specular) << ' '
-             << number_text(remap::evaluate_mapping(fits_[f].mapping, alpha, specular).specular) << '\n';
+             << number_text(remap::evaluate_fit(fits_[f], alpha, specular).specular) << '\n';
       }
       out_ << '\n';
     }

@@ -47,6 +47,16 @@ Json to_json(const Mlp& mlp) {
   return {{"alpha", network_json(mlp.alpha)}, {"specular", network_json(mlp.specular)}};
 }
 
+Json to_json(const TexelSeries& series) {
+  Json rows = Json::array();
+  for (const auto& row : series.coefficients) rows.push_back(numbers_json(row));
+  return {{"alpha", to_json(series.alpha)}, {"specular", to_json(series.specular)}, {"coefficients", rows}};
+}
+
+Json to_json(const Series& series) {
+  return {{"alpha", to_json(series.alpha)}, {"specular", to_json(series.specular)}};
+}
+
 // A mapping with its kind.
 Json mapping_json(const MappingKind& mapping);
 
@@ -63,12 +73,6 @@ Json mapping_json(const MappingKind& mapping) {
   return json;
 }
 
-Json to_json(const TexelSeries& series) {
-  Json rows = Json::array();
-  for (const auto& row : series.coefficients) rows.push_back(numbers_json(row));
-  return {{"alpha", to_json(series.alpha)}, {"specular", to_json(series.specular)}, {"coefficients", rows}};
-}
-
 Json to_json(const Regimes& regimes) {
   Json json = {{"alpha_limit", finite(regimes.alpha_limit)},
                {"specular_limit", regimes.specular_limit ? Json(finite(*regimes.specular_limit)) : Json()}};
@@ -78,14 +82,17 @@ Json to_json(const Regimes& regimes) {
   return json;
 }
 
+Json to_json(const RelativeError& error) {
+  return {{"rms", finite(error.rms)}, {"standard_error", finite(error.standard_error)}};
+}
+
 Json to_json(const Candidate& candidate) {
   return {{"name", candidate.name},
           {"number_count", candidate.number_count},
           {"alpha", figures_json(candidate.alpha)},
-          {"alpha_standard_error", finite(candidate.alpha_standard_error)},
+          {"relative_alpha", to_json(candidate.relative_alpha)},
           {"specular", figures_json(candidate.specular)},
-          {"specular_standard_error", finite(candidate.specular_standard_error)},
-          {"relative_specular_rms", finite(candidate.relative_specular_rms)},
+          {"relative_specular", to_json(candidate.relative_specular)},
           {"edge_alpha_rms", finite(candidate.edge_alpha_rms)},
           {"edge_specular_rms", finite(candidate.edge_specular_rms)},
           {"raw_edge_alpha_rms", finite(candidate.raw_edge_alpha_rms)},
@@ -152,6 +159,11 @@ Network read_texel_network(const Field& field) {
   return read_network(field, 1);
 }
 
+TexelSeries read_series(const Field& field) {
+  return {read_range(field["alpha"]), read_range(field["specular"]),
+          field["coefficients"].list(1, [](const Field& row) { return row.numbers(1); })};
+}
+
 RegressedKind read_regressed(const Field& field) {
   const std::string kind = field["kind"].text();
   if (kind == "parametric") return read_parametric(field);
@@ -162,7 +174,8 @@ RegressedKind read_regressed(const Field& field) {
                                             "the activation of the other network");
     return mlp;
   }
-  field["kind"].require(false, "parametric, svr or mlp");
+  if (kind == "series") return Series{read_series(field["alpha"]), read_series(field["specular"])};
+  field["kind"].require(false, "parametric, svr, mlp or series");
   return {};
 }
 
@@ -180,11 +193,6 @@ double read_positive(const Field& field) {
   return field.number();
 }
 
-TexelSeries read_series(const Field& field) {
-  return {read_range(field["alpha"]), read_range(field["specular"]),
-          field["coefficients"].list(1, [](const Field& row) { return row.numbers(1); })};
-}
-
 Regimes read_regimes(const Field& field) {
   Regimes regimes;
   regimes.alpha_limit = read_positive(field["alpha_limit"]);
@@ -198,14 +206,19 @@ Regimes read_regimes(const Field& field) {
   return regimes;
 }
 
+// Fits of 0.1.0 have none.
+RelativeError read_relative(const Field& candidate, const std::string& name) {
+  if (!candidate.json().contains(name)) return {};
+  return {candidate[name]["rms"].number(), candidate[name]["standard_error"].number()};
+}
+
 Candidate read_candidate(const Field& field) {
   return {field["name"].text(),
           static_cast<std::size_t>(field["number_count"].count()),
           read_figures(field["alpha"]),
           read_figures(field["specular"]),
-          field["alpha_standard_error"].number(),
-          field["specular_standard_error"].number(),
-          field.json().contains("relative_specular_rms") ? field["relative_specular_rms"].number() : 0.0,
+          read_relative(field, "relative_alpha"),
+          read_relative(field, "relative_specular"),
           field["edge_alpha_rms"].number(),
           field["edge_specular_rms"].number(),
           field["raw_edge_alpha_rms"].number(),

@@ -258,7 +258,7 @@ void find_seams(const Fit& fit, const ProofDomain& domain, Lowered* lowered) {
       const double alpha = at(domain.alpha, i), specular = at(domain.specular, j);
       const TexelWidth width = target_width(fit, alpha, specular);
       if (in_seam(width.bright)) {
-        const double held = fit.regimes.wide ? std::min(alpha, fit.regimes.wide->mapping_to) : alpha;
+        const double held = std::min(alpha, mapping_domain(fit).alpha.max);
         const double inside = evaluate_mapping(fit.mapping, held, specular).alpha;
         const double moved = width.alpha - std::min(inside, fit.regimes.alpha_limit);
         alpha_gap = std::max(alpha_gap, std::fabs(moved) / width.bright);

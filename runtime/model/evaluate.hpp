@@ -113,7 +113,7 @@ Scalar chebyshev_sum(const Range& range, const Scalar& parameter, std::size_t co
   return x * next - after + at(0);
 }
 
-// Inside the ranges of the series.
+// Beyond the ranges of the series, its polynomial goes on.
 template <typename Scalar>
 Scalar series_value(const TexelSeries& series, const Scalar& alpha, const Scalar& specular) {
   return chebyshev_sum(series.specular, specular, series.coefficients.size(), [&](std::size_t j) {
@@ -142,6 +142,11 @@ Scalar target_alpha(const Mlp& mlp, const Scalar& alpha, const Scalar& specular)
   return network_value(mlp.alpha, alpha, specular);
 }
 
+template <typename Scalar>
+Scalar target_alpha(const Series& series, const Scalar& alpha, const Scalar& specular) {
+  return series_value(series.alpha, alpha, specular);
+}
+
 // A network of one output over one texel.
 template <typename Scalar>
 Scalar network_value(const Network& network, const Scalar& alpha, const Scalar& specular) {
@@ -166,6 +171,11 @@ Scalar target_specular(const Svr& svr, const Scalar& alpha, const Scalar& specul
 template <typename Scalar>
 Scalar target_specular(const Mlp& mlp, const Scalar& alpha, const Scalar& specular) {
   return network_value(mlp.specular, alpha, specular);
+}
+
+template <typename Scalar>
+Scalar target_specular(const Series& series, const Scalar& alpha, const Scalar& specular) {
+  return series_value(series.specular, alpha, specular);
 }
 
 // Applies all steps but the last.

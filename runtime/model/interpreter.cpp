@@ -62,6 +62,18 @@ double target_channel(const Fit& fit, double wide, double alpha, double specular
   return fit.regimes.specular_limit ? std::min(mapped, *fit.regimes.specular_limit) : mapped;
 }
 
+bool is_inside(const Fit& fit, double alpha, double specular) {
+  const MappedTexel mapped = evaluate_mapping(fit.mapping, mapping_alpha(fit, alpha), specular);
+  return mapped.alpha < fit.regimes.alpha_limit &&
+         !(fit.regimes.specular_limit && mapped.specular >= *fit.regimes.specular_limit);
+}
+
+Domain mapping_domain(const Fit& fit) {
+  Domain domain = fit.domain;
+  domain.alpha.max = mapping_alpha(fit, domain.alpha.max);
+  return domain;
+}
+
 MappedTexel evaluate_fit(const Fit& fit, double alpha, double specular) {
   const TexelWidth width = target_width(fit, alpha, specular);
   return {width.alpha, target_channel(fit, width.wide, alpha, specular)};

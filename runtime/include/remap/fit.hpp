@@ -56,14 +56,20 @@ struct TableRecord {
   bool operator==(const TableRecord&) const = default;
 };
 
+// Errors relative to the value, or to a fiftieth of 1 where that is more: what pictures show. Over the rows that each fold
+// of cross-validation holds out.
+struct RelativeError {
+  double rms = 0.0;
+  double standard_error = 0.0;  // over the folds
+  bool operator==(const RelativeError&) const = default;
+};
+
 // One row of the comparison by which `--model auto` decided (compiler/fit/comparison.hpp).
 struct Candidate {
   std::string name;                   // kind, or named form of it
   std::size_t number_count = 0;       // of its coefficients: its complexity
   ErrorFigures alpha, specular;       // of cross-validation, all folds
-  double alpha_standard_error = 0.0;  // of alpha.rms over the folds
-  double specular_standard_error = 0.0;
-  double relative_specular_rms = 0.0;  // of cross-validation, relative to target specular, which is what pictures show
+  RelativeError relative_alpha, relative_specular;  // by which candidates are compared
   double edge_alpha_rms = 0.0;  // on the outermost rows, fitted without them, with the domain rule
   double edge_specular_rms = 0.0;
   double raw_edge_alpha_rms = 0.0;  // the same without the domain rule

@@ -13,23 +13,13 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "remap/mapping.hpp"
-#include "remap/range.hpp"
 
 namespace remap {
 
 // The share of a limit over which a regime takes over.
 inline constexpr double kSeam = 0.005;
-
-// The sum over j and i of coefficients[j][i] T_j(specular) T_i(alpha), T the Chebyshev polynomials (Trefethen 2013,
-// chapter 3) of the parameter mapped from its range to [-1, 1]. Beyond the ranges a parameter is held.
-struct TexelSeries {
-  Range alpha, specular;  // of the source
-  std::vector<std::vector<double>> coefficients;
-  bool operator==(const TexelSeries&) const = default;
-};
 
 struct WideRegime {
   // The mapping passes the limit of alpha by kSeam before this width of the source, whatever the specular, and is held
@@ -39,7 +29,8 @@ struct WideRegime {
   bool operator==(const WideRegime&) const = default;
 };
 
-// Without a regime, the mapping is cut off at the limit.
+// Beyond the ranges of the series of a regime, its parameters are held. Without a regime, the mapping is cut off at the
+// limit.
 struct Regimes {
   double alpha_limit = 1.0;              // the largest target alpha, canonical
   std::optional<double> specular_limit;  // the largest target specular; none: not known

@@ -63,9 +63,8 @@ remap::Fit fit_of(const Table& table, const FitOptions& options) {
 Candidate candidate(std::size_t numbers, double alpha, double specular, double standard_error = 1e-4) {
   Candidate made;
   made.number_count = numbers;
-  made.alpha.rms = alpha;
-  made.specular.rms = specular;
-  made.alpha_standard_error = made.specular_standard_error = standard_error;
+  made.relative_alpha = {alpha, standard_error};
+  made.relative_specular = {specular, standard_error};
   return made;
 }
 
