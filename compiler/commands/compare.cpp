@@ -13,6 +13,7 @@
 #include "fit/rows/split.hpp"
 #include "manifest/fit_folder.hpp"
 #include "report/fit_plot.hpp"
+#include "table/row_regime.hpp"
 #include "text/errors.hpp"
 
 namespace remapc {
@@ -128,7 +129,7 @@ std::string why_not_text(const std::vector<Entry>& entries) {
 void run(const CompareOptions& options) {
   std::string bytes;
   const Table table = options.table.read(&bytes);
-  const std::vector<TableRow> rows = usable_rows(table);
+  const std::vector<TableRow> rows = answer_rows(table);
   if (rows.empty()) throw input_error(table.name + ": no usable rows");
   std::vector<Entry> entries;
   const std::vector<NamedFit> fits = chosen_fits(options, table);

@@ -13,7 +13,8 @@
 namespace remapc {
 namespace {
 
-constexpr std::size_t kFewestRows = 20, kFewestWidths = 2;
+// The joint of the wide regime is one more width, with a row for each specular.
+constexpr std::size_t kFewestWide = 8, kFewestBright = 20, kFewestBrightWidths = 2;
 // Widths beyond the joint to which the mapping is continued. One would do; the second keeps a curve from turning
 // back.
 constexpr std::size_t kContinuedWidths = 2;
@@ -24,6 +25,7 @@ constexpr int kHalvings = 40;
 constexpr int kWideSpeculars = 2;
 // Times the limit of alpha: where the mapping is held, more than its lowering may change beyond the seam.
 constexpr double kBeyondLimit = 1.0 + remap::kSeam + 1e-4;
+constexpr double kLeastWide = 1e-3;  // of source alpha
 constexpr double kSameJoint = 2e-3;  // between the rows on both sides of a joint, relative to the range of specular
 
 using Column = std::vector<TableRow>;  // rows of one width, by rising specular
@@ -33,10 +35,6 @@ std::map<double, Column> columns_of(const std::vector<TableRow>& rows) {
   for (const TableRow& row : rows) columns[row.alpha1].push_back(row);
   for (auto& [alpha, column] : columns) std::ranges::sort(column, {}, &TableRow::specular1);
   return columns;
-}
-
-bool can_be_fitted(const std::vector<TableRow>& rows) {
-  return rows.size() >= kFewestRows && columns_of(rows).size() >= kFewestWidths;
 }
 
 // The rows of one regime in `column`, continued to its end: specular in proportion, as pictures are.
@@ -164,7 +162,8 @@ class RegimeFit {
                      {low->alpha1, high->alpha1}, alpha);
   }
 
-  remap::WideRegime fit_wide() {
+  // None if the mapping reaches the limit at the very end of the domain.
+  std::optional<remap::WideRegime> fit_wide() {
     remap::WideRegime wide{domain_.alpha.min, {domain_.alpha, domain_.specular, {}}};
     wide.specular.alpha.min = domain_.alpha.max;
     for (int i = 0; i < kSpeculars; ++i) {
@@ -172,6 +171,7 @@ class RegimeFit {
       wide.specular.alpha.min = std::min(wide.specular.alpha.min, joint(specular, limits_.alpha));
       wide.mapping_to = std::max(wide.mapping_to, joint(specular, limits_.alpha * kBeyondLimit));
     }
+    if (wide.specular.alpha.max - wide.specular.alpha.min < kLeastWide) return std::nullopt;
     std::vector<TableRow> rows = rows_.wide;
     std::set<double> speculars;
     for (const TableRow& row : rows_.wide) speculars.insert(row.specular1);
@@ -247,8 +247,9 @@ RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<
       case RowRegime::kNone:
         break;
     }
-  if (!can_be_fitted(rows.bright)) rows.bright.clear();
-  const bool has_wide = can_be_fitted(rows.wide);
+  if (rows.bright.size() < kFewestBright || columns_of(rows.bright).size() < kFewestBrightWidths)
+    rows.bright.clear();
+  const bool has_wide = rows.wide.size() >= kFewestWide;
   if (!has_wide) rows.wide.clear();
   for (const auto& [alpha, column] : columns_of(training)) {
     continue_in_specular(column, RowRegime::kInside, limits, &rows.inside);

@@ -177,8 +177,8 @@ class Builder {
 
   std::string header_of(const remap::Fit& fit, LockedItem* record) {
     const remap::Lowered lowered = remap::lower(fit);
-    record->alpha_bound = lowered.alpha.bound;
-    record->specular_bound = lowered.specular.bound;
+    record->alpha_bound = lowered.alpha_bound();
+    record->specular_bound = lowered.specular_bound();
     remap::ConverterData data = remap::converter_data(fit, lowered);
     {
       const std::lock_guard lock(mutex_);

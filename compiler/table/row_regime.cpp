@@ -1,5 +1,8 @@
 #include "table/row_regime.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "text/errors.hpp"
 #include "text/number_text.hpp"
 
@@ -33,6 +36,14 @@ RowRegime regime_of(const TableRow& row, const TargetLimits& limits) {
   const bool is_bright = limits.specular && row.specular2 >= *limits.specular * (1.0 - kSameLimit);
   if (is_wide) return is_bright ? RowRegime::kCorner : RowRegime::kWide;
   return is_bright ? RowRegime::kBright : RowRegime::kNone;
+}
+
+std::vector<TableRow> answer_rows(const Table& table) {
+  const TargetLimits limits = target_limits(table);
+  std::vector<TableRow> rows;
+  std::ranges::copy_if(table.rows, std::back_inserter(rows),
+                       [&](const TableRow& row) { return regime_of(row, limits) != RowRegime::kNone; });
+  return rows;
 }
 
 }  // namespace remapc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "table/table.hpp"
 
@@ -28,5 +29,8 @@ enum class RowRegime {
   kNone,    // no answer: flat, unstable, or clamped at another bound
 };
 RowRegime regime_of(const TableRow& row, const TargetLimits& limits);
+
+// The rows that belong to a regime.
+std::vector<TableRow> answer_rows(const Table& table);
 
 }  // namespace remapc

@@ -63,9 +63,9 @@ std::size_t SeriesShape::count() const {
 std::vector<SeriesShape> series_shapes(const std::vector<int>& of_specular) {
   std::vector<SeriesShape> shapes;
   for (const int degree : kDegrees)
-    for (const int power : of_specular)
-      if (power <= degree || power == kAnyDegree) shapes.push_back({degree, std::min(degree, power)});
+    for (const int power : of_specular) shapes.push_back({degree, std::min(degree, power)});
   std::ranges::stable_sort(shapes, {}, &SeriesShape::count);
+  shapes.erase(std::ranges::unique(shapes).begin(), shapes.end());
   return shapes;
 }
 

@@ -13,6 +13,7 @@ namespace remapc {
 struct SeriesShape {
   int degree = 0, of_specular = 0;
   std::size_t count() const;  // of coefficients
+  bool operator==(const SeriesShape&) const = default;
 };
 
 // Every degree that is tried, with at most `of_specular` in specular, by rising number of coefficients.

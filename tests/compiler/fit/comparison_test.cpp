@@ -98,7 +98,7 @@ TEST_CASE("comparison: auto chooses the form of the paper for a table made from 
   const remap::Fit fit = fit_of(table_of(paper_surface), quick_options());
   REQUIRE(fit.method.count("form") == 1);
   CHECK(fit.method.at("form") == "paper");
-  REQUIRE(fit.candidates.size() == 3);
+  REQUIRE(fit.candidates.size() == 4);
   CHECK(fit.candidates[0].verdict == "chosen");
   CHECK(fit.candidates[0].chroma_shift < 1e-12);
   CHECK(fit.candidates[1].chroma_shift > 1e-6);
@@ -118,7 +118,7 @@ TEST_CASE("comparison: the same seed gives the same bytes for any number of jobs
   CHECK(one == fit_to_json(fit_of(table, quick_options(2))));
   const remap::Fit read = remap::fit_from_json(one, "memory");
   CHECK(fit_to_json(read) == one);
-  CHECK(read.candidates.size() == 4);
+  CHECK(read.candidates.size() == 5);
 }
 
 TEST_CASE("comparison: an interruption ends it") {
