@@ -172,7 +172,8 @@ TEST_CASE("shipped: a converter of the hub is monotone in width where its table 
     INFO(fit.id);
     const Table table = read_table(kFits / "tables" / fit.table.name);
     std::map<double, std::map<double, const TableRow*>> by_specular;
-    for (const TableRow& row : answer_rows(table)) by_specular[row.specular1][row.alpha1] = &row;
+    const std::vector<TableRow> rows = answer_rows(table);
+    for (const TableRow& row : rows) by_specular[row.specular1][row.alpha1] = &row;
     for (const auto& [specular, line] : by_specular)
       for (auto low = line.begin(); std::next(low) != line.end(); ++low) {
         const auto high = std::next(low);
