@@ -50,8 +50,9 @@ bool has_figures(const std::vector<Line>& lines, std::size_t column) {
 }  // namespace
 
 std::string candidate_text(const std::vector<remap::Candidate>& candidates, const std::string& specular) {
-  std::vector<Line> lines = {{"", "numbers", "alpha rms", "max", "relative", specular + " rms", "max", "relative",
-                              "alpha at edge, raw", specular + " at edge, raw", "chroma shift", ""}};
+  std::vector<Line> lines = {{"", "numbers", "alpha rms", "max", "relative", specular + " rms", "max",
+                              "relative", "alpha at edge, raw", specular + " at edge, raw", "chroma shift",
+                              ""}};
   for (const remap::Candidate& candidate : candidates) lines.push_back(line_of(candidate));
   std::vector<std::size_t> widths(lines[0].size(), 0);
   for (const Line& line : lines)

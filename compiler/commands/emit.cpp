@@ -135,7 +135,8 @@ void add_emit_command(remap::Command& app) {
           ->capture_default_str();
   command
       ->add_flag("--exact", options->code.exact,
-                 "Emit the mapping as it was fitted: support vectors, layers or exponentials; not for series, chains and "
+                 "Emit the mapping as it was fitted: support vectors, layers or exponentials; not for "
+                 "series, chains and "
                  "fits that reach a limit of their target")
       ->excludes(lower);
   command

@@ -174,10 +174,11 @@ void run(const FitCommand& command, const remap::Command& app) {
 void add_regression_options(remap::Command& app, FitCommand& command) {
   RegressionOptions& regression = command.options.regression;
   app.option_group("Regression");
-  app.add_option(
-         "--model", command.model,
-         "parametric: polynomials and exponentials; series: of Chebyshev polynomials; svr: support vectors; mlp: a "
-         "small network; auto: the simplest of them that is as good as the best by cross-validation, in up to a minute")
+  app.add_option("--model", command.model,
+                 "parametric: polynomials and exponentials; series: of Chebyshev polynomials; svr: support "
+                 "vectors; mlp: a "
+                 "small network; auto: the simplest of them that is as good as the best by cross-validation, "
+                 "in up to a minute")
       ->one_of({"auto", "parametric", "series", "svr", "mlp"});
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "

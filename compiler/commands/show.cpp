@@ -69,8 +69,8 @@ std::string curve_text(const remap::AlphaCurve& curve) {
 std::string inputs_text(std::size_t count) { return count == 1 ? "alpha" : "alpha and specular"; }
 
 std::string series_text(const remap::TexelSeries& series) {
-  return "a Chebyshev series, degree " + std::to_string(series.coefficients.front().size() - 1) + " in alpha, " +
-         std::to_string(series.coefficients.size() - 1) + " in specular";
+  return "a Chebyshev series, degree " + std::to_string(series.coefficients.front().size() - 1) +
+         " in alpha, " + std::to_string(series.coefficients.size() - 1) + " in specular";
 }
 
 // Prints a mapping as formulas of a = alpha1 and s = specular1.
@@ -126,7 +126,8 @@ struct PrintMapping {
 
 std::string percent_text(double share) { return number_text(remap::rounded_up(100.0 * share, 2)) + " %"; }
 
-// The shares of the domain in which the target is at no limit, at that of alpha, at that of specular, and at both.
+// The shares of the domain in which the target is at no limit, at that of alpha, at that of specular, and at
+// both.
 std::array<double, 4> regime_shares(const remap::Fit& fit) {
   constexpr int kSteps = 100;
   constexpr double kAtLimit = 1.0 - 1e-9;
@@ -150,8 +151,9 @@ void print_regimes(const remap::Fit& fit) {
   const remap::Regimes& regimes = fit.regimes;
   const std::array<double, 4> shares = regime_shares(fit);
   if (shares[0] > 1.0 - 1e-9) return;
-  std::cout << "At the limits of " << fit.target.model << ", in shares of the domain\n  neither " << percent_text(shares[0])
-            << "\n  alpha " << number_text(regimes.alpha_limit) << ": " << percent_text(shares[1]);
+  std::cout << "At the limits of " << fit.target.model << ", in shares of the domain\n  neither "
+            << percent_text(shares[0]) << "\n  alpha " << number_text(regimes.alpha_limit) << ": "
+            << percent_text(shares[1]);
   if (regimes.wide)
     std::cout << "; from alpha1 " << number_text(remap::rounded_up(regimes.wide->specular.alpha.min, 3))
               << ", specular2 is " << series_text(regimes.wide->specular);
@@ -184,7 +186,8 @@ void print_lowering(const remap::Fit& fit) {
     const remap::Lowered lowered = remap::lower(fit);
     std::cout << "Deviation of its header from the fit: alpha within " << error_text(lowered.alpha_bound())
               << ", " << fit.target.specular << " within " << error_text(lowered.specular_bound())
-              << (lowered.wide || lowered.bright ? " (proven; at joints of regimes sampled)\n" : " (proven)\n");
+              << (lowered.wide || lowered.bright ? " (proven; at joints of regimes sampled)\n"
+                                                 : " (proven)\n");
   } catch (const remap::Error& error) {
     if (error.kind() != remap::ErrorKind::kNumeric) throw;
     std::cout << "No header with the default tolerances: " << error.what() << "\n";

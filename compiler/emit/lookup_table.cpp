@@ -99,7 +99,8 @@ class Sampler {
     const remap::Range& alphas = fit_.domain.alpha;
     for (std::size_t i = 0; i < options_.size; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(options_.size - 1);
-      if (!is_inside(fit_, alphas.min + share * (alphas.max - alphas.min), fit_.domain.specular.max)) return true;
+      if (!is_inside(fit_, alphas.min + share * (alphas.max - alphas.min), fit_.domain.specular.max))
+        return true;
     }
     return false;
   }

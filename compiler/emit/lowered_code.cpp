@@ -102,13 +102,13 @@ std::string alpha_parameter(const PiecewisePolynomial& polynomial) {
 }
 
 // A function of alpha and, unless there is only one power, of specular.
-std::string texel_code(const PiecewisePolynomial& polynomial, const std::string& name, const std::string& table,
-                       bool takes_specular, const std::string& comment = "") {
+std::string texel_code(const PiecewisePolynomial& polynomial, const std::string& name,
+                       const std::string& table, bool takes_specular, const std::string& comment = "") {
   const std::string specular = polynomial.degrees.size() > 1 ? ", float specular" : ", float";
-  return function_code(
-      {comment, cell_table(polynomial, table), name,
-       alpha_parameter(polynomial) + (takes_specular ? specular : ""),
-       variable(polynomial, table) + factors_code(polynomial) + sum_code(polynomial, factor_names(polynomial))});
+  return function_code({comment, cell_table(polynomial, table), name,
+                        alpha_parameter(polynomial) + (takes_specular ? specular : ""),
+                        variable(polynomial, table) + factors_code(polynomial) +
+                            sum_code(polynomial, factor_names(polynomial))});
 }
 
 std::string slope_code(const PiecewisePolynomial& specular) {
@@ -141,7 +141,7 @@ MappingCode mapping_code(const remap::Lowered& lowered) {
   const PiecewisePolynomial& specular = lowered.specular.polynomial;
   const bool is_factor = specular.degrees.size() == 2 && specular.degrees[0] < 0;
   MappingCode code;
-  code.form = lowered.has_limits()                       ? CodeForm::kRegimes
+  code.form = lowered.has_limits()                     ? CodeForm::kRegimes
               : is_factor && alpha.degrees.size() == 1 ? CodeForm::kProportional
                                                        : CodeForm::kTerms;
   code.is_positive = lowered.specular.rises_with_specular;
@@ -154,8 +154,8 @@ MappingCode mapping_code(const remap::Lowered& lowered) {
   code.functions += texel_code(alpha, "target_alpha", "kAlphaTable", !is_proportional) +
                     (is_proportional ? slope_code(specular) : polynomial_terms(specular, code.form));
   if (lowered.wide)
-    code.functions += texel_code(lowered.wide->specular.function.polynomial, "wide_specular", "kWideTable", true,
-                                 "// Target specular where target alpha is at its limit.");
+    code.functions += texel_code(lowered.wide->specular.function.polynomial, "wide_specular", "kWideTable",
+                                 true, "// Target specular where target alpha is at its limit.");
   if (lowered.bright)
     code.functions += texel_code(lowered.bright->function.polynomial, "bright_alpha", "kBrightTable", true,
                                  "// Target alpha where target specular is at its limit.");

@@ -17,7 +17,8 @@ enum class CodeForm {
   // them, from which `void specular_terms(Count, Terms&)` computes the others, for any type of count; `float
   // target_specular(const Terms&, std::size_t i, float specular)`.
   kTerms,
-  // The same, with limits and regimes (lower/lowered.hpp): `float wide_specular(float alpha, float specular)`, `float
+  // The same, with limits and regimes (lower/lowered.hpp): `float wide_specular(float alpha, float
+  // specular)`, `float
   // bright_alpha(float alpha, float specular)`, if there are any.
   kRegimes,
   // `void target_alpha_rows(std::size_t count, const float* alpha, const float* specular, float* out)` and

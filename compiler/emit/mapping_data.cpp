@@ -179,8 +179,11 @@ std::string two_digits(double error) { return remap::number_text(remap::rounded_
 MappingData lowered_mapping(const remap::Lowered& lowered) {
   std::string text = "Lowered from the fit. Target alpha: " + shape_text(lowered.alpha) +
                      ".\nTarget specular: " + shape_text(lowered.specular) + ".";
-  if (lowered.wide) text += "\nWhere alpha is at its limit, target specular: " + shape_text(lowered.wide->specular.function) + ".";
-  if (lowered.bright) text += "\nWhere specular is at its limit, target alpha: " + shape_text(lowered.bright->function) + ".";
+  if (lowered.wide)
+    text += "\nWhere alpha is at its limit, target specular: " + shape_text(lowered.wide->specular.function) +
+            ".";
+  if (lowered.bright)
+    text += "\nWhere specular is at its limit, target alpha: " + shape_text(lowered.bright->function) + ".";
   if (lowered.wide || lowered.bright)
     text += "\nAll together within " + two_digits(lowered.alpha_bound()) + " in alpha, " +
             two_digits(lowered.specular_bound()) + " in specular.";

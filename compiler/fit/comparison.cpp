@@ -260,7 +260,8 @@ std::size_t choose_candidate(std::vector<Candidate*> candidates, const std::vect
   const auto bound_of = [&](remap::RelativeError Candidate::*output) {
     std::vector<CrossValidated> scores;
     for (std::size_t i = 0; i < candidates.size(); ++i)
-      if (eligible[i]) scores.push_back({(candidates[i]->*output).rms, (candidates[i]->*output).standard_error});
+      if (eligible[i])
+        scores.push_back({(candidates[i]->*output).rms, (candidates[i]->*output).standard_error});
     return error_bound(scores);
   };
   const double alpha_bound = bound_of(&Candidate::relative_alpha),
@@ -270,8 +271,7 @@ std::size_t choose_candidate(std::vector<Candidate*> candidates, const std::vect
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!eligible[i]) continue;
     // 1 for all candidates that count as equal to the best; the number of constants decides among them.
-    const double excess =
-        std::max({1.0, candidates[i]->relative_alpha.rms / alpha_bound,
+    const double excess = std::max({1.0, candidates[i]->relative_alpha.rms / alpha_bound,
                                     candidates[i]->relative_specular.rms / specular_bound});
     if (excess < least_excess ||
         (excess == least_excess && candidates[i]->number_count < candidates[chosen]->number_count)) {

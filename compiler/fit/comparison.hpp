@@ -19,8 +19,8 @@ struct Comparison {
   std::size_t chosen = 0;
 };
 
-// Fits the parametric form of the paper, the best parametric form, series, support vectors and the network to `rows`.
-// Compares them:
+// Fits the parametric form of the paper, the best parametric form, series, support vectors and the network to
+// `rows`. Compares them:
 // - by twice five-fold cross-validation on the rows (on 2000 random rows if there are more); forms and
 //   hyper-parameters are chosen on all of `rows`, coefficients are refitted in each fold;
 // - on the outermost rows, after fitting without them (edge.hpp);

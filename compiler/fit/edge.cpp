@@ -41,8 +41,8 @@ std::string fault_at(const remap::MappingKind& mapping, double alpha, double spe
   const bool is_sound = texel.alpha > 0.0 && texel.specular >= 0.0 && std::isfinite(texel.alpha) &&
                         std::isfinite(texel.specular);
   if (is_sound) return "";
-  return "alpha2 " + number_text(texel.alpha) + " and specular2 " + number_text(texel.specular) + " at alpha1 " +
-         number_text(alpha) + ", specular1 " + number_text(specular);
+  return "alpha2 " + number_text(texel.alpha) + " and specular2 " + number_text(texel.specular) +
+         " at alpha1 " + number_text(alpha) + ", specular1 " + number_text(specular);
 }
 
 double chroma_difference(const Color& a, const Color& b) {
@@ -99,9 +99,9 @@ BeyondDomain look_beyond(const remap::MappingKind& mapping, const remap::Domain&
       for (const double third : kChannels) {
         const Color inside = {edge, second * edge, third * edge};
         const Color outside = {kBeyond * inside[0], kBeyond * inside[1], kBeyond * inside[2]};
-        beyond.chroma_shift =
-            std::max(beyond.chroma_shift, chroma_difference(map_color(mapping, alpha, inside),
-                                                            map_color(mapping, alpha, outside)));
+        beyond.chroma_shift = std::max(
+            beyond.chroma_shift,
+            chroma_difference(map_color(mapping, alpha, inside), map_color(mapping, alpha, outside)));
       }
     }
     for (const double channel : kChannels)

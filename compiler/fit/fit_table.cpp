@@ -99,8 +99,7 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
     return one;
   };
   if (options.regressor)
-    return {fit_of(regress(*options.regressor, rows.inside, inside, options.regression, progress)),
-            {}};
+    return {fit_of(regress(*options.regressor, rows.inside, inside, options.regression, progress)), {}};
   const Comparison comparison = compare_regressions(rows.inside, inside, options.regression, progress);
   for (const Contender& contender : comparison.contenders) fit.candidates.push_back(contender.candidate);
   FittedTable fitted{fit_of(comparison.contenders[comparison.chosen].regression), {}};

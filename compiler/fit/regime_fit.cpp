@@ -15,18 +15,19 @@ namespace {
 
 // The joint of the wide regime is one more width, with a row for each specular.
 constexpr std::size_t kFewestWide = 8, kFewestBright = 20, kFewestBrightWidths = 2;
-// Widths beyond the joint to which the mapping is continued. One would do; the second keeps a curve from turning
-// back.
+// Widths beyond the joint to which the mapping is continued. One would do; the second keeps a curve from
+// turning back.
 constexpr std::size_t kContinuedWidths = 2;
 constexpr int kContinuedSpeculars = 5;  // rows of a column
-constexpr int kSpeculars = 33;  // at which a joint is looked for
+constexpr int kSpeculars = 33;          // at which a joint is looked for
 constexpr int kHalvings = 40;
 // Pictures are affine in specular, nearly so after the match.
 constexpr int kWideSpeculars = 2;
 // Times the limit of alpha: where the mapping is held, more than its lowering may change beyond the seam.
 constexpr double kBeyondLimit = 1.0 + remap::kSeam + 1e-4;
 constexpr double kLeastWide = 1e-3;  // of source alpha
-constexpr double kSameJoint = 2e-3;  // between the rows on both sides of a joint, relative to the range of specular
+constexpr double kSameJoint =
+    2e-3;  // between the rows on both sides of a joint, relative to the range of specular
 
 using Column = std::vector<TableRow>;  // rows of one width, by rising specular
 
@@ -85,8 +86,8 @@ std::optional<remap::MappedTexel> target_in(const Column& column, double specula
                             low.specular2 + share * (high.specular2 - low.specular2)};
 }
 
-// The columns of `inside` before the width `alpha`, continued to the rows of `beyond` by polynomials in width.
-// `keeps_specular`: where the rows are wide, that of the row.
+// The columns of `inside` before the width `alpha`, continued to the rows of `beyond` by polynomials in
+// width. `keeps_specular`: where the rows are wide, that of the row.
 void continue_in_alpha(const std::map<double, Column>& inside, double alpha, const Column& beyond,
                        const TargetLimits& limits, bool keeps_specular, std::vector<TableRow>* rows) {
   for (TableRow row : beyond) {
@@ -107,7 +108,8 @@ void continue_in_alpha(const std::map<double, Column>& inside, double alpha, con
   }
 }
 
-// The rows of corners that end where the bright regime begins: alpha is at its limit there, and not yet beyond.
+// The rows of corners that end where the bright regime begins: alpha is at its limit there, and not yet
+// beyond.
 void add_bright_ends(const Column& column, const TargetLimits& limits, std::vector<TableRow>* rows) {
   for (std::size_t i = 0; i + 1 < column.size(); ++i)
     if (regime_of(column[i], limits) == RowRegime::kCorner &&
@@ -129,7 +131,9 @@ double passed_at(const Function& rising, const remap::Range& range, double value
   return 0.5 * (low + high);
 }
 
-std::string rows_text(const std::vector<TableRow>& rows) { return ", " + std::to_string(rows.size()) + " rows"; }
+std::string rows_text(const std::vector<TableRow>& rows) {
+  return ", " + std::to_string(rows.size()) + " rows";
+}
 
 class RegimeFit {
  public:
@@ -154,8 +158,8 @@ class RegimeFit {
     return remap::evaluate_mapping(mapping_, alpha, specular);
   }
 
-  // The width of the source at which the mapping gives `alpha`, between the columns inside and the end of the rows to
-  // which it was continued.
+  // The width of the source at which the mapping gives `alpha`, between the columns inside and the end of the
+  // rows to which it was continued.
   double joint(double specular, double alpha) const {
     const auto [low, high] = std::ranges::minmax_element(rows_.inside, {}, &TableRow::alpha1);
     return passed_at([&](double source) { return mapped(source, specular).alpha; },
@@ -202,7 +206,9 @@ class RegimeFit {
       row.alpha2 = mapped(alpha, specular).alpha;
       if (row.alpha2 < limits_.alpha) rows.push_back(row);
     }
-    const auto least = [&](double TableRow::*input) { return (*std::ranges::min_element(rows, {}, input)).*input; };
+    const auto least = [&](double TableRow::*input) {
+      return (*std::ranges::min_element(rows, {}, input)).*input;
+    };
     const remap::TexelSeries box{{width_before(least(&TableRow::alpha1)), domain_.alpha.max},
                                  {least(&TableRow::specular1), domain_.specular.max},
                                  {}};
@@ -275,8 +281,8 @@ RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<
   return rows;
 }
 
-remap::Regimes fit_regimes(const RegimeRows& rows, const TargetLimits& limits, const remap::MappingKind& mapping,
-                           const remap::Domain& domain, std::uint64_t seed,
+remap::Regimes fit_regimes(const RegimeRows& rows, const TargetLimits& limits,
+                           const remap::MappingKind& mapping, const remap::Domain& domain, std::uint64_t seed,
                            std::map<std::string, std::string>* method) {
   return RegimeFit(rows, limits, mapping, domain, seed, method).fit();
 }

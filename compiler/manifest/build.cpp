@@ -292,9 +292,8 @@ class Builder {
     remap::run_parallel(folder.fits.size(), execution_.jobs, [&](std::size_t i) {
       const remap::Fit& fit = folder.fits[i];
       const auto known = converters_.find(fit.id);
-      converters[i] = known != converters_.end()
-                          ? known->second
-                          : remap::converter_data(fit, remap::lower(fit));
+      converters[i] =
+          known != converters_.end() ? known->second : remap::converter_data(fit, remap::lower(fit));
     });
     write_changed(folders_.generated / kConverterListName, emit_converter_list(std::move(converters)));
     lock_.converters = converters_hash(folders_, lock_);

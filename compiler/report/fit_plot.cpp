@@ -98,7 +98,8 @@ class Plot {
     out_ << "$shown << EOD\n";
     for (const TableRow& row : rows_)
       if (std::find(shown_.begin(), shown_.end(), row.alpha1) != shown_.end())
-        out_ << number_text(row.specular1) << ' ' << number_text(row.specular2) << ' ' << at_limit(row) << '\n';
+        out_ << number_text(row.specular1) << ' ' << number_text(row.specular2) << ' ' << at_limit(row)
+             << '\n';
     out_ << "EOD\n";
   }
 
@@ -120,8 +121,8 @@ class Plot {
     const remap::Range& range = fit_.domain.alpha;
     for (int i = 0; i <= kCurvePoints; ++i) {
       const double alpha = range.min + (range.max - range.min) * i / kCurvePoints;
-      out_ << number_text(alpha) << ' '
-           << number_text(remap::evaluate_fit(fits_[f], alpha, specular).alpha) << '\n';
+      out_ << number_text(alpha) << ' ' << number_text(remap::evaluate_fit(fits_[f], alpha, specular).alpha)
+           << '\n';
     }
     out_ << "EOD\n";
   }
@@ -145,8 +146,9 @@ class Plot {
          << " noenhanced\nset ylabel " << quoted(y) << " noenhanced\n";
   }
 
-  // The first line is the widest, so that overlapping lines stay visible. The rows are drawn last: `rows`, a data block whose
-  // column `y` is drawn over `x`, and whose column `limit` tells those at a limit of the target.
+  // The first line is the widest, so that overlapping lines stay visible. The rows are drawn last: `rows`, a
+  // data block whose column `y` is drawn over `x`, and whose column `limit` tells those at a limit of the
+  // target.
   void plot_curves(const std::string& block, const std::string& rows, int x, int y, int limit) {
     // gnuplot requires a range even if all values are 0.
     out_ << "set yrange [0:1e-3<*]\nset key left top Left reverse\nplot ";

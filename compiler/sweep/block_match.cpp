@@ -139,8 +139,8 @@ std::unique_ptr<WidthMatch> width_match(const SweepSetup& setup, const SampleBlo
 // Halvings of the step between samples by which a joint of regimes is found.
 constexpr int kJointHalvings = 6;
 
-// Adds rows on both sides of every joint between regimes (row_regime.hpp) of neighbouring samples, where fits of the
-// regimes have to meet.
+// Adds rows on both sides of every joint between regimes (row_regime.hpp) of neighbouring samples, where fits
+// of the regimes have to meet.
 void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow>* rows) {
   const TargetLimits limits = setup.limits();
   std::vector<TableRow> sorted = *rows;

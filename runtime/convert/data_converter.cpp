@@ -53,7 +53,8 @@ LoweredForm form_of(const ConverterData& data) {
   if (data.alpha_limit || data.specular_limit) return LoweredForm::kRegimes;
   const std::vector<int>& degrees = data.specular_polynomial.degrees;
   const bool is_factor = degrees.size() == 2 && degrees[0] < 0;
-  return is_factor && data.alpha_polynomial.degrees.size() == 1 ? LoweredForm::kProportional : LoweredForm::kTerms;
+  return is_factor && data.alpha_polynomial.degrees.size() == 1 ? LoweredForm::kProportional
+                                                                : LoweredForm::kTerms;
 }
 
 bool is_close(float value, float expected, float within) { return std::fabs(value - expected) <= within; }
@@ -80,7 +81,9 @@ class DataConverter final : public Converter {
     pass_.alpha_limit = data.alpha_limit.value_or(kNone);
     pass_.specular_limit = data.specular_limit.value_or(kNone);
     pass_.mapping_to = data.wide ? data.mapping_to : kNone;
-    if (data.wide) pass_.wide = {data.wide->alpha_from, data.wide->specular_from, wide_.emplace(data.wide->polynomial).rows()};
+    if (data.wide)
+      pass_.wide = {data.wide->alpha_from, data.wide->specular_from,
+                    wide_.emplace(data.wide->polynomial).rows()};
     if (data.bright)
       pass_.bright = {data.bright->alpha_from, data.bright->specular_from,
                       bright_.emplace(data.bright->polynomial).rows()};

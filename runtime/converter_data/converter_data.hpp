@@ -40,7 +40,7 @@ struct ConverterData {
   };
   PiecewisePolynomial alpha_polynomial, specular_polynomial;
   std::optional<float> alpha_limit, specular_limit;
-  float mapping_to = 0.0f;      // beside `wide`
+  float mapping_to = 0.0f;       // beside `wide`
   std::optional<Series> wide;    // target specular
   std::optional<Series> bright;  // target alpha
   std::vector<GoldenTexel> golden;

@@ -77,7 +77,8 @@ Json to_json(const Regimes& regimes) {
   Json json = {{"alpha_limit", finite(regimes.alpha_limit)},
                {"specular_limit", regimes.specular_limit ? Json(finite(*regimes.specular_limit)) : Json()}};
   if (regimes.wide)
-    json["wide"] = {{"mapping_to", finite(regimes.wide->mapping_to)}, {"specular", to_json(regimes.wide->specular)}};
+    json["wide"] = {{"mapping_to", finite(regimes.wide->mapping_to)},
+                    {"specular", to_json(regimes.wide->specular)}};
   if (regimes.bright) json["bright"] = {{"alpha", to_json(*regimes.bright)}};
   return json;
 }

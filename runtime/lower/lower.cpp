@@ -233,7 +233,8 @@ LoweredSeries lower_series(const Wanted& like, const char* name, const TexelSeri
       mapped_function(true, [series](const auto& a, const auto& s) { return series_value(series, a, s); });
   wanted.domain = {{room_below(series.alpha.min), room_above(series.alpha.max)},
                    {series.specular.min * (1.0 - 2e-6), series.specular.max * (1.0 + 2e-6)}};
-  return {static_cast<float>(series.alpha.min), static_cast<float>(series.specular.min), lower_output(wanted)};
+  return {static_cast<float>(series.alpha.min), static_cast<float>(series.specular.min),
+          lower_output(wanted)};
 }
 
 // Whether values of the function may pass `limit` on its samples.
@@ -243,14 +244,17 @@ bool may_pass(const Wanted& wanted, double limit) {
   return factor * *std::ranges::max_element(values) + wanted.tolerance * wanted.unit > limit;
 }
 
-// Beyond the limit of specular, pictures differ by far more than a width that is off by this times the tolerance.
+// Beyond the limit of specular, pictures differ by far more than a width that is off by this times the
+// tolerance.
 constexpr double kBrightTolerance = 10.0;
 
 constexpr int kSeamSamples = 400;
 
 // The largest difference between regimes in the seams, times the errors of their shares.
 void find_seams(const Fit& fit, const ProofDomain& domain, Lowered* lowered) {
-  const auto at = [](const Range& range, int i) { return range.min + (range.max - range.min) * i / kSeamSamples; };
+  const auto at = [](const Range& range, int i) {
+    return range.min + (range.max - range.min) * i / kSeamSamples;
+  };
   const auto in_seam = [](double share) { return share > 0.0 && share < 1.0; };
   double alpha_gap = 0.0, specular_gap = 0.0;
   for (int i = 0; i <= kSeamSamples; ++i)
@@ -268,7 +272,8 @@ void find_seams(const Fit& fit, const ProofDomain& domain, Lowered* lowered) {
                                                         target_channel(fit, 0.0, alpha, specular)));
     }
   const double limit = fit.regimes.specular_limit.value_or(1.0);
-  const double specular_bound = std::max(lowered->specular.bound, lowered->wide ? lowered->wide->specular.function.bound : 0.0);
+  const double specular_bound =
+      std::max(lowered->specular.bound, lowered->wide ? lowered->wide->specular.function.bound : 0.0);
   lowered->specular_seam = specular_gap * lowered->alpha.bound / (kSeam * fit.regimes.alpha_limit);
   lowered->alpha_seam = alpha_gap * (specular_bound + lowered->specular_seam) / (kSeam * limit);
 }

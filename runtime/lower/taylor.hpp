@@ -308,8 +308,9 @@ Taylor<V, N> gaussian_sum(const KernelExpansion& expansion, const std::vector<Ta
   return sum;
 }
 
-// Each step of the recurrence enlarges the remainders of its arguments, 40000 times over twelve steps. So it runs on variables
-// without a remainder that reach as far as the arguments, and what it gives is composed with them.
+// Each step of the recurrence enlarges the remainders of its arguments, 40000 times over twelve steps. So it
+// runs on variables without a remainder that reach as far as the arguments, and what it gives is composed
+// with them.
 template <int Variables, int Order>
 Taylor<Variables, Order> series_value(const TexelSeries& series, const Taylor<Variables, Order>& alpha,
                                       const Taylor<Variables, Order>& specular) {

@@ -21,13 +21,15 @@ double held_value(const TexelSeries& series, double alpha, double specular) {
 }
 
 // The share of the regime that takes over where `value` passes `limit`.
-double share_beyond(double value, double limit) { return std::clamp((value / limit - 1.0) / kSeam, 0.0, 1.0); }
+double share_beyond(double value, double limit) {
+  return std::clamp((value / limit - 1.0) / kSeam, 0.0, 1.0);
+}
 
 // Target specular without its limits.
 double free_specular(const Fit& fit, double wide, double alpha, double specular) {
-  const double inside = std::visit(
-      [&](const auto& kind) { return target_specular(kind, mapping_alpha(fit, alpha), specular); },
-      fit.mapping);
+  const double inside =
+      std::visit([&](const auto& kind) { return target_specular(kind, mapping_alpha(fit, alpha), specular); },
+                 fit.mapping);
   if (wide == 0.0 || !fit.regimes.wide) return inside;
   return inside + wide * (held_value(fit.regimes.wide->specular, alpha, specular) - inside);
 }

@@ -14,7 +14,8 @@ MappedTexel evaluate_mapping(const MappingKind& mapping, double alpha, double sp
 // Target alpha of a texel whose largest channel is `top`, without the domain rule.
 struct TexelWidth {
   double alpha = 0.0;
-  // The shares of the regimes that take over, 0 to 1: of the wide one in specular, of the bright one in alpha.
+  // The shares of the regimes that take over, 0 to 1: of the wide one in specular, of the bright one in
+  // alpha.
   double wide = 0.0, bright = 0.0;
 };
 TexelWidth target_width(const Fit& fit, double alpha, double top);

@@ -77,7 +77,9 @@ struct NumberCount {
   }
   std::size_t operator()(const Svr& svr) const { return count_of(svr.alpha) + count_of(svr.specular); }
   std::size_t operator()(const Mlp& mlp) const { return count_of(mlp.alpha) + count_of(mlp.specular); }
-  std::size_t operator()(const Series& series) const { return count_of(series.alpha) + count_of(series.specular); }
+  std::size_t operator()(const Series& series) const {
+    return count_of(series.alpha) + count_of(series.specular);
+  }
   std::size_t operator()(const Chain& chain) const {
     std::size_t count = 0;
     for (const ChainStep& step : chain.steps) count += std::visit(*this, step.mapping);

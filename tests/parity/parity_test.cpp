@@ -160,8 +160,10 @@ std::vector<MadeModel> subjects() {
   capped.regimes.specular_limit = 1.0;
   all.push_back(lowered(capped));
   add("series", kAlpha, kAlpha,
-      Series{made_regimes::bilinear({0.02, 0.95}, {0.0, 0.6}, [](double a, double s) { return a * (0.9 - 0.1 * s); }),
-             made_regimes::bilinear({0.02, 0.95}, {0.0, 0.6}, [](double a, double s) { return s * (1.0 - 0.3 * a); })});
+      Series{made_regimes::bilinear({0.02, 0.95}, {0.0, 0.6},
+                                    [](double a, double s) { return a * (0.9 - 0.1 * s); }),
+             made_regimes::bilinear({0.02, 0.95}, {0.0, 0.6},
+                                    [](double a, double s) { return s * (1.0 - 0.3 * a); })});
   // Kinks cost the lowered form a table of some size; as fitted they are any other activation.
   Fit kinked = base;
   kinked.id = "network_relu";

@@ -7,9 +7,11 @@
 
 namespace made_regimes {
 
-// Alpha grows by half until .9 at .6; specular by .6, less beyond that width, until 1; from there on widths shrink.
+// Alpha grows by half until .9 at .6; specular by .6, less beyond that width, until 1; from there on widths
+// shrink.
 inline constexpr double kAlphaLimit = 0.9, kSpecularLimit = 1.0, kWideFrom = 0.6, kBrightFrom = 0.625;
-inline constexpr double kMappingTo = kWideFrom * 1.006;  // the mapping passes its limit by the seam, and a little
+inline constexpr double kMappingTo =
+    kWideFrom * 1.006;  // the mapping passes its limit by the seam, and a little
 
 inline double free_alpha(double alpha) { return std::min(1.5 * alpha, kAlphaLimit); }
 inline double free_specular(double alpha, double specular) {
@@ -27,13 +29,15 @@ inline Place place(double alpha, double specular) {
   return is_bright ? Place::kCorner : Place::kWide;
 }
 inline remap::MappedTexel exact(double alpha, double specular) {
-  const double width = free_specular(alpha, specular) > kSpecularLimit ? bright_alpha(alpha, specular) : free_alpha(alpha);
+  const double width =
+      free_specular(alpha, specular) > kSpecularLimit ? bright_alpha(alpha, specular) : free_alpha(alpha);
   return {width, std::min(free_specular(alpha, specular), kSpecularLimit)};
 }
 
 // The series of a function that is linear in both parameters.
 template <typename Function>
-remap::TexelSeries bilinear(const remap::Range& alpha, const remap::Range& specular, const Function& function) {
+remap::TexelSeries bilinear(const remap::Range& alpha, const remap::Range& specular,
+                            const Function& function) {
   const double a = function(alpha.min, specular.min), b = function(alpha.max, specular.min),
                c = function(alpha.min, specular.max), d = function(alpha.max, specular.max);
   return {alpha,

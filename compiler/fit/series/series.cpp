@@ -30,7 +30,8 @@ Eigen::VectorXd chebyshev_row(const remap::Range& range, double value, int degre
 }
 
 SeriesShape shape_of(const remap::TexelSeries& series) {
-  return {static_cast<int>(series.coefficients.front().size()) - 1, static_cast<int>(series.coefficients.size()) - 1};
+  return {static_cast<int>(series.coefficients.front().size()) - 1,
+          static_cast<int>(series.coefficients.size()) - 1};
 }
 
 bool is_determined(const SeriesShape& shape, std::size_t rows, std::size_t widths) {
@@ -69,8 +70,8 @@ std::vector<SeriesShape> series_shapes(const std::vector<int>& of_specular) {
   return shapes;
 }
 
-remap::TexelSeries fit_series(const std::vector<TableRow>& rows, double TableRow::*output, remap::TexelSeries series,
-                              const SeriesShape& shape) {
+remap::TexelSeries fit_series(const std::vector<TableRow>& rows, double TableRow::*output,
+                              remap::TexelSeries series, const SeriesShape& shape) {
   const auto count = static_cast<Eigen::Index>(rows.size()), terms = static_cast<Eigen::Index>(shape.count());
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(count + terms, terms);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(count + terms);
@@ -96,9 +97,9 @@ remap::TexelSeries fit_series(const std::vector<TableRow>& rows, double TableRow
   return series;
 }
 
-remap::TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t widths, double TableRow::*output,
-                               const remap::TexelSeries& box, const std::vector<SeriesShape>& shapes,
-                               std::uint64_t seed) {
+remap::TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t widths,
+                               double TableRow::*output, const remap::TexelSeries& box,
+                               const std::vector<SeriesShape>& shapes, std::uint64_t seed) {
   const std::vector<Fold> folds = split_folds(rows, kSeriesFolds, seed);
   std::vector<SeriesShape> tried;
   std::vector<CrossValidated> scores;
@@ -115,20 +116,24 @@ remap::TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t wi
 
 std::string series_text(const remap::TexelSeries& series) {
   const SeriesShape shape = shape_of(series);
-  return "degree " + std::to_string(shape.degree) + ", up to " + std::to_string(shape.of_specular) + " in specular";
+  return "degree " + std::to_string(shape.degree) + ", up to " + std::to_string(shape.of_specular) +
+         " in specular";
 }
 
-Regression fit_series_kind(const std::vector<TableRow>& rows, const remap::Domain& domain, std::uint64_t seed) {
+Regression fit_series_kind(const std::vector<TableRow>& rows, const remap::Domain& domain,
+                           std::uint64_t seed) {
   require_variety(rows, "series");
   std::set<double> widths;
   for (const TableRow& row : rows) widths.insert(row.alpha1);
   const remap::TexelSeries box{domain.alpha, domain.specular, {}};
-  const std::vector<int> of_alpha = alpha_needs_specular(rows) ? std::vector{1, 2, 4, kAnyDegree} : std::vector{0};
+  const std::vector<int> of_alpha =
+      alpha_needs_specular(rows) ? std::vector{1, 2, 4, kAnyDegree} : std::vector{0};
   remap::Series series;
   series.alpha = best_series(rows, widths.size(), &TableRow::alpha2, box, series_shapes(of_alpha), seed);
   series.specular =
       best_series(rows, widths.size(), &TableRow::specular2, box, series_shapes({1, 2, 4, kAnyDegree}), seed);
-  return {remap::MappingKind(series), {{"alpha", series_text(series.alpha)}, {"specular", series_text(series.specular)}}};
+  return {remap::MappingKind(series),
+          {{"alpha", series_text(series.alpha)}, {"specular", series_text(series.specular)}}};
 }
 
 remap::Series fit_series_again(const remap::Series& model, const std::vector<TableRow>& rows) {

@@ -114,10 +114,10 @@ struct Mlp {
   bool operator==(const Mlp&) const = default;
 };
 
-// The sum over j and i of coefficients[j][i] T_j(specular) T_i(alpha), T the Chebyshev polynomials (Trefethen 2013,
-// chapter 3) of the parameter mapped from its range to [-1, 1].
+// The sum over j and i of coefficients[j][i] T_j(specular) T_i(alpha), T the Chebyshev polynomials (Trefethen
+// 2013, chapter 3) of the parameter mapped from its range to [-1, 1].
 struct TexelSeries {
-  Range alpha, specular;  // of the source
+  Range alpha, specular;                          // of the source
   std::vector<std::vector<double>> coefficients;  // at least one row of at least one
   bool operator==(const TexelSeries&) const = default;
 };

@@ -64,7 +64,8 @@ remap::MappedTexel worst_of(const remap::Fit& fit) {
   for (int i = 0; i <= 173; ++i)
     for (int j = 0; j <= 171; ++j) {
       const double alpha = 0.01 + 0.99 * i / 173, specular = 0.03 + 0.97 * j / 171;
-      const remap::MappedTexel found = evaluate_fit(fit, alpha, specular), exact = made_regimes::exact(alpha, specular);
+      const remap::MappedTexel found = evaluate_fit(fit, alpha, specular),
+                               exact = made_regimes::exact(alpha, specular);
       worst.alpha = std::max(worst.alpha, std::fabs(found.alpha - exact.alpha));
       worst.specular = std::max(worst.specular, std::fabs(found.specular - exact.specular));
     }

@@ -85,8 +85,7 @@ TEST_CASE("shipped: every ordered pair of the hub, and the models that are reach
 }
 
 // Tables of real renderers are less smooth: clamped widths, lookup tables in shaders, half floats.
-TEST_CASE(
-    "shipped: fits follow their tables to 2e-3 in alpha and 1 % in specular") {
+TEST_CASE("shipped: fits follow their tables to 2e-3 in alpha and 1 % in specular") {
   for (const remap::Fit& fit : shipped()) {
     if (!is_measured(fit)) continue;
     INFO(fit.id);
@@ -111,8 +110,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("shipped: inside its domain a converter gives valid parameters of the target, and rises up to its limits",
-          "[slow]") {
+TEST_CASE(
+    "shipped: inside its domain a converter gives valid parameters of the target, and rises up to its limits",
+    "[slow]") {
   for (const remap::Fit& fit : shipped()) {
     INFO(fit.id);
     const double specular_slack = fit.has_errors() ? 2.0 * fit.specular_error.max + 1e-3 : 1e-3;
@@ -136,7 +136,8 @@ TEST_CASE("shipped: converters of the hub cover every width and specular") {
     }
 }
 
-TEST_CASE("shipped: a ramp of 1e-4 in alpha or specular jumps nowhere by more than 1e-3", "[slow][campaign]") {
+TEST_CASE("shipped: a ramp of 1e-4 in alpha or specular jumps nowhere by more than 1e-3",
+          "[slow][campaign]") {
   constexpr double kStep = 1e-4, kMost = 1e-3;
   const int lines = remap::campaign_length(40) + 1;
   for (const remap::Fit& fit : shipped()) {
@@ -144,7 +145,8 @@ TEST_CASE("shipped: a ramp of 1e-4 in alpha or specular jumps nowhere by more th
     remap::MappedTexel worst;
     for (int line = 0; line < lines; ++line) {
       const double share = (line + 0.5) / lines, alpha = 0.01 + 0.99 * share;
-      remap::MappedTexel by_alpha = evaluate_fit(fit, 0.01, share), by_specular = evaluate_fit(fit, alpha, 0.0);
+      remap::MappedTexel by_alpha = evaluate_fit(fit, 0.01, share),
+                         by_specular = evaluate_fit(fit, alpha, 0.0);
       for (double moving = 0.01; moving <= 1.0; moving += kStep) {
         const remap::MappedTexel wider = evaluate_fit(fit, moving, share);
         worst.alpha = std::max(worst.alpha, std::fabs(wider.alpha - by_alpha.alpha));

@@ -140,7 +140,8 @@ TEST_CASE("sweep: ends soon after it is cancelled") {
 TEST_CASE("sweep: rows on both sides mark where the target reaches a limit, and comments tell the limits") {
   std::vector<SamplePoint> samples;
   for (int j = 1; j <= 6; ++j) samples.push_back({0.65, j / 6.0});
-  const Table table = sweep(*make_builtin_renderer(), sweep_options("mitsuba/as", "mitsuba/ward", "natural", samples, 64));
+  const Table table =
+      sweep(*make_builtin_renderer(), sweep_options("mitsuba/as", "mitsuba/ward", "natural", samples, 64));
   const TargetLimits limits = target_limits(table);
   REQUIRE(limits.are_known);
   CHECK(limits.alpha == 1.0);

@@ -18,7 +18,9 @@ constexpr int kSteps = 200;
 double at(int i) { return 0.01 + 0.99 * i / kSteps; }
 
 bool in_seam(const Fit& fit, double alpha, double specular) {
-  const auto within = [](double value, double limit) { return value > limit && value < limit * (1.0 + kSeam); };
+  const auto within = [](double value, double limit) {
+    return value > limit && value < limit * (1.0 + kSeam);
+  };
   return within(1.5 * std::min(alpha, made_regimes::kMappingTo), fit.regimes.alpha_limit) ||
          within(made_regimes::free_specular(alpha, specular), *fit.regimes.specular_limit);
 }
@@ -31,7 +33,8 @@ TEST_CASE("regimes: each answers where it holds, and seams stay between neighbou
   for (int i = 0; i <= kSteps; ++i)
     for (int j = 0; j <= kSteps; ++j) {
       const double alpha = at(i), specular = static_cast<double>(j) / kSteps;
-      const MappedTexel found = evaluate_fit(fit, alpha, specular), exact = made_regimes::exact(alpha, specular);
+      const MappedTexel found = evaluate_fit(fit, alpha, specular),
+                        exact = made_regimes::exact(alpha, specular);
       const double margin = in_seam(fit, alpha, specular) ? 2e-3 : 1e-12;
       INFO(alpha << " " << specular);
       CHECK(found.alpha == Approx(exact.alpha).margin(margin));
@@ -96,7 +99,8 @@ TEST_CASE("regimes: is_inside tells the mapping alone from its limits") {
   for (int i = 0; i <= kSteps; ++i)
     for (int j = 0; j <= kSteps; ++j) {
       const double alpha = at(i), specular = static_cast<double>(j) / kSteps;
-      const bool inside = 1.5 * alpha < made_regimes::kAlphaLimit && 1.6 * specular < made_regimes::kSpecularLimit;
+      const bool inside =
+          1.5 * alpha < made_regimes::kAlphaLimit && 1.6 * specular < made_regimes::kSpecularLimit;
       CHECK(is_inside(fit, alpha, specular) == inside);
     }
 }

@@ -52,7 +52,8 @@ TEST_CASE("series: a smooth function is followed to a thousandth of its value, d
   for (int i = 0; i <= 50; ++i)
     for (const double specular : {0.085, 0.2, 0.6, 0.99}) {
       const double alpha = 0.01 + 0.99 * i / 50;
-      CHECK(evaluate_mapping(mapping, alpha, specular).alpha == Approx(smooth(alpha, specular).alpha).epsilon(1e-3));
+      CHECK(evaluate_mapping(mapping, alpha, specular).alpha ==
+            Approx(smooth(alpha, specular).alpha).epsilon(1e-3));
       CHECK(evaluate_mapping(mapping, alpha, specular).specular ==
             Approx(smooth(alpha, specular).specular).epsilon(1e-3));
     }
