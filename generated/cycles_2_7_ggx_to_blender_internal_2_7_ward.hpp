@@ -4,11 +4,11 @@
 // cycles-2.7/ggx to blender-internal-2.7/ward: which parameters of the second give the same picture as those of the first.
 // Composed of cycles_2_7_ggx_to_mitsuba_ggx, then mitsuba_ggx_to_mitsuba_ward, then mitsuba_ward_to_blender_internal_2_7_ward.
 // Fit: chain.
-// Error of its steps together: alpha rms 1.6e-05, 99 % 7.5e-05, max 7.5e-05;
-// specular rms 2.4e-05, 99 % 2e-04, max 2e-04.
-// Lowered from the fit. Target alpha: degree 11, 10 in specular, proven within 7.4e-06 (sampled 6.1e-06), rising with alpha.
-// Target specular: degree 11, 7 in specular, proven within 8.8e-06 (sampled 8e-06), rising with specular.
-// Covers alpha 0.01227433850835 to 0.55467946514535, f0 0 to 0.3758016382557151.
+// Error of its steps together: alpha rms 0.00021, 99 % 0.0012, max 0.0027;
+// specular rms 2.6e-05, 99 % 0.00026, max 5e-04.
+// Lowered from the fit. Target alpha: degree 11, 4 in specular, proven within 7.4e-06 (sampled 6.3e-06), rising with alpha.
+// Target specular: degree 11, 4 in specular, proven within 1.5e-05 (sampled 1.4e-05), rising with specular.
+// Covers alpha 0.01227433850835 to 0.5867306771739, f0 0 to 0.41755737583968344.
 #ifndef REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 #define REMAP_GENERATED_CYCLES_2_7_GGX_TO_BLENDER_INTERNAL_2_7_WARD_HPP
 
@@ -35,8 +35,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.6e-05f;
-inline constexpr float kSpecularRmsError = 2.4e-05f;
+inline constexpr float kAlphaRmsError = 0.00021f;
+inline constexpr float kSpecularRmsError = 2.6e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = -1.0f;
@@ -54,7 +54,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.012274339f, 0.0f};
-inline constexpr Input kDomainMax{0.55467945f, 0.37580165f};
+inline constexpr Input kDomainMax{0.58673066f, 0.4175574f};
 
 namespace detail {
 
@@ -74,90 +74,46 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.2834775f;
+  const float u = alpha - 0.29950312f;
   const float u_2 = u * u;
-  float c0 = -7884.0107f;
-  float c0_next = 2267.371f;
-  c0 = c0 * u_2 + 2600.9644f;
-  c0_next = c0_next * u_2 + -607.4253f;
-  c0 = c0 * u_2 + -414.95197f;
-  c0_next = c0_next * u_2 + 69.26033f;
-  c0 = c0 * u_2 + 48.51999f;
-  c0_next = c0_next * u_2 + -3.5342972f;
-  c0 = c0 * u_2 + -4.236443f;
-  c0_next = c0_next * u_2 + -0.19804806f;
-  c0 = c0 * u_2 + 1.3747238f;
-  c0_next = c0_next * u_2 + 0.36502668f;
+  float c0 = -4730.0f;
+  float c0_next = -931.8117f;
+  c0 = c0 * u_2 + 1904.5885f;
+  c0_next = c0_next * u_2 + 15.962652f;
+  c0 = c0 * u_2 + -389.7453f;
+  c0_next = c0_next * u_2 + 16.721312f;
+  c0 = c0 * u_2 + 51.72975f;
+  c0_next = c0_next * u_2 + 0.11001429f;
+  c0 = c0 * u_2 + -4.405227f;
+  c0_next = c0_next * u_2 + -0.39317605f;
+  c0 = c0 * u_2 + 1.36685f;
+  c0_next = c0_next * u_2 + 0.38702163f;
   c0 = c0 * u + c0_next;
-  float c1 = 3141.4688f;
-  float c1_next = 167.01125f;
-  c1 = c1 * u_2 + -690.8754f;
-  c1_next = c1_next * u_2 + -40.93296f;
-  c1 = c1 * u_2 + 53.57866f;
-  c1_next = c1_next * u_2 + 4.7488623f;
-  c1 = c1 * u_2 + -1.557014f;
-  c1_next = c1_next * u_2 + -0.29010078f;
-  c1 = c1 * u_2 + 0.022147598f;
-  c1_next = c1_next * u_2 + 0.019842455f;
-  c1 = c1 * u_2 + 0.0022595092f;
-  c1 = c1_next * u + c1;
-  float c2 = -3453.6233f;
-  float c2_next = 619.2146f;
-  c2 = c2 * u_2 + 742.82446f;
-  c2_next = c2_next * u_2 + -98.42894f;
-  c2 = c2 * u_2 + -61.40716f;
-  c2_next = c2_next * u_2 + 6.014065f;
-  c2 = c2 * u_2 + 2.0744407f;
-  c2_next = c2_next * u_2 + -0.13658209f;
-  c2 = c2 * u_2 + -0.118928224f;
-  c2_next = c2_next * u_2 + -0.015969705f;
-  c2 = c2 * u + c2_next;
-  float c3 = -1066.159f;
-  float c3_next = 41.89444f;
-  c3 = c3 * u_2 + 193.48105f;
-  c3_next = c3_next * u_2 + -18.20849f;
-  c3 = c3 * u_2 + -10.670228f;
-  c3_next = c3_next * u_2 + -0.4196528f;
-  c3 = c3 * u_2 + 0.2483948f;
-  c3_next = c3_next * u_2 + 0.12618168f;
-  c3 = c3 * u + c3_next;
-  float c4 = -522.34265f;
-  float c4_next = -36.67254f;
-  c4 = c4 * u_2 + 84.91587f;
-  c4_next = c4_next * u_2 + 0.040276725f;
-  c4 = c4 * u_2 + 2.9250157f;
-  c4_next = c4_next * u_2 + 0.30129588f;
-  c4 = c4 * u + c4_next;
-  float c5 = 1514.304f;
-  float c5_next = 871.74426f;
-  c5 = c5 * u_2 + -374.40073f;
-  c5_next = c5_next * u_2 + 104.418816f;
-  c5 = c5 * u_2 + 21.348164f;
-  c5_next = c5_next * u_2 + -9.131366f;
-  c5 = c5 * u + c5_next;
-  float c6 = -2668.0938f;
-  float c6_next = 430.51028f;
-  c6 = c6 * u_2 + -307.0259f;
-  c6_next = c6_next * u_2 + -571.557f;
-  c6 = c6 * u_2 + -22.395649f;
-  c6 = c6_next * u + c6;
-  float c7 = -3337.9321f;
-  c7 = c7 * u + 1981.3451f;
-  c7 = c7 * u + 638.55707f;
-  float c8 = 13769.049f;
-  c8 = c8 * u + 6018.154f;
-  c8 = c8 * u + -1564.6268f;
-  float c9 = -29635.004f;
-  c9 = c9 * u + -5451.1167f;
-  const float c10 = 18441.395f;
-  const float w = specular - 0.1879012f;
-  float sum = c10;
-  sum = sum * w + c9;
-  sum = sum * w + c8;
-  sum = sum * w + c7;
-  sum = sum * w + c6;
-  sum = sum * w + c5;
-  sum = sum * w + c4;
+  float c1 = -18.899693f;
+  float c1_next = -23.608826f;
+  c1 = c1 * u_2 + -1.8339082f;
+  c1_next = c1_next * u_2 + 2.26876f;
+  c1 = c1 * u_2 + 0.15966895f;
+  c1_next = c1_next * u_2 + -0.035126932f;
+  c1 = c1 * u_2 + 0.02272168f;
+  c1_next = c1_next * u_2 + 0.004382169f;
+  c1 = c1 * u + c1_next;
+  float c2 = 16.590523f;
+  float c2_next = 3.9859316f;
+  c2 = c2 * u_2 + -0.8320683f;
+  c2_next = c2_next * u_2 + 0.36388445f;
+  c2 = c2 * u_2 + -0.09138941f;
+  c2_next = c2_next * u_2 + -0.14514282f;
+  c2 = c2 * u_2 + -0.021754256f;
+  c2 = c2_next * u + c2;
+  float c3 = -0.9801946f;
+  c3 = c3 * u + 0.1508828f;
+  c3 = c3 * u + 0.2663085f;
+  c3 = c3 * u + 0.040967297f;
+  float c4 = -0.12795217f;
+  c4 = c4 * u + -0.02913515f;
+  const float w = specular - 0.20877911f;
+  float sum = c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -168,7 +124,7 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
 };
 
 template <class Count>
@@ -183,68 +139,60 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.2834775f;
+    const float u = alpha - 0.29950312f;
     const float u_2 = u * u;
-    float c0 = 7015.855f;
-    float c0_next = -1370.6752f;
-    c0 = c0 * u_2 + -1436.1309f;
-    c0_next = c0_next * u_2 + 421.41748f;
-    c0 = c0 * u_2 + 25.48778f;
-    c0_next = c0_next * u_2 + -21.39029f;
-    c0 = c0 * u_2 + 3.88613f;
-    c0_next = c0_next * u_2 + 0.59529126f;
-    c0 = c0 * u_2 + -0.49489257f;
-    c0_next = c0_next * u_2 + -0.043914076f;
-    c0 = c0 * u_2 + 0.025317855f;
-    c0_next = c0_next * u_2 + 0.063848294f;
+    float c0 = 3621.4812f;
+    float c0_next = -750.0579f;
+    c0 = c0 * u_2 + -840.6793f;
+    c0_next = c0_next * u_2 + 342.6853f;
+    c0 = c0 * u_2 + 3.6350467f;
+    c0_next = c0_next * u_2 + -26.595589f;
+    c0 = c0 * u_2 + 4.500704f;
+    c0_next = c0_next * u_2 + 1.2159504f;
+    c0 = c0 * u_2 + -0.51915014f;
+    c0_next = c0_next * u_2 + -0.077592134f;
+    c0 = c0 * u_2 + 0.026109356f;
+    c0_next = c0_next * u_2 + 0.07133278f;
     c0 = c0 * u + c0_next;
-    float c1 = 34118.23f;
-    float c1_next = -6493.9707f;
-    c1 = c1 * u_2 + -7151.9883f;
-    c1_next = c1_next * u_2 + 2100.2708f;
-    c1 = c1 * u_2 + 114.01943f;
-    c1_next = c1_next * u_2 + -106.06406f;
-    c1 = c1 * u_2 + 20.76833f;
-    c1_next = c1_next * u_2 + 3.0594692f;
-    c1 = c1 * u_2 + -2.6191247f;
-    c1_next = c1_next * u_2 + -0.23254882f;
-    c1 = c1 * u_2 + 0.13593046f;
-    c1_next = c1_next * u_2 + 0.3374766f;
-    c1 = c1 * u + c1_next;
-    float c2 = 0.035538595f;
-    c2 = c2 * u + -0.00032787054f;
-    c2 = c2 * u + -0.005010086f;
-    c2 = c2 * u + -0.0007594706f;
-    float c3 = -0.15150963f;
-    c3 = c3 * u + 0.009800332f;
-    c3 = c3 * u + 0.06275259f;
-    c3 = c3 * u + 0.008242612f;
-    float c4 = -0.03241063f;
-    c4 = c4 * u + 0.3945009f;
-    c4 = c4 * u + 0.08953914f;
-    float c5 = -3.9674077f;
-    c5 = c5 * u + -0.71245545f;
-    float c6 = -11.145629f;
-    c6 = c6 * u + -2.4443645f;
-    float c7 = 86.8365f;
-    c7 = c7 * u + 16.861807f;
+    float c1 = -3898.2134f;
+    float c1_next = -43.387676f;
+    c1 = c1 * u_2 + 1702.3612f;
+    c1_next = c1_next * u_2 + -315.419f;
+    c1 = c1 * u_2 + -128.8207f;
+    c1_next = c1_next * u_2 + 34.339985f;
+    c1 = c1 * u_2 + 5.7588587f;
+    c1_next = c1_next * u_2 + -2.7068596f;
+    c1 = c1 * u_2 + -0.37393466f;
+    c1_next = c1_next * u_2 + 0.12585305f;
+    c1 = c1 * u_2 + 0.33943418f;
+    c1 = c1_next * u + c1;
+    float c2 = 11.441096f;
+    float c2_next = 2.3945663f;
+    c2 = c2 * u_2 + -1.0171419f;
+    c2_next = c2_next * u_2 + -0.18808971f;
+    c2 = c2 * u_2 + 0.009840181f;
+    c2_next = c2_next * u_2 + 0.0035304117f;
+    c2 = c2 * u_2 + 0.0005685186f;
+    c2 = c2_next * u + c2;
+    float c3 = -2.3151875f;
+    float c3_next = -0.46709433f;
+    c3 = c3 * u_2 + 0.24430588f;
+    c3_next = c3_next * u_2 + 0.07616038f;
+    c3 = c3 * u_2 + 0.0059162807f;
+    c3 = c3_next * u + c3;
+    float c4 = -0.12166027f;
+    c4 = c4 * u + -0.025414275f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
     terms.c3[i] = c3;
     terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
-    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.1879012f;
-  float sum = terms.c7[i];
-  sum = sum * w + terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
+  const float w = specular - 0.20877911f;
+  float sum = terms.c4[i];
   sum = sum * w + terms.c3[i];
   sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
@@ -321,7 +269,7 @@ inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(b
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 2.660978f};
+                                 kDomainMax.f0, 2.3948803f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -567,19 +515,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.012274339f, 0.37580165f}, {0.015251707f, 0.13263582f}, {7.9e-06f, 8.9e-06f}},
-      {{0.08007498f, 0.35231405f}, {0.09794432f, 0.113172f}, {7.9e-06f, 8.9e-06f}},
-      {{0.14787562f, 0.32882646f}, {0.18281479f, 0.10600448f}, {7.9e-06f, 8.9e-06f}},
-      {{0.21567626f, 0.30533883f}, {0.2721831f, 0.100615874f}, {8e-06f, 8.8e-06f}},
-      {{0.2834769f, 0.28185123f}, {0.36516982f, 0.095552705f}, {8e-06f, 8.8e-06f}},
-      {{0.35127753f, 0.25836363f}, {0.4561844f, 0.089528896f}, {8.1e-06f, 8.8e-06f}},
-      {{0.41907817f, 0.23487604f}, {0.53848267f, 0.081813514f}, {8.1e-06f, 8.8e-06f}},
-      {{0.4868788f, 0.21138842f}, {0.6105328f, 0.07265851f}, {8.1e-06f, 8.8e-06f}},
-      {{0.55467945f, 0.18790083f}, {0.676774f, 0.06285075f}, {8.2e-06f, 8.8e-06f}},
-      {{0.0061371694f, 0.18790083f}, {0.015228451f, 0.06656391f}, {7.9e-06f, 8.8e-06f}},
-      {{0.8320192f, 0.09395041f}, {0.67565393f, 0.031578973f}, {8.2e-06f, 8.8e-06f}},
-      {{0.2834769f, 0.0f}, {0.35961473f, 0.0003785509f}, {8e-06f, 8.8e-06f}},
-      {{0.2834769f, 0.7516033f}, {0.3652427f, 0.25452158f}, {8e-06f, 1.8e-05f}},
+      {{0.012274339f, 0.4175574f}, {0.015268557f, 0.14732927f}, {7.8e-06f, 1.5e-05f}},
+      {{0.08408138f, 0.39146006f}, {0.10285579f, 0.1255689f}, {7.9e-06f, 1.5e-05f}},
+      {{0.15588842f, 0.3653627f}, {0.19318314f, 0.11795368f}, {7.9e-06f, 1.5e-05f}},
+      {{0.22769547f, 0.33926538f}, {0.28856373f, 0.11227964f}, {8e-06f, 1.5e-05f}},
+      {{0.2995025f, 0.31316805f}, {0.38728303f, 0.10677064f}, {8e-06f, 1.5e-05f}},
+      {{0.37130955f, 0.2870707f}, {0.48190358f, 0.09973614f}, {8.1e-06f, 1.5e-05f}},
+      {{0.44311658f, 0.26097336f}, {0.56538326f, 0.090560935f}, {8.1e-06f, 1.5e-05f}},
+      {{0.51492363f, 0.23487604f}, {0.6384975f, 0.07986556f}, {8.1e-06f, 1.5e-05f}},
+      {{0.58673066f, 0.2087787f}, {0.7085282f, 0.06865115f}, {8.2e-06f, 1.5e-05f}},
+      {{0.0061371694f, 0.2087787f}, {0.015267557f, 0.07390705f}, {7.8e-06f, 1.5e-05f}},
+      {{0.88009596f, 0.10438935f}, {0.7070831f, 0.034494705f}, {8.2e-06f, 1.5e-05f}},
+      {{0.2995025f, 0.0f}, {0.38472882f, 0.0003905455f}, {8e-06f, 1.5e-05f}},
+      {{0.2995025f, 0.8351148f}, {0.38730767f, 0.2844537f}, {8e-06f, 3e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -119,13 +119,13 @@ inline float target_alpha(float alpha, float specular) noexcept {
   c5 = c5 * u + 0.06223731f;
   c5 = c5 * u + -0.25304455f;
   float c6 = 1.0030075f;
-  c6 = c6 * u + 0.0005208277f;
+  c6 = c6 * u + 0.00052082766f;
   c6 = c6 * u + -0.9392328f;
-  c6 = c6 * u + -0.20194799f;
+  c6 = c6 * u + -0.20194797f;
   float c7 = 0.043224048f;
   c7 = c7 * u + 0.20851587f;
-  float c8 = 0.41281453f;
-  c8 = c8 * u + 0.09075669f;
+  float c8 = 0.41281447f;
+  c8 = c8 * u + 0.090756685f;
   const float w = specular - 0.500001f;
   float sum = c8;
   sum = sum * w + c7;

@@ -131,10 +131,10 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     c1 = c1 * u_2 + 0.021067677f;
     c1_next = c1_next * u_2 + 1.0007168f;
     c1 = c1 * u + c1_next;
-    const float c2 = -0.00035832287f;
-    const float c3 = 0.0019708783f;
-    const float c4 = 0.0023958585f;
-    const float c5 = -0.009929127f;
+    const float c2 = -0.00035832403f;
+    const float c3 = 0.0019709046f;
+    const float c4 = 0.002395864f;
+    const float c5 = -0.00992923f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;

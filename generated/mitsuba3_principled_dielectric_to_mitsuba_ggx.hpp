@@ -125,8 +125,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
   float c7 = -0.23705328f;
   c7 = c7 * u + 0.061153416f;
   c7 = c7 * u + 0.24412222f;
-  float c8 = 0.41222996f;
-  c8 = c8 * u + 0.09490826f;
+  float c8 = 0.4122299f;
+  c8 = c8 * u + 0.09490825f;
   const float w = specular - 0.500001f;
   float sum = c8;
   sum = sum * w + c7;

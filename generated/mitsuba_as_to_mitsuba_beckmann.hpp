@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_mitsuba_beckmann.csv, sha256 9ecb50af2e9136986463e2ec89d4d9936d240903cc2601142d2bebdf45015620;
+// Table mitsuba_as_to_mitsuba_beckmann.csv, sha256 0afee2af1155dc7c149ba63d8ea8673d513dcbcfd8ff478e3a2c69ec8e3fa414;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 4e-05, 99 % 0.00021, max 0.00024;
-// f0 rms 1.6e-05, 99 % 3.5e-05, max 4.1e-05.
-// Lowered from the fit. Target alpha: degree 16, proven within 8.4e-06 (sampled 6.6e-06), rising with alpha.
-// Target specular: degree 12 in alpha / (alpha + 1), 4 in specular, proven within 9.9e-05 (sampled 8.9e-05), rising with specular.
+// Fit: series, seed 1, 720 rows trained, 180 held out.
+// Error on the rows held out: alpha rms 9.9e-05, 99 % 0.00027, max 0.00029;
+// f0 rms 4.1e-05, 99 % 0.00015, max 0.00017.
+// Lowered from the fit. Target alpha: degree 8, proven within 5.1e-07 (sampled 5.4e-08), rising with alpha.
+// Target specular: degree 10 in alpha / (alpha + 1), proven within 8.8e-05 (sampled 8.2e-05), rising with specular.
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_BECKMANN_HPP
@@ -36,8 +36,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 4e-05f;
-inline constexpr float kSpecularRmsError = 1.6e-05f;
+inline constexpr float kAlphaRmsError = 9.9e-05f;
+inline constexpr float kSpecularRmsError = 4.1e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.13f;
@@ -77,23 +77,15 @@ inline constexpr std::size_t kBlock = 128;
 inline float target_alpha(float alpha, float) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = -7551.0615f;
-  float c0_next = 876.91956f;
-  c0 = c0 * u_2 + 6312.2f;
-  c0_next = c0_next * u_2 + -1202.2311f;
-  c0 = c0 * u_2 + -1760.1062f;
-  c0_next = c0_next * u_2 + 631.68915f;
-  c0 = c0 * u_2 + 108.193405f;
-  c0_next = c0_next * u_2 + -157.03204f;
-  c0 = c0 * u_2 + 34.009315f;
-  c0_next = c0_next * u_2 + 13.681802f;
-  c0 = c0 * u_2 + -6.51696f;
-  c0_next = c0_next * u_2 + 2.6200602f;
-  c0 = c0 * u_2 + 0.35221085f;
-  c0_next = c0_next * u_2 + -1.2208576f;
-  c0 = c0 * u_2 + -0.1658845f;
-  c0_next = c0_next * u_2 + 1.1575711f;
-  c0 = c0 * u_2 + 0.5441672f;
+  float c0 = -4.4618325f;
+  float c0_next = -5.1017637f;
+  c0 = c0 * u_2 + 2.088479f;
+  c0_next = c0_next * u_2 + 3.5875661f;
+  c0 = c0 * u_2 + -0.34559694f;
+  c0_next = c0_next * u_2 + -1.2361035f;
+  c0 = c0 * u_2 + -0.14439727f;
+  c0_next = c0_next * u_2 + 1.1575991f;
+  c0 = c0 * u_2 + 0.54404604f;
   c0 = c0_next * u + c0;
   return c0;
 }
@@ -101,7 +93,9 @@ inline float target_alpha(float alpha, float) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -119,52 +113,38 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     const float t = alpha / (alpha + 1.0f);
     const float u = t - 0.25495073f;
     const float u_2 = u * u;
-    float c0 = 546299.56f;
-    float c0_next = -86070.664f;
-    c0 = c0 * u_2 + -164436.95f;
-    c0_next = c0_next * u_2 + 6499.3853f;
-    c0 = c0 * u_2 + 18713.365f;
-    c0_next = c0_next * u_2 + 981.13495f;
-    c0 = c0 * u_2 + -943.50037f;
-    c0_next = c0_next * u_2 + -140.20328f;
-    c0 = c0 * u_2 + 8.2202f;
-    c0_next = c0_next * u_2 + 2.6914182f;
-    c0 = c0 * u_2 + -0.16377933f;
-    c0_next = c0_next * u_2 + -0.112387404f;
-    c0 = c0 * u_2 + 0.4884438f;
+    float c0 = -1711.8263f;
+    float c0_next = -91.381134f;
+    c0 = c0 * u_2 + 298.0108f;
+    c0_next = c0_next * u_2 + 8.155924f;
+    c0 = c0 * u_2 + -17.991896f;
+    c0_next = c0_next * u_2 + -0.15415856f;
+    c0 = c0 * u_2 + 0.42131668f;
+    c0_next = c0_next * u_2 + -0.0045927158f;
+    c0 = c0 * u_2 + -0.004017746f;
+    c0_next = c0_next * u_2 + -0.00017243213f;
+    c0 = c0 * u_2 + -2.2879383e-05f;
     c0 = c0_next * u + c0;
-    float c1 = 1601980.6f;
-    float c1_next = -152372.77f;
-    c1 = c1 * u_2 + -416203.16f;
-    c1_next = c1_next * u_2 + 10659.064f;
-    c1 = c1 * u_2 + 42999.62f;
-    c1_next = c1_next * u_2 + 2034.0221f;
-    c1 = c1 * u_2 + -2048.8608f;
-    c1_next = c1_next * u_2 + -279.84943f;
-    c1 = c1 * u_2 + 18.5481f;
-    c1_next = c1_next * u_2 + 5.3476515f;
-    c1 = c1 * u_2 + -0.33672693f;
-    c1_next = c1_next * u_2 + -0.2241395f;
-    c1 = c1 * u_2 + 0.9769908f;
+    float c1 = -109833.98f;
+    float c1_next = -13047.006f;
+    c1 = c1 * u_2 + 20139.025f;
+    c1_next = c1_next * u_2 + 3428.1504f;
+    c1 = c1 * u_2 + -1225.0652f;
+    c1_next = c1_next * u_2 + -318.8307f;
+    c1 = c1 * u_2 + 4.4817696f;
+    c1_next = c1_next * u_2 + 5.852043f;
+    c1 = c1 * u_2 + -0.2449447f;
+    c1_next = c1_next * u_2 + -0.22624843f;
+    c1 = c1 * u_2 + 0.97685176f;
     c1 = c1_next * u + c1;
-    const float c2 = -0.0001220142f;
-    const float c3 = -0.0002796722f;
-    const float c4 = 0.0007414458f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.500001f;
-  float sum = terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
@@ -234,6 +214,22 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
@@ -251,6 +247,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -358,8 +368,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -369,13 +384,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -387,15 +491,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -403,16 +514,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -483,19 +597,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.01000982f, 0.9999909f}, {8.8e-06f, 1e-04f}},
-      {{0.13375f, 0.9375f}, {0.13457005f, 0.93424827f}, {8.9e-06f, 1e-04f}},
-      {{0.2575f, 0.875f}, {0.26355526f, 0.8634702f}, {9e-06f, 1e-04f}},
-      {{0.38125f, 0.8125f}, {0.40067586f, 0.78981805f}, {9e-06f, 1e-04f}},
-      {{0.505f, 0.75f}, {0.54416376f, 0.7191079f}, {9.1e-06f, 1e-04f}},
-      {{0.62875f, 0.6875f}, {0.68269837f, 0.6480187f}, {9.2e-06f, 1e-04f}},
-      {{0.7525f, 0.625f}, {0.80510205f, 0.56766826f}, {9.2e-06f, 1e-04f}},
-      {{0.87625f, 0.5625f}, {0.90843326f, 0.4788241f}, {9.3e-06f, 1e-04f}},
-      {{1.0f, 0.5f}, {0.9952736f, 0.3889632f}, {9.3e-06f, 1e-04f}},
-      {{0.005f, 0.5f}, {0.01000982f, 0.50000507f}, {8.8e-06f, 1e-04f}},
-      {{1.5f, 0.25f}, {0.9952736f, 0.19441116f}, {9.3e-06f, 9.9e-05f}},
-      {{0.505f, 0.0f}, {0.54416376f, 2.0810825e-05f}, {9.1e-06f, 9.9e-05f}},
-      {{0.505f, 2.0f}, {0.54416376f, 1.9176608f}, {9.1e-06f, 2e-04f}},
+      {{0.01f, 1.0f}, {0.010000846f, 0.9999222f}, {9.9e-07f, 8.9e-05f}},
+      {{0.13375f, 0.9375f}, {0.13458478f, 0.9341293f}, {1.1e-06f, 8.9e-05f}},
+      {{0.2575f, 0.875f}, {0.26351327f, 0.86352843f}, {1.2e-06f, 8.9e-05f}},
+      {{0.38125f, 0.8125f}, {0.40074757f, 0.78978944f}, {1.2e-06f, 8.9e-05f}},
+      {{0.505f, 0.75f}, {0.54404485f, 0.7191465f}, {1.3e-06f, 8.9e-05f}},
+      {{0.62875f, 0.6875f}, {0.68277204f, 0.6480045f}, {1.4e-06f, 8.9e-05f}},
+      {{0.7525f, 0.625f}, {0.80512714f, 0.567693f}, {1.4e-06f, 8.9e-05f}},
+      {{0.87625f, 0.5625f}, {0.90828776f, 0.47880644f}, {1.5e-06f, 8.9e-05f}},
+      {{1.0f, 0.5f}, {0.9951109f, 0.38898268f}, {1.5e-06f, 8.9e-05f}},
+      {{0.005f, 0.5f}, {0.010000846f, 0.49996248f}, {9.9e-07f, 8.9e-05f}},
+      {{1.5f, 0.25f}, {0.9951109f, 0.19439168f}, {1.5e-06f, 8.8e-05f}},
+      {{0.505f, 0.0f}, {0.54404485f, 0.0f}, {1.3e-06f, 8.8e-05f}},
+      {{0.505f, 2.0f}, {0.54404485f, 1.9177604f}, {1.3e-06f, 0.00018f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

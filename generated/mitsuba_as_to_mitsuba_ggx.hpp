@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_mitsuba_ggx.csv, sha256 e38701d9b4c56020d4f1c01acde8d5c41ea19619be7ffeaa1ea1a30dc520bff2;
+// Table mitsuba_as_to_mitsuba_ggx.csv, sha256 20ba2a8fb0b8ce26d12949f1029fb388166f01e8ab85095a6ee2ab21d1b881ee;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 320 rows trained, 80 held out.
-// Error on the rows held out: alpha rms 1.8e-05, 99 % 7e-05, max 7e-05;
-// f0 rms 1.5e-05, 99 % 4.4e-05, max 4.4e-05.
-// Lowered from the fit. Target alpha: degree 15, 9 in specular, proven within 1e-05 (sampled 8.4e-06), rising with alpha.
-// Target specular: degree 11, 7 in specular, proven within 6.7e-05 (sampled 6e-05), rising with specular.
-// Covers alpha 0.01 to 0.829310345, f0 0 to 0.533333333.
+// Fit: series, seed 1, 824 rows trained, 206 held out.
+// Error on the rows held out: alpha rms 2e-04, 99 % 0.00077, max 0.00086;
+// f0 rms 5.2e-05, 99 % 0.00021, max 0.00044.
+// Lowered from the fit. Target alpha: degree 10, 4 in specular, proven within 9.9e-06 (sampled 8.4e-06), rising with alpha.
+// Target specular: degree 14 in alpha / (alpha + 0.3), proven within 8.7e-05 (sampled 6.5e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, proven within 9.9e-05 (sampled 9.7e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 8, 7 in specular, proven within 3.6e-05 (sampled 2.1e-06).
+// All together within 9.2e-05 in alpha, 0.00012 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.8e-05f;
-inline constexpr float kSpecularRmsError = 1.5e-05f;
+inline constexpr float kAlphaRmsError = 2e-04f;
+inline constexpr float kSpecularRmsError = 5.2e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.28f;
+inline constexpr float kImageRmsError = 0.26f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.82931036f, 0.53333336f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,102 +78,57 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.41965604f;
+  const float u = alpha - 0.44050965f;
   const float u_2 = u * u;
-  float c0 = 26613.7f;
-  float c0_next = 930.7668f;
-  c0 = c0 * u_2 + -21108.488f;
-  c0_next = c0_next * u_2 + 589.51294f;
-  c0 = c0 * u_2 + 7013.6074f;
-  c0_next = c0_next * u_2 + -712.69995f;
-  c0 = c0 * u_2 + -1257.9822f;
-  c0_next = c0_next * u_2 + 234.08403f;
-  c0 = c0 * u_2 + 134.12468f;
-  c0_next = c0_next * u_2 + -32.756954f;
-  c0 = c0 * u_2 + -10.666706f;
-  c0_next = c0_next * u_2 + -0.08058453f;
-  c0 = c0 * u_2 + 0.8265494f;
-  c0_next = c0_next * u_2 + 0.9412175f;
-  c0 = c0 * u_2 + 1.1166635f;
-  c0_next = c0_next * u_2 + 0.372187f;
-  c0 = c0 * u + c0_next;
-  float c1 = 516.0081f;
-  float c1_next = -20.300909f;
-  c1 = c1 * u_2 + -296.65875f;
-  c1_next = c1_next * u_2 + 6.8271484f;
-  c1 = c1 * u_2 + 65.43844f;
-  c1_next = c1_next * u_2 + -0.38265908f;
-  c1 = c1 * u_2 + -6.739128f;
-  c1_next = c1_next * u_2 + -0.09955819f;
-  c1 = c1 * u_2 + 0.27440348f;
-  c1_next = c1_next * u_2 + 0.024012297f;
-  c1 = c1 * u_2 + 0.010506388f;
-  c1_next = c1_next * u_2 + 0.0015147461f;
-  c1 = c1 * u_2 + -0.0002981783f;
-  c1 = c1_next * u + c1;
-  float c2 = 3.7219121f;
-  float c2_next = -0.5418384f;
-  c2 = c2 * u_2 + -0.8442508f;
-  c2_next = c2_next * u_2 + 0.22968596f;
-  c2 = c2 * u_2 + 0.011856622f;
-  c2_next = c2_next * u_2 + -0.04493243f;
-  c2 = c2 * u_2 + -0.001975867f;
-  c2_next = c2_next * u_2 + 0.0011241352f;
-  c2 = c2 * u + c2_next;
-  float c3 = 13.813578f;
-  float c3_next = 4.833484f;
-  c3 = c3 * u_2 + -4.2997756f;
-  c3_next = c3_next * u_2 + -2.17476f;
-  c3 = c3 * u_2 + 0.31988382f;
-  c3_next = c3_next * u_2 + 0.40029806f;
-  c3 = c3 * u_2 + 0.015535148f;
-  c3_next = c3_next * u_2 + -0.012970047f;
+  float c0 = -283.4883f;
+  float c0_next = -59.70044f;
+  c0 = c0 * u_2 + 145.83784f;
+  c0_next = c0_next * u_2 + 30.489521f;
+  c0 = c0 * u_2 + -23.876522f;
+  c0_next = c0_next * u_2 + -6.691517f;
+  c0 = c0 * u_2 + -0.7755846f;
+  c0_next = c0_next * u_2 + 0.60330576f;
+  c0 = c0 * u_2 + 0.9819582f;
+  c0_next = c0_next * u_2 + 1.1583726f;
+  c0 = c0 * u_2 + 0.3958937f;
+  c0 = c0_next * u + c0;
+  float c1 = -20.047953f;
+  float c1_next = -11.633833f;
+  c1 = c1 * u_2 + 4.715308f;
+  c1_next = c1_next * u_2 + 3.5722287f;
+  c1 = c1 * u_2 + -0.12029992f;
+  c1_next = c1_next * u_2 + -0.31468913f;
+  c1 = c1 * u_2 + -0.027157936f;
+  c1_next = c1_next * u_2 + 0.002819956f;
+  c1 = c1 * u_2 + 2.8475022e-05f;
+  c1_next = c1_next * u_2 + 9.5307674e-05f;
+  c1 = c1 * u + c1_next;
+  float c2 = 15.105382f;
+  float c2_next = 7.399743f;
+  c2 = c2 * u_2 + -3.9847589f;
+  c2_next = c2_next * u_2 + -1.7541344f;
+  c2 = c2 * u_2 + 0.3268115f;
+  c2_next = c2_next * u_2 + 0.12257851f;
+  c2 = c2 * u_2 + 0.008235957f;
+  c2_next = c2_next * u_2 + 0.0024277759f;
+  c2 = c2 * u_2 + -0.00020491228f;
+  c2 = c2_next * u + c2;
+  float c3 = -0.2856959f;
+  float c3_next = -0.26192388f;
+  c3 = c3 * u_2 + 0.14251597f;
+  c3_next = c3_next * u_2 + 0.14474377f;
+  c3 = c3 * u_2 + 0.018308973f;
+  c3_next = c3_next * u_2 + -0.0028917012f;
   c3 = c3 * u + c3_next;
-  float c4 = -85.41198f;
-  float c4_next = -16.491657f;
-  c4 = c4 * u_2 + 6.2290077f;
-  c4_next = c4_next * u_2 + 7.911949f;
-  c4 = c4 * u_2 + 2.6021736f;
-  c4_next = c4_next * u_2 + -1.2710389f;
-  c4 = c4 * u_2 + -0.37197506f;
-  c4_next = c4_next * u_2 + 0.003444379f;
+  float c4 = -0.7248832f;
+  float c4_next = 0.16163905f;
+  c4 = c4 * u_2 + -0.12562522f;
+  c4_next = c4_next * u_2 + -0.28700596f;
+  c4 = c4 * u_2 + -0.051310726f;
+  c4_next = c4_next * u_2 + 0.005465695f;
   c4 = c4 * u + c4_next;
-  float c5 = 33.272385f;
-  float c5_next = 35.97079f;
-  c5 = c5 * u_2 + -1.3379807f;
-  c5_next = c5_next * u_2 + -9.610261f;
-  c5 = c5 * u_2 + -0.3257337f;
-  c5_next = c5_next * u_2 + 0.49228576f;
-  c5 = c5 * u + c5_next;
-  float c6 = 473.52582f;
-  float c6_next = -76.884056f;
-  c6 = c6 * u_2 + -151.92142f;
-  c6_next = c6_next * u_2 + 0.10435634f;
-  c6 = c6 * u_2 + 9.692491f;
-  c6_next = c6_next * u_2 + 0.6797585f;
-  c6 = c6 * u + c6_next;
-  float c7 = -1345.8455f;
-  float c7_next = -857.5904f;
-  c7 = c7 * u_2 + 369.0568f;
-  c7_next = c7_next * u_2 + 346.69666f;
-  c7 = c7 * u_2 + 12.201304f;
-  c7_next = c7_next * u_2 + -13.951091f;
-  c7 = c7 * u + c7_next;
-  float c8 = 2391.7825f;
-  float c8_next = 39.336277f;
-  c8 = c8 * u_2 + -824.00073f;
-  c8_next = c8_next * u_2 + -170.15462f;
-  c8 = c8 * u_2 + 11.228435f;
-  c8 = c8_next * u + c8;
-  float c9 = 230.28566f;
-  c9 = c9 * u + 49.138737f;
-  const float w = specular - 0.2666672f;
-  float sum = c9;
-  sum = sum * w + c8;
-  sum = sum * w + c7;
-  sum = sum * w + c6;
-  sum = sum * w + c5;
-  sum = sum * w + c4;
+  const float w = specular - 0.500001f;
+  float sum = c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -181,7 +139,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -196,72 +156,128 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.41965604f;
+    const float t = alpha / (alpha + 0.3f);
+    const float u = t - 0.38803545f;
     const float u_2 = u * u;
-    float c0 = 772.0191f;
-    float c0_next = -421.47858f;
-    c0 = c0 * u_2 + -298.6276f;
-    c0_next = c0_next * u_2 + 196.47153f;
-    c0 = c0 * u_2 + 40.493103f;
-    c0_next = c0_next * u_2 + -34.510735f;
-    c0 = c0 * u_2 + -2.4554863f;
-    c0_next = c0_next * u_2 + 1.2729902f;
-    c0 = c0 * u_2 + -0.04979135f;
-    c0_next = c0_next * u_2 + 0.6121185f;
-    c0 = c0 * u_2 + 0.2794061f;
-    c0_next = c0_next * u_2 + 0.30775234f;
-    c0 = c0 * u + c0_next;
-    float c1 = 2996.9932f;
-    float c1_next = -1442.0085f;
-    c1 = c1 * u_2 + -1183.7001f;
-    c1_next = c1_next * u_2 + 675.32385f;
-    c1 = c1 * u_2 + 166.56717f;
-    c1_next = c1_next * u_2 + -119.587975f;
-    c1 = c1 * u_2 + -10.770716f;
-    c1_next = c1_next * u_2 + 4.095723f;
-    c1 = c1 * u_2 + -0.09868821f;
-    c1_next = c1_next * u_2 + 2.3140984f;
-    c1 = c1 * u_2 + 1.0437943f;
-    c1_next = c1_next * u_2 + 1.1533052f;
-    c1 = c1 * u + c1_next;
-    float c2 = 0.014534817f;
-    c2 = c2 * u + 0.0024506873f;
-    c2 = c2 * u + 0.0004576757f;
-    float c3 = 0.15870665f;
-    c3 = c3 * u + -0.023877725f;
-    c3 = c3 * u + -0.034875784f;
-    float c4 = -0.8773448f;
-    c4 = c4 * u + -0.12373163f;
-    c4 = c4 * u + -0.019616522f;
-    float c5 = -2.3513002f;
-    c5 = c5 * u + 0.8961367f;
-    c5 = c5 * u + 1.0043058f;
-    float c6 = 11.527482f;
-    c6 = c6 * u + 1.6224257f;
-    c6 = c6 * u + 0.24777105f;
-    float c7 = -9.482905f;
-    c7 = c7 * u + -8.361964f;
+    float c0 = 32637.105f;
+    float c0_next = 2225.7202f;
+    c0 = c0 * u_2 + -14100.449f;
+    c0_next = c0_next * u_2 + -730.322f;
+    c0 = c0 * u_2 + 2419.1455f;
+    c0_next = c0_next * u_2 + 80.37175f;
+    c0 = c0 * u_2 + -210.60269f;
+    c0_next = c0_next * u_2 + -2.9425147f;
+    c0 = c0 * u_2 + 9.537139f;
+    c0_next = c0_next * u_2 + -0.11372165f;
+    c0 = c0 * u_2 + -0.20386557f;
+    c0_next = c0_next * u_2 + 0.013936984f;
+    c0 = c0 * u_2 + 0.0033388508f;
+    c0_next = c0_next * u_2 + 0.00016783073f;
+    c0 = c0 * u_2 + 8.8454195e-05f;
+    c0 = c0_next * u + c0;
+    float c1 = 1914283.9f;
+    float c1_next = 534893.8f;
+    c1 = c1 * u_2 + -803369.7f;
+    c1_next = c1_next * u_2 + -257070.97f;
+    c1 = c1 * u_2 + 107318.195f;
+    c1_next = c1_next * u_2 + 39494.254f;
+    c1 = c1 * u_2 + -5145.562f;
+    c1_next = c1_next * u_2 + -2451.822f;
+    c1 = c1 * u_2 + 58.59665f;
+    c1_next = c1_next * u_2 + 93.75106f;
+    c1 = c1 * u_2 + 21.734549f;
+    c1_next = c1_next * u_2 + 5.2141557f;
+    c1 = c1 * u_2 + 0.77841556f;
+    c1_next = c1_next * u_2 + 0.018652197f;
+    c1 = c1 * u_2 + 1.0382715f;
+    c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
-    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.2666672f;
-  float sum = terms.c7[i];
-  sum = sum * w + terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9313873f;
+  float c0 = -0.012256919f;
+  c0 = c0 * u + -0.001984043f;
+  c0 = c0 * u + 0.00066502154f;
+  float c1 = 0.7447653f;
+  c1 = c1 * u + -2.7148333f;
+  c1 = c1 * u + 1.6877742f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = 25.647861f;
+  float c0_next = 2.0371003f;
+  c0 = c0 * u_2 + -28.668396f;
+  c0_next = c0_next * u_2 + 6.135282f;
+  c0 = c0 * u_2 + 6.8403873f;
+  c0_next = c0_next * u_2 + -1.8869864f;
+  c0 = c0 * u_2 + -0.6071694f;
+  c0_next = c0_next * u_2 + 1.1392161f;
+  c0 = c0 * u_2 + 0.48094308f;
+  c0 = c0_next * u + c0;
+  float c1 = -42.497032f;
+  float c1_next = 111.70908f;
+  c1 = c1 * u_2 + -80.4922f;
+  c1_next = c1_next * u_2 + 7.293259f;
+  c1 = c1 * u_2 + 11.049176f;
+  c1_next = c1_next * u_2 + -2.5780466f;
+  c1 = c1 * u_2 + -0.9630192f;
+  c1_next = c1_next * u_2 + -0.24435219f;
+  c1 = c1 * u + c1_next;
+  float c2 = -308.608f;
+  float c2_next = 570.575f;
+  c2 = c2 * u_2 + -273.51505f;
+  c2_next = c2_next * u_2 + -8.870764f;
+  c2 = c2 * u_2 + 32.631084f;
+  c2_next = c2_next * u_2 + -6.5239916f;
+  c2 = c2 * u_2 + 0.9887355f;
+  c2 = c2_next * u + c2;
+  float c3 = -1096.2286f;
+  float c3_next = 1148.6306f;
+  c3 = c3 * u_2 + -231.7415f;
+  c3_next = c3_next * u_2 + -107.91103f;
+  c3 = c3 * u_2 + 46.813587f;
+  c3_next = c3_next * u_2 + -5.5040455f;
+  c3 = c3 * u + c3_next;
+  float c4 = -1013.47064f;
+  float c4_next = 539.4357f;
+  c4 = c4 * u_2 + 184.47087f;
+  c4_next = c4_next * u_2 + -134.90047f;
+  c4 = c4 * u_2 + 17.525505f;
+  c4 = c4_next * u + c4;
+  float c5 = 371.617f;
+  c5 = c5 * u + -764.583f;
+  c5 = c5 * u + 360.00964f;
+  c5 = c5 * u + -45.53431f;
+  float c6 = 1094.4353f;
+  c6 = c6 * u + -899.69147f;
+  c6 = c6 * u + 178.1984f;
+  float c7 = 802.05304f;
+  c7 = c7 * u + -323.19174f;
+  const float w = specular - 0.7666671f;
+  float sum = c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -331,10 +347,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.8749999f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -348,6 +380,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.87101746f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.8627744f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.53333336f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -455,8 +501,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -466,13 +517,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -484,15 +624,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -500,16 +647,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -580,19 +730,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.53333336f}, {0.00822398f, 0.5535201f}, {1.1e-05f, 6.8e-05f}},
-      {{0.112413794f, 0.5f}, {0.09254181f, 0.52054846f}, {1.1e-05f, 6.8e-05f}},
-      {{0.21482758f, 0.4666667f}, {0.17634791f, 0.48521465f}, {1.1e-05f, 6.8e-05f}},
-      {{0.31724137f, 0.43333337f}, {0.2668304f, 0.46425176f}, {1.1e-05f, 6.8e-05f}},
-      {{0.41965517f, 0.40000004f}, {0.3721527f, 0.46147376f}, {1.1e-05f, 6.8e-05f}},
-      {{0.522069f, 0.36666667f}, {0.49715632f, 0.47125286f}, {1.1e-05f, 6.8e-05f}},
-      {{0.62448275f, 0.33333334f}, {0.64317334f, 0.48746505f}, {1.1e-05f, 6.8e-05f}},
-      {{0.7268966f, 0.3f}, {0.8004783f, 0.49826407f}, {1.1e-05f, 6.8e-05f}},
-      {{0.82931036f, 0.26666668f}, {0.9528028f, 0.48911598f}, {1.1e-05f, 6.8e-05f}},
-      {{0.005f, 0.26666668f}, {0.008213422f, 0.27676567f}, {1.1e-05f, 6.7e-05f}},
-      {{1.2439655f, 0.13333334f}, {0.95219344f, 0.24469498f}, {1.1e-05f, 6.7e-05f}},
-      {{0.41965517f, 0.0f}, {0.37347376f, 0.00038747524f}, {1.1e-05f, 6.7e-05f}},
-      {{0.41965517f, 1.0666667f}, {0.37214687f, 1.2304125f}, {1.1e-05f, 0.00014f}},
+      {{0.01f, 1.0f}, {0.008236943f, 1.0f}, {9.3e-05f, 0.00012f}},
+      {{0.13375f, 0.9375f}, {0.1099306f, 0.9748014f}, {9.3e-05f, 0.00012f}},
+      {{0.2575f, 0.875f}, {0.21263242f, 0.9160893f}, {9.3e-05f, 0.00012f}},
+      {{0.38125f, 0.8125f}, {0.33052963f, 0.9073107f}, {9.3e-05f, 0.00012f}},
+      {{0.505f, 0.75f}, {0.47482893f, 0.94458544f}, {9.3e-05f, 0.00012f}},
+      {{0.62875f, 0.6875f}, {0.64586705f, 1.0f}, {9.3e-05f, 0.00012f}},
+      {{0.7525f, 0.625f}, {0.80850315f, 1.0f}, {9.3e-05f, 0.00012f}},
+      {{0.87625f, 0.5625f}, {0.9836679f, 1.0f}, {9.3e-05f, 0.00012f}},
+      {{1.0f, 0.5f}, {1.0f, 0.7530002f}, {9.3e-05f, 0.00012f}},
+      {{0.005f, 0.5f}, {0.008205262f, 0.5189413f}, {9.3e-05f, 0.00012f}},
+      {{1.5f, 0.25f}, {1.0f, 0.37676585f}, {9.3e-05f, 0.00012f}},
+      {{0.505f, 0.0f}, {0.47497156f, 0.00032694434f}, {9.3e-05f, 0.00012f}},
+      {{0.505f, 2.0f}, {0.44487765f, 2.0f}, {9.3e-05f, 0.00023f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_mitsuba_phong.csv, sha256 1304e7ab0ce6598fd90133c5cf30c23e7a1515cdb8f3c20ac722ef40951bdc81;
+// Table mitsuba_as_to_mitsuba_phong.csv, sha256 73c60ba9f425d24bc89897379dde6b31a7826b95cb1370618b2d6928eae65ad9;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 422 rows trained, 106 held out.
-// Error on the rows held out: alpha rms 1.6e-05, 99 % 6.6e-05, max 7.7e-05;
-// specular rms 3e-05, 99 % 0.00014, max 0.00016.
-// Lowered from the fit. Target alpha: degree 15, 11 in specular, proven within 9.9e-06 (sampled 7.7e-06), rising with alpha.
-// Target specular: degree 13 in alpha / (alpha + 0.3), 4 in specular, proven within 7.8e-05 (sampled 6.7e-05), rising with specular.
-// Covers alpha 0.01 to 0.726896552, f0 0 to 0.8.
+// Fit: series, seed 1, 776 rows trained, 194 held out.
+// Error on the rows held out: alpha rms 0.00011, 99 % 0.00049, max 0.00053;
+// specular rms 3.7e-05, 99 % 0.00013, max 0.00014.
+// Lowered from the fit. Target alpha: degree 13 in alpha / (alpha + 1), 4 in specular, proven within 9.6e-06 (sampled 7.4e-06), rising with alpha.
+// Target specular: degree 9, proven within 2e-05 (sampled 4.8e-06), rising with specular.
+// Where alpha is at its limit, target specular: degree 4, proven within 6.5e-05 (sampled 5.9e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 8, 6 in specular, proven within 7.3e-05 (sampled 6.4e-05), rising with alpha.
+// All together within 8.2e-05 in alpha, 7.2e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_PHONG_HPP
 
@@ -36,8 +39,8 @@ inline constexpr const char* kTargetRoughness = "exponent";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.6e-05f;
-inline constexpr float kSpecularRmsError = 3e-05f;
+inline constexpr float kAlphaRmsError = 0.00011f;
+inline constexpr float kSpecularRmsError = 3.7e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.29f;
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.7268965f, 0.8f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,114 +78,61 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.36844906f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.22159389f;
   const float u_2 = u * u;
-  float c0 = -223638.66f;
-  float c0_next = -78026.01f;
-  c0 = c0 * u_2 + 118731.555f;
-  c0_next = c0_next * u_2 + 44006.914f;
-  c0 = c0 * u_2 + -24820.191f;
-  c0_next = c0_next * u_2 + -9872.263f;
-  c0 = c0 * u_2 + 2437.5557f;
-  c0_next = c0_next * u_2 + 1025.4508f;
-  c0 = c0 * u_2 + -103.10864f;
-  c0_next = c0_next * u_2 + -23.872221f;
-  c0 = c0 * u_2 + 8.683883f;
-  c0_next = c0_next * u_2 + -4.838618f;
-  c0 = c0 * u_2 + -3.3180745f;
-  c0_next = c0_next * u_2 + -0.52173185f;
-  c0 = c0 * u_2 + 1.6670971f;
-  c0_next = c0_next * u_2 + 0.6168569f;
+  float c0 = -19071436.0f;
+  float c0_next = -5741130.0f;
+  c0 = c0 * u_2 + 1350667.8f;
+  c0_next = c0_next * u_2 + 525766.94f;
+  c0 = c0 * u_2 + 14804.194f;
+  c0_next = c0_next * u_2 + 2861.3938f;
+  c0 = c0 * u_2 + 1985.0896f;
+  c0_next = c0_next * u_2 + -761.0586f;
+  c0 = c0 * u_2 + -398.75522f;
+  c0_next = c0_next * u_2 + -61.54111f;
+  c0 = c0 * u_2 + 0.23057163f;
+  c0_next = c0_next * u_2 + 3.7643032f;
+  c0 = c0 * u_2 + 2.802439f;
+  c0_next = c0_next * u_2 + 0.4751768f;
   c0 = c0 * u + c0_next;
-  float c1 = 1662.6978f;
-  float c1_next = 233.76279f;
-  c1 = c1 * u_2 + -819.6542f;
-  c1_next = c1_next * u_2 + -89.31551f;
-  c1 = c1 * u_2 + 160.70459f;
-  c1_next = c1_next * u_2 + 11.446297f;
-  c1 = c1 * u_2 + -15.776988f;
-  c1_next = c1_next * u_2 + -0.34208333f;
-  c1 = c1 * u_2 + 0.7710887f;
-  c1_next = c1_next * u_2 + -0.039849907f;
-  c1 = c1 * u_2 + -0.01571834f;
-  c1_next = c1_next * u_2 + 0.0031036318f;
-  c1 = c1 * u_2 + 0.00032438445f;
+  float c1 = 235.35811f;
+  float c1_next = 25.391338f;
+  c1 = c1 * u_2 + -16.111286f;
+  c1_next = c1_next * u_2 + -1.6352682f;
+  c1 = c1 * u_2 + 0.41701108f;
+  c1_next = c1_next * u_2 + 0.06275433f;
+  c1 = c1 * u_2 + -0.007814946f;
+  c1_next = c1_next * u_2 + -0.0029125086f;
+  c1 = c1 * u_2 + -0.00021341609f;
   c1 = c1_next * u + c1;
-  float c2 = -255.09865f;
-  float c2_next = -97.01015f;
-  c2 = c2 * u_2 + 48.23596f;
-  c2_next = c2_next * u_2 + 23.37566f;
-  c2 = c2 * u_2 + 1.7400731f;
-  c2_next = c2_next * u_2 + -1.7694249f;
-  c2 = c2 * u_2 + -0.7301287f;
-  c2_next = c2_next * u_2 + 0.10747981f;
-  c2 = c2 * u_2 + 0.033876315f;
-  c2_next = c2_next * u_2 + -0.008910891f;
-  c2 = c2 * u_2 + -0.0009701506f;
-  c2 = c2_next * u + c2;
-  float c3 = 1774.5425f;
-  float c3_next = 104.226f;
-  c3 = c3 * u_2 + -798.0216f;
-  c3_next = c3_next * u_2 + -7.2511425f;
-  c3 = c3 * u_2 + 123.96694f;
-  c3_next = c3_next * u_2 + -7.157562f;
-  c3 = c3 * u_2 + -7.490303f;
-  c3_next = c3_next * u_2 + 1.0547105f;
-  c3 = c3 * u_2 + 0.10984076f;
-  c3_next = c3_next * u_2 + -0.018875796f;
-  c3 = c3 * u_2 + 0.0063941586f;
-  c3 = c3_next * u + c3;
-  float c4 = 520.73267f;
-  float c4_next = 80.34878f;
-  c4 = c4 * u_2 + -161.40073f;
-  c4_next = c4_next * u_2 + -10.542639f;
-  c4 = c4 * u_2 + 16.995808f;
-  c4_next = c4_next * u_2 + -1.5508386f;
-  c4 = c4 * u_2 + -0.42472035f;
-  c4_next = c4_next * u_2 + 0.042101555f;
-  c4 = c4 * u_2 + -0.05145749f;
-  c4 = c4_next * u + c4;
-  float c5 = -216.9308f;
-  float c5_next = 52.433685f;
-  c5 = c5 * u_2 + 97.548996f;
-  c5_next = c5_next * u_2 + -15.500963f;
-  c5 = c5 * u_2 + -9.960824f;
-  c5_next = c5_next * u_2 + 0.9941397f;
-  c5 = c5 * u_2 + 0.38674706f;
-  c5_next = c5_next * u_2 + 0.072961874f;
-  c5 = c5 * u + c5_next;
-  float c6 = -103.93309f;
-  float c6_next = -7.252642f;
-  c6 = c6 * u_2 + 32.28401f;
-  c6_next = c6_next * u_2 + -3.0059414f;
-  c6 = c6 * u_2 + 1.3716099f;
-  c6_next = c6_next * u_2 + 1.2568518f;
-  c6 = c6 * u + c6_next;
-  float c7 = 26.541025f;
-  float c7_next = -26.88281f;
-  c7 = c7 * u_2 + 2.7944376f;
-  c7_next = c7_next * u_2 + -5.943185f;
-  c7 = c7 * u_2 + -3.3329198f;
-  c7 = c7_next * u + c7;
-  float c8 = 23.502707f;
-  c8 = c8 * u + -31.225866f;
-  c8 = c8 * u + -9.842155f;
-  float c9 = -45.52474f;
-  c9 = c9 * u + 91.41155f;
-  c9 = c9 * u + 31.824474f;
-  float c10 = 60.203003f;
-  c10 = c10 * u + 10.866749f;
-  float c11 = -217.75537f;
-  c11 = c11 * u + -59.129196f;
-  const float w = specular - 0.4000008f;
-  float sum = c11;
-  sum = sum * w + c10;
-  sum = sum * w + c9;
-  sum = sum * w + c8;
-  sum = sum * w + c7;
-  sum = sum * w + c6;
-  sum = sum * w + c5;
-  sum = sum * w + c4;
+  float c2 = -115.91717f;
+  float c2_next = -24.773685f;
+  c2 = c2 * u_2 + 1.354082f;
+  c2_next = c2_next * u_2 + 0.94537187f;
+  c2 = c2 * u_2 + 0.11206376f;
+  c2_next = c2_next * u_2 + 0.01152586f;
+  c2 = c2 * u_2 + 0.0074984427f;
+  c2_next = c2_next * u_2 + 0.00088311173f;
+  c2 = c2 * u + c2_next;
+  float c3 = 270.03073f;
+  float c3_next = 55.10996f;
+  c3 = c3 * u_2 + -20.689812f;
+  c3_next = c3_next * u_2 + -8.023127f;
+  c3 = c3 * u_2 + -0.54011434f;
+  c3_next = c3_next * u_2 + 0.26179612f;
+  c3 = c3 * u_2 + 0.065709f;
+  c3_next = c3_next * u_2 + 0.0045330524f;
+  c3 = c3 * u + c3_next;
+  float c4 = 27.0968f;
+  float c4_next = 9.263001f;
+  c4 = c4 * u_2 + 0.564319f;
+  c4_next = c4_next * u_2 + -0.4430262f;
+  c4 = c4 * u_2 + -0.13865419f;
+  c4_next = c4_next * u_2 + -0.01139484f;
+  c4 = c4 * u + c4_next;
+  const float w = specular - 0.500001f;
+  float sum = c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -193,7 +143,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -208,57 +160,118 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.3f);
-    const float u = t - 0.370058f;
+    const float u = alpha - 0.3872805f;
     const float u_2 = u * u;
-    float c0 = -189669.55f;
-    float c0_next = -53373.348f;
-    c0 = c0 * u_2 + 65075.332f;
-    c0_next = c0_next * u_2 + 20963.201f;
-    c0 = c0 * u_2 + -6787.06f;
-    c0_next = c0_next * u_2 + -2696.5173f;
-    c0 = c0 * u_2 + 122.713326f;
-    c0_next = c0_next * u_2 + 95.14191f;
-    c0 = c0 * u_2 + -2.4581785f;
-    c0_next = c0_next * u_2 + -2.9420507f;
-    c0 = c0 * u_2 + -0.3932743f;
-    c0_next = c0_next * u_2 + -0.05928611f;
-    c0 = c0 * u_2 + -0.011922578f;
-    c0_next = c0_next * u_2 + 0.49964955f;
+    float c0 = 7.9655046f;
+    float c0_next = 0.23171031f;
+    c0 = c0 * u_2 + -2.465099f;
+    c0_next = c0_next * u_2 + -0.057675235f;
+    c0 = c0 * u_2 + 0.25360954f;
+    c0_next = c0_next * u_2 + 0.0059058224f;
+    c0 = c0 * u_2 + -0.007785917f;
+    c0_next = c0_next * u_2 + -0.001350028f;
+    c0 = c0 * u_2 + -0.001460436f;
+    c0_next = c0_next * u_2 + 0.0014847844f;
     c0 = c0 * u + c0_next;
-    float c1 = -318264.4f;
-    float c1_next = -129067.266f;
-    c1 = c1 * u_2 + 103206.38f;
-    c1_next = c1_next * u_2 + 51218.89f;
-    c1 = c1 * u_2 + -8080.7793f;
-    c1_next = c1_next * u_2 + -6639.962f;
-    c1 = c1 * u_2 + -348.3645f;
-    c1_next = c1_next * u_2 + 236.70169f;
-    c1 = c1 * u_2 + 18.281961f;
-    c1_next = c1_next * u_2 + -7.553002f;
-    c1 = c1 * u_2 + -1.3741376f;
-    c1_next = c1_next * u_2 + -0.13502248f;
-    c1 = c1 * u_2 + -0.02641211f;
-    c1_next = c1_next * u_2 + 1.2447889f;
+    float c1 = 525.5578f;
+    float c1_next = -67.69641f;
+    c1 = c1 * u_2 + -221.11005f;
+    c1_next = c1_next * u_2 + 12.531589f;
+    c1 = c1 * u_2 + 40.548008f;
+    c1_next = c1_next * u_2 + 2.322741f;
+    c1 = c1 * u_2 + -4.4053245f;
+    c1_next = c1_next * u_2 + -1.6518493f;
+    c1 = c1 * u_2 + -0.32409254f;
+    c1_next = c1_next * u_2 + 1.2164555f;
     c1 = c1 * u + c1_next;
-    const float c2 = -0.00017747917f;
-    const float c3 = -0.00058067543f;
-    const float c4 = 0.0018956288f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.4000008f;
-  float sum = terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.87020767f;
+  const float u_2 = u * u;
+  float c0 = -0.021309443f;
+  float c0_next = 0.006741747f;
+  c0 = c0 * u_2 + -0.0004858401f;
+  c0_next = c0_next * u_2 + -0.0010333011f;
+  c0 = c0 * u_2 + 0.0007155522f;
+  c0 = c0_next * u + c0;
+  float c1 = -11.973375f;
+  float c1_next = 3.2341135f;
+  c1 = c1 * u_2 + 0.6045011f;
+  c1_next = c1_next * u_2 + -1.245764f;
+  c1 = c1 * u_2 + 0.7008647f;
+  c1 = c1_next * u + c1;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -65.812584f;
+  float c0_next = -65.27024f;
+  c0 = c0 * u_2 + 19.397703f;
+  c0_next = c0_next * u_2 + 43.651493f;
+  c0 = c0 * u_2 + 12.917359f;
+  c0_next = c0_next * u_2 + -3.601312f;
+  c0 = c0 * u_2 + -2.6452289f;
+  c0_next = c0_next * u_2 + 1.2179629f;
+  c0 = c0 * u_2 + 0.8292968f;
+  c0 = c0_next * u + c0;
+  float c1 = 55.921223f;
+  float c1_next = 102.85254f;
+  c1 = c1 * u_2 + 70.39609f;
+  c1_next = c1_next * u_2 + 18.872623f;
+  c1 = c1 * u_2 + -0.5349104f;
+  c1_next = c1_next * u_2 + -1.126983f;
+  c1 = c1 * u_2 + 0.13558891f;
+  c1_next = c1_next * u_2 + 0.13387403f;
+  c1 = c1 * u + c1_next;
+  float c2 = 27.083265f;
+  float c2_next = 54.89445f;
+  c2 = c2 * u_2 + 37.25312f;
+  c2_next = c2_next * u_2 + 10.231884f;
+  c2 = c2 * u_2 + 1.1502256f;
+  c2_next = c2_next * u_2 + -0.20947574f;
+  c2 = c2 * u_2 + -0.1102267f;
+  c2 = c2_next * u + c2;
+  float c3 = -367.087f;
+  float c3_next = -575.20825f;
+  c3 = c3 * u_2 + -356.1624f;
+  c3_next = c3_next * u_2 + -107.88817f;
+  c3 = c3 * u_2 + -15.872443f;
+  c3_next = c3_next * u_2 + -0.9469131f;
+  c3 = c3 * u + c3_next;
+  float c4 = 1242.0787f;
+  float c4_next = 1544.7128f;
+  c4 = c4 * u_2 + 663.93555f;
+  c4_next = c4_next * u_2 + 176.58295f;
+  c4 = c4 * u_2 + 27.343973f;
+  c4 = c4_next * u + c4;
+  float c5 = 26.997957f;
+  c5 = c5 * u + 11.24445f;
+  float c6 = -4239.9976f;
+  c6 = c6 * u + -1423.5247f;
+  const float w = specular - 0.90019995f;
+  float sum = c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -328,10 +341,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.25f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return 2.0f / (alpha * alpha) - 2.0f; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -345,6 +374,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.7645593f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.74041474f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.80039954f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -452,8 +495,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -463,13 +511,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -481,15 +618,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -497,16 +641,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -577,19 +724,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.8f}, {7341.554f, 0.99772054f}, {8.8f, 7.8e-05f}},
-      {{0.099612065f, 0.75f}, {71.68284f, 0.93698364f}, {0.0089f, 7.8e-05f}},
-      {{0.18922412f, 0.7f}, {18.270046f, 0.87272716f}, {0.0013f, 7.8e-05f}},
-      {{0.2788362f, 0.65000004f}, {7.236853f, 0.806056f}, {4e-04f, 7.8e-05f}},
-      {{0.36844826f, 0.6f}, {3.2552493f, 0.7346657f}, {0.00018f, 7.8e-05f}},
-      {{0.45806032f, 0.55f}, {1.4676651f, 0.6525344f}, {9.2e-05f, 7.8e-05f}},
-      {{0.5476724f, 0.5f}, {0.60531056f, 0.55576694f}, {6e-05f, 7.8e-05f}},
-      {{0.63728446f, 0.45000002f}, {0.202367f, 0.45226446f}, {4.7e-05f, 7.8e-05f}},
-      {{0.7268965f, 0.4f}, {0.01834086f, 0.3532492f}, {4.1e-05f, 7.8e-05f}},
-      {{0.005f, 0.4f}, {7347.963f, 0.4997423f}, {8.8f, 7.8e-05f}},
-      {{1.0903448f, 0.2f}, {0.01921704f, 0.17708802f}, {4.1e-05f, 7.8e-05f}},
-      {{0.36844826f, 0.0f}, {3.3131478f, 0.001555335f}, {0.00018f, 7.8e-05f}},
-      {{0.36844826f, 1.6f}, {3.2551687f, 1.9580829f}, {0.00018f, 0.00016f}},
+      {{0.01f, 1.0f}, {6916.494f, 1.0f}, {67.0f, 7.2e-05f}},
+      {{0.13375f, 0.9375f}, {37.145912f, 1.0f}, {0.029f, 7.2e-05f}},
+      {{0.2575f, 0.875f}, {8.622341f, 1.0f}, {0.004f, 7.2e-05f}},
+      {{0.38125f, 0.8125f}, {2.9100401f, 0.9914081f}, {0.0013f, 7.2e-05f}},
+      {{0.505f, 0.75f}, {0.9387074f, 0.863447f}, {0.00059f, 7.2e-05f}},
+      {{0.62875f, 0.6875f}, {0.22780487f, 0.697939f}, {0.00039f, 7.2e-05f}},
+      {{0.7525f, 0.625f}, {0.0f, 0.5305252f}, {0.00033f, 7.2e-05f}},
+      {{0.87625f, 0.5625f}, {0.0f, 0.39073375f}, {0.00033f, 7.2e-05f}},
+      {{1.0f, 0.5f}, {0.0f, 0.2771271f}, {0.00033f, 7.2e-05f}},
+      {{0.005f, 0.5f}, {7347.9546f, 0.6242286f}, {74.0f, 7.2e-05f}},
+      {{1.5f, 0.25f}, {0.0f, 0.13885464f}, {0.00033f, 7.2e-05f}},
+      {{0.505f, 0.0f}, {0.9586428f, 0.001282795f}, {0.00059f, 7.2e-05f}},
+      {{0.505f, 2.0f}, {0.820563f, 2.0f}, {0.00055f, 0.00015f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_mitsuba_ward.csv, sha256 92158c6f716ec1149309b52a61dc2aedf3d4eb75ac671864bbe3459be1aa6337;
+// Table mitsuba_as_to_mitsuba_ward.csv, sha256 478956b5d648f7c1a18b81aeda9383f0de33ed70ccf28d75e8be7b5f6d5bbea2;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 109 rows trained, 27 held out.
-// Error on the rows held out: alpha rms 4.8e-05, 99 % 0.00019, max 0.00019;
-// specular rms 2.7e-05, 99 % 5.5e-05, max 5.5e-05.
-// Lowered from the fit. Target alpha: degree 14, 8 in specular, proven within 9.1e-06 (sampled 7.6e-06), rising with alpha.
-// Target specular: degree 7, 6 in specular, proven within 8.2e-05 (sampled 7.4e-05), rising with specular.
-// Covers alpha 0.01 to 0.556206897, f0 0 to 0.266666667.
+// Fit: series, seed 1, 855 rows trained, 214 held out.
+// Error on the rows held out: alpha rms 0.00017, 99 % 0.00039, max 0.0014;
+// specular rms 6.8e-05, 99 % 8.9e-05, max 0.00096.
+// Lowered from the fit. Target alpha: degree 10, 4 in specular, proven within 2.7e-06 (sampled 2.6e-08), rising with alpha.
+// Target specular: degree 7, proven within 1.9e-05 (sampled 3.1e-06), rising with specular.
+// Where alpha is at its limit, target specular: degree 6 in alpha / (alpha + 1), 2 in specular, proven within 9.3e-05 (sampled 8.1e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 12, 10 in specular, proven within 9.2e-05 (sampled 6.1e-05).
+// All together within 0.00016 in alpha, 9.4e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_WARD_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 4.8e-05f;
-inline constexpr float kSpecularRmsError = 2.7e-05f;
+inline constexpr float kAlphaRmsError = 0.00017f;
+inline constexpr float kSpecularRmsError = 6.8e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.048f;
+inline constexpr float kImageRmsError = 0.32f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.5562069f, 0.26666668f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,97 +78,60 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.28310403f;
+  const float u = alpha - 0.30147684f;
   const float u_2 = u * u;
-  float c0 = 1258573.0f;
-  float c0_next = -82942.35f;
-  c0 = c0 * u_2 + -416408.6f;
-  c0_next = c0_next * u_2 + 5135.8604f;
-  c0 = c0 * u_2 + 52922.11f;
-  c0_next = c0_next * u_2 + 1117.2109f;
-  c0 = c0 * u_2 + -3329.6992f;
-  c0_next = c0_next * u_2 + -92.8836f;
-  c0 = c0 * u_2 + 123.547424f;
-  c0_next = c0_next * u_2 + -2.1735806f;
-  c0 = c0 * u_2 + -4.2724915f;
-  c0_next = c0_next * u_2 + 2.4175143f;
-  c0 = c0 * u_2 + 1.8765819f;
-  c0_next = c0_next * u_2 + 1.469643f;
-  c0 = c0 * u_2 + 0.32451507f;
+  float c0 = -9285.843f;
+  float c0_next = -2836.635f;
+  c0 = c0 * u_2 + 1279.026f;
+  c0_next = c0_next * u_2 + 468.1223f;
+  c0 = c0 * u_2 + -24.176775f;
+  c0_next = c0_next * u_2 + -24.29675f;
+  c0 = c0 * u_2 + -3.1580548f;
+  c0_next = c0_next * u_2 + 2.5051033f;
+  c0 = c0 * u_2 + 2.0095646f;
+  c0_next = c0_next * u_2 + 1.5420752f;
+  c0 = c0 * u_2 + 0.3523519f;
   c0 = c0_next * u + c0;
-  float c1 = -883.66046f;
-  float c1_next = -90.85372f;
-  c1 = c1 * u_2 + 140.53734f;
-  c1_next = c1_next * u_2 + -38.65438f;
-  c1 = c1 * u_2 + -3.5240562f;
-  c1_next = c1_next * u_2 + 4.7832823f;
-  c1 = c1 * u_2 + -0.746846f;
-  c1_next = c1_next * u_2 + -0.04725034f;
-  c1 = c1 * u_2 + 0.12045639f;
-  c1_next = c1_next * u_2 + 0.020746976f;
-  c1 = c1 * u_2 + 0.0012879367f;
-  c1 = c1_next * u + c1;
-  float c2 = 68424.93f;
-  float c2_next = 6276.3916f;
-  c2 = c2 * u_2 + -15290.258f;
-  c2_next = c2_next * u_2 + -1956.1473f;
-  c2 = c2 * u_2 + 823.98157f;
-  c2_next = c2_next * u_2 + 94.22778f;
-  c2 = c2 * u_2 + -5.9866962f;
-  c2_next = c2_next * u_2 + -0.33953264f;
-  c2 = c2 * u_2 + -0.6571125f;
-  c2_next = c2_next * u_2 + -0.1415695f;
-  c2 = c2 * u_2 + -0.006487328f;
+  float c1 = -1648.9243f;
+  float c1_next = -466.71133f;
+  c1 = c1 * u_2 + 362.70633f;
+  c1_next = c1_next * u_2 + 110.01048f;
+  c1 = c1 * u_2 + -21.46622f;
+  c1_next = c1_next * u_2 + -7.4334745f;
+  c1 = c1 * u_2 + 0.20204735f;
+  c1_next = c1_next * u_2 + 0.123505205f;
+  c1 = c1 * u_2 + -0.0006087121f;
+  c1_next = c1_next * u_2 + -0.00053074316f;
+  c1 = c1 * u + c1_next;
+  float c2 = 1483.0308f;
+  float c2_next = 453.08432f;
+  c2 = c2 * u_2 + -249.33446f;
+  c2_next = c2_next * u_2 + -84.34099f;
+  c2 = c2 * u_2 + 9.193797f;
+  c2_next = c2_next * u_2 + 4.2311354f;
+  c2 = c2 * u_2 + 0.12217462f;
+  c2_next = c2_next * u_2 + -0.024815902f;
+  c2 = c2 * u_2 + -2.619801e-05f;
   c2 = c2_next * u + c2;
-  float c3 = 21528.156f;
-  float c3_next = 6711.021f;
-  c3 = c3 * u_2 + -3640.922f;
-  c3_next = c3_next * u_2 + -109.83394f;
-  c3 = c3 * u_2 + 417.1097f;
-  c3_next = c3_next * u_2 + 0.080357514f;
-  c3 = c3 * u_2 + -13.304954f;
-  c3_next = c3_next * u_2 + 0.41061953f;
-  c3 = c3 * u_2 + 0.1493979f;
-  c3 = c3_next * u + c3;
-  float c4 = 32109.158f;
-  float c4_next = 6009.2603f;
-  c4 = c4 * u_2 + -3510.1282f;
-  c4_next = c4_next * u_2 + -660.7842f;
-  c4 = c4 * u_2 + 16.84267f;
-  c4_next = c4_next * u_2 + -4.7647543f;
-  c4 = c4 * u_2 + -2.0434504f;
+  float c3 = -783.52344f;
+  float c3_next = -258.1665f;
+  c3 = c3 * u_2 + 72.20968f;
+  c3_next = c3_next * u_2 + 27.57162f;
+  c3 = c3 * u_2 + -0.33451426f;
+  c3_next = c3_next * u_2 + -0.36968997f;
+  c3 = c3 * u_2 + 0.040559385f;
+  c3_next = c3_next * u_2 + 0.0061268057f;
+  c3 = c3 * u + c3_next;
+  float c4 = 300.62692f;
+  float c4_next = 105.938614f;
+  c4 = c4 * u_2 + -19.897373f;
+  c4_next = c4_next * u_2 + -9.869821f;
+  c4 = c4 * u_2 + -0.7649668f;
+  c4_next = c4_next * u_2 + -0.03927829f;
+  c4 = c4 * u_2 + -0.008685843f;
   c4 = c4_next * u + c4;
-  float c5 = 15961.34f;
-  float c5_next = -76274.41f;
-  c5 = c5 * u_2 + -19200.12f;
-  c5_next = c5_next * u_2 + 5614.236f;
-  c5 = c5 * u_2 + 1898.0221f;
-  c5_next = c5_next * u_2 + 163.79582f;
-  c5 = c5 * u_2 + 11.86307f;
-  c5 = c5_next * u + c5;
-  float c6 = -772030.56f;
-  float c6_next = -40324.4f;
-  c6 = c6 * u_2 + 118565.766f;
-  c6_next = c6_next * u_2 + 7711.486f;
-  c6 = c6 * u_2 + -5923.2837f;
-  c6_next = c6_next * u_2 + -993.7595f;
-  c6 = c6 * u_2 + -14.355369f;
-  c6 = c6_next * u + c6;
-  float c7 = 1588289.9f;
-  float c7_next = 287437.3f;
-  c7 = c7 * u_2 + -121126.46f;
-  c7_next = c7_next * u_2 + -23965.941f;
-  c7 = c7 * u_2 + -481.76407f;
-  c7_next = c7_next * u_2 + -385.2846f;
-  c7 = c7 * u + c7_next;
-  float c8 = 8212.844f;
-  c8 = c8 * u + 2077.543f;
-  const float w = specular - 0.1333336f;
-  float sum = c8;
-  sum = sum * w + c7;
-  sum = sum * w + c6;
-  sum = sum * w + c5;
-  sum = sum * w + c4;
+  const float w = specular - 0.500001f;
+  float sum = c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -176,7 +142,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -191,67 +159,180 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.28310403f;
+    const float u = alpha - 0.30147684f;
     const float u_2 = u * u;
-    float c0 = 34.146767f;
-    float c0_next = 6.5216947f;
-    c0 = c0 * u_2 + -7.1737537f;
-    c0_next = c0_next * u_2 + -0.6997703f;
-    c0 = c0 * u_2 + 1.7289242f;
-    c0_next = c0_next * u_2 + 1.1985915f;
-    c0 = c0 * u_2 + 0.38060108f;
-    c0_next = c0_next * u_2 + 0.22857215f;
+    float c0 = -1.0885874f;
+    float c0_next = -0.048873454f;
+    c0 = c0 * u_2 + 0.13803215f;
+    c0_next = c0_next * u_2 + -0.023189565f;
+    c0 = c0 * u_2 + -0.017162094f;
+    c0_next = c0_next * u_2 + 0.0007403984f;
+    c0 = c0 * u_2 + 0.0012662369f;
+    c0_next = c0_next * u_2 + 0.0021771642f;
     c0 = c0 * u + c0_next;
-    float c1 = 214.8594f;
-    float c1_next = 44.42137f;
-    c1 = c1 * u_2 + -47.484425f;
-    c1_next = c1_next * u_2 + -4.1177993f;
-    c1 = c1 * u_2 + 12.711388f;
-    c1_next = c1_next * u_2 + 8.924314f;
-    c1 = c1 * u_2 + 2.8527162f;
-    c1_next = c1_next * u_2 + 1.6981649f;
+    float c1 = 228.71999f;
+    float c1_next = 69.41464f;
+    c1 = c1 * u_2 + -45.25599f;
+    c1_next = c1_next * u_2 + -8.608998f;
+    c1 = c1 * u_2 + 12.509617f;
+    c1_next = c1_next * u_2 + 9.658038f;
+    c1 = c1 * u_2 + 3.1885335f;
+    c1_next = c1_next * u_2 + 1.7537128f;
     c1 = c1 * u + c1_next;
-    float c2 = 2.6813927f;
-    float c2_next = -0.7608694f;
-    c2 = c2 * u_2 + -0.47265264f;
-    c2_next = c2_next * u_2 + 0.07574086f;
-    c2 = c2 * u_2 + 0.016260529f;
-    c2 = c2_next * u + c2;
-    float c3 = -37.96528f;
-    float c3_next = 16.179276f;
-    c3 = c3 * u_2 + 6.2058992f;
-    c3_next = c3_next * u_2 + -1.2060759f;
-    c3 = c3 * u_2 + 0.11058087f;
-    c3 = c3_next * u + c3;
-    float c4 = 84.21153f;
-    c4 = c4 * u + 26.844868f;
-    c4 = c4 * u + -8.298386f;
-    c4 = c4 * u + -2.7336547f;
-    float c5 = -1132.4048f;
-    c5 = c5 * u + -254.45001f;
-    c5 = c5 * u + 86.78073f;
-    c5 = c5 * u + -10.053165f;
-    float c6 = 40.559235f;
-    c6 = c6 * u + 138.7952f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.1333336f;
-  float sum = terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.43530542f;
+  const float u_2 = u * u;
+  float c0 = 37988.973f;
+  float c0_next = -1568.9669f;
+  c0 = c0 * u_2 + -1667.153f;
+  c0_next = c0_next * u_2 + 302.46252f;
+  c0 = c0 * u_2 + -4.795029f;
+  c0_next = c0_next * u_2 + -8.570974f;
+  c0 = c0 * u_2 + 1.4212638f;
+  c0 = c0_next * u + c0;
+  float c1 = 89378.11f;
+  float c1_next = -3718.2285f;
+  c1 = c1 * u_2 + -3373.4622f;
+  c1_next = c1_next * u_2 + 604.32935f;
+  c1 = c1 * u_2 + -9.39246f;
+  c1_next = c1_next * u_2 + -17.11292f;
+  c1 = c1 * u_2 + 2.8362975f;
+  c1 = c1_next * u + c1;
+  float c2 = 0.1486426f;
+  c2 = c2 * u + -0.004100187f;
+  c2 = c2 * u + -0.00020265533f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -1353.9994f;
+  float c0_next = 1235.3888f;
+  c0 = c0 * u_2 + 1140.3612f;
+  c0_next = c0_next * u_2 + -1055.4432f;
+  c0 = c0 * u_2 + -333.94653f;
+  c0_next = c0_next * u_2 + 353.40854f;
+  c0 = c0 * u_2 + 28.491282f;
+  c0_next = c0_next * u_2 + -58.378036f;
+  c0 = c0 * u_2 + 5.039383f;
+  c0_next = c0_next * u_2 + 4.7466497f;
+  c0 = c0 * u_2 + -1.2994788f;
+  c0_next = c0_next * u_2 + 0.8643931f;
+  c0 = c0 * u_2 + 0.5947737f;
+  c0 = c0_next * u + c0;
+  float c1 = -1652.4381f;
+  float c1_next = 708.19727f;
+  c1 = c1 * u_2 + 1723.431f;
+  c1_next = c1_next * u_2 + -650.9872f;
+  c1 = c1 * u_2 + -539.01776f;
+  c1_next = c1_next * u_2 + 215.91267f;
+  c1 = c1 * u_2 + 62.082317f;
+  c1_next = c1_next * u_2 + -33.463963f;
+  c1 = c1 * u_2 + -0.47805363f;
+  c1_next = c1_next * u_2 + 2.0190892f;
+  c1 = c1 * u_2 + -1.2152718f;
+  c1_next = c1_next * u_2 + -0.30429205f;
+  c1 = c1 * u + c1_next;
+  float c2 = -1104.5833f;
+  float c2_next = -2018.0228f;
+  c2 = c2 * u_2 + 1229.1364f;
+  c2_next = c2_next * u_2 + 166.407f;
+  c2 = c2 * u_2 + -294.41296f;
+  c2_next = c2_next * u_2 + 72.03215f;
+  c2 = c2 * u_2 + 18.196964f;
+  c2_next = c2_next * u_2 + -1.2583317f;
+  c2 = c2 * u_2 + -2.9158647f;
+  c2_next = c2_next * u_2 + 1.567038f;
+  c2 = c2 * u_2 + 0.4579157f;
+  c2 = c2_next * u + c2;
+  float c3 = 2631.2024f;
+  float c3_next = -1089.1195f;
+  c3 = c3 * u_2 + 3563.8916f;
+  c3_next = c3_next * u_2 + -895.553f;
+  c3 = c3 * u_2 + -772.94745f;
+  c3_next = c3_next * u_2 + 399.95688f;
+  c3 = c3 * u_2 + -55.840214f;
+  c3_next = c3_next * u_2 + -5.7780285f;
+  c3 = c3 * u_2 + -0.72488207f;
+  c3_next = c3_next * u_2 + -0.7903955f;
+  c3 = c3 * u + c3_next;
+  float c4 = 1054.8436f;
+  float c4_next = -11771.317f;
+  c4 = c4 * u_2 + 7030.599f;
+  c4_next = c4_next * u_2 + 1234.8029f;
+  c4 = c4 * u_2 + -2335.557f;
+  c4_next = c4_next * u_2 + 431.54446f;
+  c4 = c4 * u_2 + 29.758959f;
+  c4_next = c4_next * u_2 + -1.1653854f;
+  c4 = c4 * u_2 + 1.2163484f;
+  c4 = c4_next * u + c4;
+  float c5 = 10231.98f;
+  float c5_next = -19220.713f;
+  c5 = c5 * u_2 + -1114.8372f;
+  c5_next = c5_next * u_2 + 4608.862f;
+  c5 = c5 * u_2 + -889.44543f;
+  c5_next = c5_next * u_2 + 207.49518f;
+  c5 = c5 * u_2 + -9.358049f;
+  c5_next = c5_next * u_2 + -3.1347287f;
+  c5 = c5 * u + c5_next;
+  float c6 = 18613.373f;
+  float c6_next = 8595.935f;
+  c6 = c6 * u_2 + 2187.4639f;
+  c6_next = c6_next * u_2 + 364.31317f;
+  c6 = c6 * u_2 + -1085.7941f;
+  c6_next = c6_next * u_2 + 29.72953f;
+  c6 = c6 * u_2 + 8.748899f;
+  c6 = c6_next * u + c6;
+  float c7 = -14212.754f;
+  float c7_next = -16109.102f;
+  c7 = c7 * u_2 + 1697.3704f;
+  c7_next = c7_next * u_2 + -265.70905f;
+  c7 = c7 * u_2 + -172.0051f;
+  c7_next = c7_next * u_2 + 6.258638f;
+  c7 = c7 * u + c7_next;
+  float c8 = 11126.278f;
+  float c8_next = -10966.577f;
+  c8 = c8 * u_2 + 7201.268f;
+  c8_next = c8_next * u_2 + 104.02739f;
+  c8 = c8 * u_2 + -13.824216f;
+  c8 = c8_next * u + c8;
+  float c9 = 18056.65f;
+  c9 = c9 * u + -8509.908f;
+  c9 = c9 * u + 2733.2957f;
+  c9 = c9 * u + -205.34027f;
+  float c10 = -5163.073f;
+  c10 = c10 * u + 368.4293f;
+  const float w = specular - 0.6353889f;
+  float sum = c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -321,10 +402,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 3.7499998f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -338,6 +435,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.5929524f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.5888421f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.27077636f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -445,8 +556,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -456,13 +572,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -474,15 +679,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -490,16 +702,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -570,19 +785,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.26666668f}, {0.010010745f, 0.3672687f}, {9.6e-06f, 8.2e-05f}},
-      {{0.07827586f, 0.25f}, {0.0790661f, 0.3495485f}, {9.6e-06f, 8.2e-05f}},
-      {{0.14655171f, 0.23333335f}, {0.15185973f, 0.33910146f}, {9.6e-06f, 8.2e-05f}},
-      {{0.21482758f, 0.21666668f}, {0.2321051f, 0.3360898f}, {9.7e-06f, 8.2e-05f}},
-      {{0.28310344f, 0.20000002f}, {0.32458726f, 0.34178743f}, {9.7e-06f, 8.2e-05f}},
-      {{0.3513793f, 0.18333334f}, {0.43440968f, 0.35762304f}, {9.8e-06f, 8.2e-05f}},
-      {{0.41965517f, 0.16666667f}, {0.56535494f, 0.3829109f}, {9.8e-06f, 8.2e-05f}},
-      {{0.487931f, 0.15f}, {0.71994555f, 0.41466454f}, {9.9e-06f, 8.2e-05f}},
-      {{0.5562069f, 0.13333334f}, {0.9011143f, 0.44887424f}, {1e-05f, 8.2e-05f}},
-      {{0.005f, 0.13333334f}, {0.009996794f, 0.1846503f}, {9.6e-06f, 8.2e-05f}},
-      {{0.8343103f, 0.06666667f}, {0.898812f, 0.22555679f}, {1e-05f, 8.2e-05f}},
-      {{0.28310344f, 0.0f}, {0.32314202f, 0.0025199663f}, {9.7e-06f, 8.2e-05f}},
-      {{0.28310344f, 0.53333336f}, {0.32461762f, 0.91001123f}, {9.7e-06f, 0.00017f}},
+      {{0.01f, 1.0f}, {0.010406029f, 1.0f}, {0.00016f, 9.5e-05f}},
+      {{0.13375f, 0.9375f}, {0.14187284f, 1.0f}, {0.00016f, 9.5e-05f}},
+      {{0.2575f, 0.875f}, {0.28952217f, 1.0f}, {0.00016f, 9.5e-05f}},
+      {{0.38125f, 0.8125f}, {0.44324577f, 1.0f}, {0.00016f, 9.5e-05f}},
+      {{0.505f, 0.75f}, {0.56489104f, 1.0f}, {0.00016f, 9.5e-05f}},
+      {{0.62875f, 0.6875f}, {0.6696512f, 1.0f}, {0.00016f, 9.5e-05f}},
+      {{0.7525f, 0.625f}, {0.7909145f, 1.0f}, {0.00016f, 9.5e-05f}},
+      {{0.87625f, 0.5625f}, {0.94336605f, 1.0f}, {0.00016f, 9.5e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.90043396f}, {0.00016f, 9.5e-05f}},
+      {{0.005f, 0.5f}, {0.010001788f, 0.68692005f}, {0.00016f, 9.5e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.45123354f}, {0.00016f, 9.5e-05f}},
+      {{0.505f, 0.0f}, {0.7565311f, 0.0023070942f}, {0.00016f, 9.4e-05f}},
+      {{0.505f, 2.0f}, {0.52119195f, 2.0f}, {0.00016f, 0.00019f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to mitsuba/ward-balanced: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_mitsuba_ward_balanced.csv, sha256 3c2f626b65c604e2183118a390e2b77bf3442af00498d98fbd083ec11cb43b70;
+// Table mitsuba_as_to_mitsuba_ward_balanced.csv, sha256 dae3646820e89a76c033ce81ca7b11397aed43294297828a3f5690bc3a3013cc;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 334 rows trained, 84 held out.
-// Error on the rows held out: alpha rms 0.00019, 99 % 0.00071, max 0.00071;
-// specular rms 9.3e-05, 99 % 3e-04, max 3e-04.
-// Lowered from the fit. Target alpha: degree 6, 4 in specular, proven within 4.8e-07 (sampled 2.7e-08), rising with alpha.
-// Target specular: degree 7, proven within 9.8e-05 (sampled 9.7e-05), rising with specular.
-// Covers alpha 0.01 to 0.726896552, f0 0 to 0.633333333.
+// Fit: series, seed 1, 828 rows trained, 207 held out.
+// Error on the rows held out: alpha rms 0.00016, 99 % 3e-04, max 0.0021;
+// specular rms 6.4e-05, 99 % 0.00025, max 0.00029.
+// Lowered from the fit. Target alpha: degree 12 in alpha / (alpha + 1), 7 in specular, proven within 1e-05 (sampled 8.7e-06), rising with alpha.
+// Target specular: degree 7, proven within 3.1e-05 (sampled 5.6e-06), rising with specular.
+// Where alpha is at its limit, target specular: degree 3 in alpha / (alpha + 0.05), proven within 9.8e-05 (sampled 8.1e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 10, 9 in specular, proven within 9.7e-05 (sampled 6.7e-05).
+// All together within 0.00015 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_WARD_BALANCED_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00019f;
-inline constexpr float kSpecularRmsError = 9.3e-05f;
+inline constexpr float kAlphaRmsError = 0.00016f;
+inline constexpr float kSpecularRmsError = 6.4e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.086f;
+inline constexpr float kImageRmsError = 0.14f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.7268965f, 0.6333333f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,34 +78,77 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.36844906f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.22188012f;
   const float u_2 = u * u;
-  float c0 = 5.152522f;
-  float c0_next = 1.4354322f;
-  c0 = c0 * u_2 + -2.968226f;
-  c0_next = c0_next * u_2 + -0.8404698f;
-  c0 = c0 * u_2 + 0.79595715f;
-  c0_next = c0_next * u_2 + 1.4146885f;
-  c0 = c0 * u_2 + 0.42270496f;
+  float c0 = -1245480.6f;
+  float c0_next = -323610.75f;
+  c0 = c0 * u_2 + 105521.445f;
+  c0_next = c0_next * u_2 + 34857.496f;
+  c0 = c0 * u_2 + 122.86215f;
+  c0_next = c0_next * u_2 + -724.9985f;
+  c0 = c0 * u_2 + -293.7278f;
+  c0_next = c0_next * u_2 + -111.64751f;
+  c0 = c0 * u_2 + -4.986664f;
+  c0_next = c0_next * u_2 + 10.860818f;
+  c0 = c0 * u_2 + 5.133595f;
+  c0_next = c0_next * u_2 + 2.099084f;
+  c0 = c0 * u_2 + 0.31070244f;
   c0 = c0_next * u + c0;
-  float c1 = -0.013630274f;
-  c1 = c1 * u + -0.004666758f;
-  c1 = c1 * u + -0.00040226118f;
-  c1 = c1 * u + -0.00019644691f;
-  float c2 = 0.09104684f;
-  c2 = c2 * u + 0.033569917f;
-  c2 = c2 * u + 0.0030997698f;
-  c2 = c2 * u + 0.0011388774f;
-  float c3 = 0.1564102f;
-  c3 = c3 * u + 0.4068558f;
-  c3 = c3 * u + 0.21807379f;
-  c3 = c3 * u + 0.032939926f;
-  float c4 = -0.85953605f;
-  c4 = c4 * u + -1.372745f;
-  c4 = c4 * u + -0.671669f;
-  c4 = c4 * u + -0.10411209f;
-  const float w = specular - 0.3166673f;
-  float sum = c4;
+  float c1 = 1457.5475f;
+  float c1_next = 324.4825f;
+  c1 = c1 * u_2 + -98.74612f;
+  c1_next = c1_next * u_2 + -21.373634f;
+  c1 = c1 * u_2 + 1.5056167f;
+  c1_next = c1_next * u_2 + 0.5132553f;
+  c1 = c1 * u_2 + 0.07525896f;
+  c1_next = c1_next * u_2 + 0.016481282f;
+  c1 = c1 * u_2 + 0.0015788844f;
+  c1_next = c1_next * u_2 + -7.9392215e-05f;
+  c1 = c1 * u + c1_next;
+  float c2 = -1.2093177f;
+  float c2_next = -2.0451798f;
+  c2 = c2 * u_2 + -0.7227641f;
+  c2_next = c2_next * u_2 + -0.06325415f;
+  c2 = c2 * u_2 + -0.05628606f;
+  c2_next = c2_next * u_2 + -0.023014918f;
+  c2 = c2 * u_2 + -0.0022688322f;
+  c2 = c2_next * u + c2;
+  float c3 = -29.861338f;
+  float c3_next = -5.2765937f;
+  c3 = c3 * u_2 + -3.2094865f;
+  c3_next = c3_next * u_2 + -1.2994329f;
+  c3 = c3 * u_2 + -0.21189478f;
+  c3_next = c3_next * u_2 + 0.030373257f;
+  c3 = c3 * u_2 + 0.0100063f;
+  c3 = c3_next * u + c3;
+  float c4 = 12.104111f;
+  float c4_next = 9.2475605f;
+  c4 = c4 * u_2 + 2.0477407f;
+  c4_next = c4_next * u_2 + 0.9253975f;
+  c4 = c4 * u_2 + 0.31449914f;
+  c4_next = c4_next * u_2 + 0.03130463f;
+  c4 = c4 * u + c4_next;
+  float c5 = 20.065989f;
+  float c5_next = 9.482811f;
+  c5 = c5 * u_2 + 1.4386845f;
+  c5_next = c5_next * u_2 + -0.45984605f;
+  c5 = c5 * u_2 + -0.10957034f;
+  c5 = c5_next * u + c5;
+  float c6 = -30.398043f;
+  float c6_next = -16.650713f;
+  c6 = c6 * u_2 + -6.3409514f;
+  c6_next = c6_next * u_2 + -1.5019917f;
+  c6 = c6 * u_2 + -0.13141197f;
+  c6 = c6_next * u + c6;
+  float c7 = 3.221341f;
+  c7 = c7 * u + 2.459186f;
+  c7 = c7 * u + 0.37213686f;
+  const float w = specular - 0.500001f;
+  float sum = c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -114,6 +160,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -128,25 +176,26 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.36844906f;
+    const float u = alpha - 0.38817266f;
     const float u_2 = u * u;
-    float c0 = -10.772172f;
-    float c0_next = 1.5729771f;
-    c0 = c0 * u_2 + 2.0889573f;
-    c0_next = c0_next * u_2 + -0.27281374f;
-    c0 = c0 * u_2 + -0.098445006f;
-    c0_next = c0_next * u_2 + 0.009960596f;
-    c0 = c0 * u_2 + 6.0730352e-05f;
-    c0_next = c0_next * u_2 + 0.0013244217f;
+    float c0 = 0.0934138f;
+    float c0_next = 0.02727537f;
+    c0 = c0 * u_2 + -0.013078843f;
+    c0_next = c0_next * u_2 + -0.0037078653f;
+    c0 = c0 * u_2 + -0.0013191507f;
+    c0_next = c0_next * u_2 + -0.0012241133f;
+    c0 = c0 * u_2 + -0.0004543123f;
+    c0_next = c0_next * u_2 + 0.0013918009f;
     c0 = c0 * u + c0_next;
-    float c1 = 13.563148f;
-    float c1_next = 7.074783f;
-    c1 = c1 * u_2 + -6.9474263f;
-    c1_next = c1_next * u_2 + -4.1113687f;
-    c1 = c1 * u_2 + 1.1932594f;
-    c1_next = c1_next * u_2 + 1.1578037f;
-    c1 = c1 * u_2 + 1.1979998f;
-    c1 = c1_next * u + c1;
+    float c1 = -35.267685f;
+    float c1_next = 13.8607025f;
+    c1 = c1 * u_2 + 16.09411f;
+    c1_next = c1_next * u_2 + -6.3824344f;
+    c1 = c1 * u_2 + -5.037348f;
+    c1_next = c1_next * u_2 + 0.95170134f;
+    c1 = c1 * u_2 + 1.2041504f;
+    c1_next = c1_next * u_2 + 1.2210636f;
+    c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -155,6 +204,112 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 0.05f);
+  const float u = t - 0.94504297f;
+  float c0 = 89.752396f;
+  c0 = c0 * u + -1.1700959f;
+  c0 = c0 * u + -0.027608305f;
+  c0 = c0 * u + 0.0012591557f;
+  float c1 = 22537.074f;
+  c1 = c1 * u + -564.0186f;
+  c1 = c1 * u + -35.64851f;
+  c1 = c1 * u + 1.3130771f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -231.41211f;
+  float c0_next = -172.57028f;
+  c0 = c0 * u_2 + 400.61642f;
+  c0_next = c0_next * u_2 + -24.151901f;
+  c0 = c0 * u_2 + -101.638435f;
+  c0_next = c0_next * u_2 + 12.443844f;
+  c0 = c0 * u_2 + 13.489459f;
+  c0_next = c0_next * u_2 + -1.6798359f;
+  c0 = c0 * u_2 + -1.1284223f;
+  c0_next = c0_next * u_2 + 1.3050079f;
+  c0 = c0 * u_2 + 0.6141946f;
+  c0 = c0_next * u + c0;
+  float c1 = 1028.944f;
+  float c1_next = -2884.3787f;
+  c1 = c1 * u_2 + 930.4753f;
+  c1_next = c1_next * u_2 + 421.26022f;
+  c1 = c1 * u_2 + -252.71916f;
+  c1_next = c1_next * u_2 + 23.884245f;
+  c1 = c1 * u_2 + 9.921853f;
+  c1_next = c1_next * u_2 + -2.4271698f;
+  c1 = c1 * u_2 + -1.3954219f;
+  c1_next = c1_next * u_2 + -0.13052163f;
+  c1 = c1 * u + c1_next;
+  float c2 = 10236.221f;
+  float c2_next = -6261.9214f;
+  c2 = c2 * u_2 + -1519.2682f;
+  c2_next = c2_next * u_2 + 2241.8691f;
+  c2 = c2 * u_2 + -591.3053f;
+  c2_next = c2_next * u_2 + 21.289362f;
+  c2 = c2 * u_2 + 7.980752f;
+  c2_next = c2_next * u_2 + 1.6600157f;
+  c2 = c2 * u_2 + 0.10062068f;
+  c2 = c2_next * u + c2;
+  float c3 = 10100.179f;
+  float c3_next = 4761.6094f;
+  c3 = c3 * u_2 + -8039.351f;
+  c3_next = c3_next * u_2 + 3164.0984f;
+  c3 = c3 * u_2 + -607.7194f;
+  c3_next = c3_next * u_2 + 52.56695f;
+  c3 = c3 * u_2 + -0.7254063f;
+  c3_next = c3_next * u_2 + -0.56159616f;
+  c3 = c3 * u + c3_next;
+  float c4 = -24045.916f;
+  float c4_next = -9786.361f;
+  c4 = c4 * u_2 + 6167.7354f;
+  c4_next = c4_next * u_2 + 244.10762f;
+  c4 = c4 * u_2 + -346.57953f;
+  c4_next = c4_next * u_2 + 34.87183f;
+  c4 = c4 * u_2 + 3.7850492f;
+  c4 = c4_next * u + c4;
+  float c5 = 98749.836f;
+  float c5_next = -93666.8f;
+  c5 = c5 * u_2 + 33715.582f;
+  c5_next = c5_next * u_2 + -5137.6777f;
+  c5 = c5 * u_2 + 31.044384f;
+  c5_next = c5_next * u_2 + 60.467968f;
+  c5 = c5 * u + c5_next;
+  float c6 = 217469.72f;
+  float c6_next = -128886.36f;
+  c6 = c6 * u_2 + 36687.07f;
+  c6_next = c6_next * u_2 + -4591.1807f;
+  c6 = c6 * u_2 + -34.07331f;
+  c6 = c6_next * u + c6;
+  float c7 = 6873.425f;
+  c7 = c7 * u + 9009.898f;
+  c7 = c7 * u + -4148.7236f;
+  float c8 = -320408.22f;
+  c8 = c8 * u + 90556.01f;
+  c8 = c8 * u + -2316.4924f;
+  float c9 = -207934.89f;
+  c9 = c9 * u + 87743.73f;
+  const float w = specular - 0.82582134f;
+  float sum = c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -224,10 +379,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.5789474f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -241,6 +412,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.7663437f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.7526333f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.65164196f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -348,8 +533,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -359,13 +549,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -377,15 +656,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -393,16 +679,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -473,19 +762,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.6333333f}, {0.010023202f, 0.63378745f}, {9.7e-07f, 9.8e-05f}},
-      {{0.099612065f, 0.59375f}, {0.10067422f, 0.6019819f}, {1.1e-06f, 9.8e-05f}},
-      {{0.18922412f, 0.5541667f}, {0.1964318f, 0.5805164f}, {1.1e-06f, 9.8e-05f}},
-      {{0.2788362f, 0.51458335f}, {0.30277985f, 0.57066804f}, {1.2e-06f, 9.8e-05f}},
-      {{0.36844826f, 0.475f}, {0.4227666f, 0.570366f}, {1.2e-06f, 9.8e-05f}},
-      {{0.45806032f, 0.43541667f}, {0.55513346f, 0.5708885f}, {1.3e-06f, 9.8e-05f}},
-      {{0.5476724f, 0.3958333f}, {0.69436556f, 0.56117356f}, {1.3e-06f, 9.8e-05f}},
-      {{0.63728446f, 0.35625f}, {0.8326565f, 0.53352934f}, {1.4e-06f, 9.8e-05f}},
-      {{0.7268965f, 0.31666666f}, {0.96377933f, 0.48652205f}, {1.5e-06f, 9.8e-05f}},
-      {{0.005f, 0.31666666f}, {0.010022452f, 0.31773788f}, {9.7e-07f, 9.8e-05f}},
-      {{1.0903448f, 0.15833333f}, {0.9632676f, 0.2438534f}, {1.5e-06f, 9.8e-05f}},
-      {{0.36844826f, 0.0f}, {0.42078733f, 0.0013394564f}, {1.2e-06f, 9.8e-05f}},
-      {{0.36844826f, 1.2666667f}, {0.4227549f, 1.5200832f}, {1.2e-06f, 2e-04f}},
+      {{0.01f, 1.0f}, {0.010000716f, 1.0f}, {0.00015f, 0.00011f}},
+      {{0.13375f, 0.9375f}, {0.13628556f, 0.9591548f}, {0.00015f, 0.00011f}},
+      {{0.2575f, 0.875f}, {0.27624598f, 0.9541575f}, {0.00015f, 0.00011f}},
+      {{0.38125f, 0.8125f}, {0.44103602f, 0.98676914f}, {0.00015f, 0.00011f}},
+      {{0.505f, 0.75f}, {0.6249333f, 1.0f}, {0.00015f, 0.00011f}},
+      {{0.62875f, 0.6875f}, {0.8121584f, 1.0f}, {0.00015f, 0.00011f}},
+      {{0.7525f, 0.625f}, {0.99980146f, 0.96081954f}, {0.00015f, 0.00011f}},
+      {{0.87625f, 0.5625f}, {1.0f, 0.7199432f}, {0.00015f, 0.00011f}},
+      {{1.0f, 0.5f}, {1.0f, 0.51601726f}, {0.00015f, 0.00011f}},
+      {{0.005f, 0.5f}, {0.010000449f, 0.50083894f}, {0.00015f, 0.00011f}},
+      {{1.5f, 0.25f}, {1.0f, 0.25851953f}, {0.00015f, 0.00011f}},
+      {{0.505f, 0.0f}, {0.6225237f, 0.0013234816f}, {0.00015f, 0.00011f}},
+      {{0.505f, 2.0f}, {0.5945946f, 2.0f}, {0.00015f, 0.00021f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/as to mitsuba/ward-duer: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_as_to_mitsuba_ward_duer.csv, sha256 84df380bd315e77a173786d8779e0e16f432931fea3d33aed076f002bae2247a;
+// Table mitsuba_as_to_mitsuba_ward_duer.csv, sha256 8d6c47872aa9b17cbba455b476db9d178c600aa7fa7a757d20ba1b4f745dde61;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 313 rows trained, 78 held out.
-// Error on the rows held out: alpha rms 2.5e-05, 99 % 8.9e-05, max 8.9e-05;
-// specular rms 1.5e-05, 99 % 7.9e-05, max 7.9e-05.
-// Lowered from the fit. Target alpha: degree 6 on 4 pieces, 12 in specular, proven within 1e-05 (sampled 8.8e-06), rising with alpha.
-// Target specular: degree 13, 7 in specular, proven within 6.5e-05 (sampled 5.8e-05), rising with specular.
-// Covers alpha 0.01 to 0.761034483, f0 0 to 0.566666667.
+// Fit: series, seed 1, 833 rows trained, 208 held out.
+// Error on the rows held out: alpha rms 7.9e-05, 99 % 0.00033, max 0.00046;
+// specular rms 0.00012, 99 % 0.00035, max 0.00042.
+// Lowered from the fit. Target alpha: degree 16 in alpha / (alpha + 1), 9 in specular, proven within 1e-05 (sampled 7e-06), rising with alpha.
+// Target specular: degree 9, proven within 3.4e-05 (sampled 2.9e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 4, proven within 9.6e-05 (sampled 9.3e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 12, 11 in specular, proven within 5.1e-05 (sampled 2.3e-06).
+// All together within 0.00012 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_WARD_DUER_HPP
 #define REMAP_GENERATED_MITSUBA_AS_TO_MITSUBA_WARD_DUER_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 2.5e-05f;
-inline constexpr float kSpecularRmsError = 1.5e-05f;
+inline constexpr float kAlphaRmsError = 7.9e-05f;
+inline constexpr float kSpecularRmsError = 0.00012f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.13f;
+inline constexpr float kImageRmsError = 0.21f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.7610345f, 0.56666666f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,78 +77,99 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-// x rounded down, held in [0, last]. Masks in place of comparisons: compilers would branch on them.
-inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
-  const std::int32_t cell = static_cast<std::int32_t>(x);
-  const std::int32_t below = (cell & ~(cell >> 31)) - last;
-  return last + (below & (below >> 31));
-}
-
-inline constexpr float kAlphaTable[4][46] = {
-    {0.10538725f, 0.1959615f, 0.015021881f, 0.010205557f, 0.0001220758f, -0.0013196165f, 0.003768225f, 3.677818e-05f, -0.0004059718f, 0.00036584312f, 0.00029928397f, 0.00054464827f, 0.0006985398f, 0.0025463852f, -0.0003978926f, -0.0074830703f, 0.0012931502f, 0.025673445f, 0.009854052f, -0.048374027f, -0.008334771f, -0.10070728f, -0.039398417f, 0.22468181f, -0.4703668f, -0.5172802f, -0.52322435f, 0.9641482f, 0.6285077f, 1.4447103f, 1.9699973f, -3.733751f, 22.34871f, 15.364067f, 4.930211f, -42.992496f, -32.66681f, -18.82607f, -405.6176f, -259.60992f, 909.56915f, 663.80585f, 2706.214f, 1408.31f, -6808.68f, -3979.3042f},
-    {0.3272569f, 0.2587592f, 0.045272876f, 0.0022168371f, -0.0094283875f, -0.0028806084f, 0.00033901693f, 0.00035681826f, 0.00094449124f, 0.00033062673f, -0.0002622375f, -5.287893e-05f, -0.0006728032f, -0.005432917f, -0.0017640878f, 0.0053260615f, 0.003346063f, -0.011108728f, 0.019456059f, 0.025742482f, -0.024697835f, 0.07155634f, -0.0011726685f, -0.16253103f, 0.012983697f, 1.1617428f, -0.82077706f, -0.2703008f, -0.8527034f, -4.504299f, 0.7141188f, 1.6106634f, 11.583943f, -31.770573f, 15.17625f, 4.738161f, 120.11812f, -34.846046f, -300.82956f, 469.186f, 275.34598f, -1932.2521f, 2861.383f, -1097.972f, -5453.2417f, 6690.18f},
-    {0.62161344f, 0.30734816f, -0.020025983f, -0.035370152f, 0.009912101f, 0.0114539005f, -0.0037068615f, 0.0016287183f, 0.0014908204f, -0.00059349916f, 0.0001341807f, 0.0025196034f, -0.004467137f, -0.0039403196f, -0.0027712001f, -0.00020201353f, 0.00145828f, -0.028244212f, -0.03419142f, 0.009272069f, -0.031273067f, 0.07876707f, 0.22513138f, -0.038756274f, 1.5620798f, 2.9153502f, 0.9001397f, -0.20346992f, -5.412824f, -8.438432f, -5.747581f, 0.7558922f, -45.09889f, -92.39217f, -6.417937f, 172.59538f, 253.0123f, 39.985954f, 720.4074f, 1573.2877f, -3065.0427f, -4748.5244f, -1231.6377f, -7088.068f, 9697.671f, 23611.64f},
-    {0.8899168f, 0.22664624f, -0.03227001f, 0.015927086f, 0.0016560456f, -0.004302756f, 0.0003885127f, 0.0034198633f, 0.0024110312f, 0.00065715326f, -0.00027022368f, -0.00019860125f, -0.009206196f, -0.0058606043f, -0.0035708009f, -0.00010597039f, -0.021195399f, -0.016964871f, -0.023242397f, 0.012232802f, 0.020835368f, 0.0017903334f, 0.12575485f, -0.06535847f, 4.022587f, 2.3887832f, 1.6115655f, 0.09384481f, -11.572414f, -4.6307626f, -6.843864f, 0.051583767f, -128.46341f, -76.80681f, -11.357798f, 353.98932f, 116.10074f, 52.636112f, 2322.2104f, 1630.3186f, -7243.894f, -3609.178f, -9312.782f, -9074.22f, 33353.324f, 23699.668f},
-};
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float x = alpha * 5.325975f - 0.053259563f;
-  const std::int32_t cell = cell_of(x, 3);
-  const float u = x - (static_cast<float>(cell) + 0.5f);
-  const float* row = kAlphaTable[cell];
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.22484681f;
   const float u_2 = u * u;
-  float c0 = row[6];
-  float c0_next = row[5];
-  c0 = c0 * u_2 + row[4];
-  c0_next = c0_next * u_2 + row[3];
-  c0 = c0 * u_2 + row[2];
-  c0_next = c0_next * u_2 + row[1];
-  c0 = c0 * u_2 + row[0];
+  float c0 = 3216026368.0f;
+  float c0_next = 894453056.0f;
+  c0 = c0 * u_2 + -386483296.0f;
+  c0_next = c0_next * u_2 + -120069536.0f;
+  c0 = c0 * u_2 + 12710360.0f;
+  c0_next = c0_next * u_2 + 4164943.2f;
+  c0 = c0 * u_2 + -358331.1f;
+  c0_next = c0_next * u_2 + 20457.695f;
+  c0 = c0 * u_2 + 50344.266f;
+  c0_next = c0_next * u_2 + 3657.1672f;
+  c0 = c0 * u_2 + -2119.4172f;
+  c0_next = c0_next * u_2 + -568.0365f;
+  c0 = c0 * u_2 + -33.917336f;
+  c0_next = c0_next * u_2 + 15.584024f;
+  c0 = c0 * u_2 + 6.5509458f;
+  c0_next = c0_next * u_2 + 2.2866085f;
+  c0 = c0 * u_2 + 0.3251119f;
   c0 = c0_next * u + c0;
-  float c1 = row[11];
-  float c1_next = row[10];
-  c1 = c1 * u_2 + row[9];
-  c1_next = c1_next * u_2 + row[8];
-  c1 = c1 * u_2 + row[7];
-  c1 = c1_next * u + c1;
-  float c2 = row[15];
-  c2 = c2 * u + row[14];
-  c2 = c2 * u + row[13];
-  c2 = c2 * u + row[12];
-  float c3 = row[19];
-  c3 = c3 * u + row[18];
-  c3 = c3 * u + row[17];
-  c3 = c3 * u + row[16];
-  float c4 = row[23];
-  c4 = c4 * u + row[22];
-  c4 = c4 * u + row[21];
-  c4 = c4 * u + row[20];
-  float c5 = row[27];
-  c5 = c5 * u + row[26];
-  c5 = c5 * u + row[25];
-  c5 = c5 * u + row[24];
-  float c6 = row[31];
-  c6 = c6 * u + row[30];
-  c6 = c6 * u + row[29];
-  c6 = c6 * u + row[28];
-  float c7 = row[34];
-  c7 = c7 * u + row[33];
-  c7 = c7 * u + row[32];
-  float c8 = row[37];
-  c8 = c8 * u + row[36];
-  c8 = c8 * u + row[35];
-  float c9 = row[39];
-  c9 = c9 * u + row[38];
-  float c10 = row[41];
-  c10 = c10 * u + row[40];
-  float c11 = row[43];
-  c11 = c11 * u + row[42];
-  float c12 = row[45];
-  c12 = c12 * u + row[44];
-  const float w = specular - 0.2833339f;
-  float sum = c12;
-  sum = sum * w + c11;
-  sum = sum * w + c10;
-  sum = sum * w + c9;
+  float c1 = -2132.5056f;
+  float c1_next = -603.8535f;
+  c1 = c1 * u_2 + 159.66273f;
+  c1_next = c1_next * u_2 + 56.853325f;
+  c1 = c1 * u_2 + -1.7226739f;
+  c1_next = c1_next * u_2 + -1.7262665f;
+  c1 = c1 * u_2 + -0.0789998f;
+  c1_next = c1_next * u_2 + 0.022132847f;
+  c1 = c1 * u_2 + 0.0034339589f;
+  c1_next = c1_next * u_2 + 0.0002546764f;
+  c1 = c1 * u + c1_next;
+  float c2 = -273.3306f;
+  float c2_next = 246.28018f;
+  c2 = c2 * u_2 + 51.68819f;
+  c2_next = c2_next * u_2 + -17.703577f;
+  c2 = c2 * u_2 + -2.0353994f;
+  c2_next = c2_next * u_2 + 0.26484996f;
+  c2 = c2 * u_2 + -0.0046263416f;
+  c2_next = c2_next * u_2 + 0.0035311321f;
+  c2 = c2 * u_2 + 0.0012956198f;
+  c2 = c2_next * u + c2;
+  float c3 = 1485.4595f;
+  float c3_next = 602.52405f;
+  c3 = c3 * u_2 + -101.66642f;
+  c3_next = c3_next * u_2 + -49.578705f;
+  c3 = c3 * u_2 + 7.317049f;
+  c3_next = c3_next * u_2 + 2.9069402f;
+  c3 = c3 * u_2 + 0.19163257f;
+  c3_next = c3_next * u_2 + -0.03521471f;
+  c3 = c3 * u_2 + -0.009158759f;
+  c3 = c3_next * u + c3;
+  float c4 = -1834.2957f;
+  float c4_next = -355.18784f;
+  c4 = c4 * u_2 + 105.80025f;
+  c4_next = c4_next * u_2 + 8.58787f;
+  c4 = c4 * u_2 + -4.0925007f;
+  c4_next = c4_next * u_2 + -1.0501161f;
+  c4 = c4 * u_2 + -0.36040354f;
+  c4_next = c4_next * u_2 + -0.046074778f;
+  c4 = c4 * u + c4_next;
+  float c5 = 364.1615f;
+  float c5_next = 64.388336f;
+  c5 = c5 * u_2 + -73.78943f;
+  c5_next = c5_next * u_2 + -23.114967f;
+  c5 = c5 * u_2 + -2.3528829f;
+  c5_next = c5_next * u_2 + 0.7636609f;
+  c5 = c5 * u_2 + 0.18383035f;
+  c5 = c5_next * u + c5;
+  float c6 = 96.98201f;
+  float c6_next = 35.170944f;
+  c6 = c6 * u_2 + 11.665798f;
+  c6_next = c6_next * u_2 + 3.6663573f;
+  c6 = c6 * u_2 + 0.41200003f;
+  c6 = c6_next * u + c6;
+  float c7 = 147.57834f;
+  float c7_next = 74.51819f;
+  c7 = c7 * u_2 + 9.0598955f;
+  c7_next = c7_next * u_2 + -6.3333564f;
+  c7 = c7 * u_2 + -1.2976484f;
+  c7 = c7_next * u + c7;
+  float c8 = -244.69637f;
+  float c8_next = -133.95627f;
+  c8 = c8 * u_2 + -50.976276f;
+  c8_next = c8_next * u_2 + -12.656847f;
+  c8 = c8 * u_2 + -1.2183876f;
+  c8 = c8_next * u + c8;
+  float c9 = 28.523756f;
+  c9 = c9 * u + 21.676752f;
+  c9 = c9 * u + 3.2360225f;
+  const float w = specular - 0.500001f;
+  float sum = c9;
   sum = sum * w + c8;
   sum = sum * w + c7;
   sum = sum * w + c6;
@@ -161,7 +185,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -176,74 +202,178 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.38551804f;
+    const float u = alpha - 0.3975267f;
     const float u_2 = u * u;
-    float c0 = -17581.29f;
-    float c0_next = -886.01f;
-    c0 = c0 * u_2 + 9274.882f;
-    c0_next = c0_next * u_2 + 1027.252f;
-    c0 = c0 * u_2 + -1877.3104f;
-    c0_next = c0_next * u_2 + -425.94287f;
-    c0 = c0 * u_2 + 155.54404f;
-    c0_next = c0_next * u_2 + 91.00239f;
-    c0 = c0 * u_2 + 5.936722f;
-    c0_next = c0_next * u_2 + -10.840381f;
-    c0 = c0 * u_2 + -3.5504332f;
-    c0_next = c0_next * u_2 + 0.554918f;
-    c0 = c0 * u_2 + 0.56879675f;
-    c0_next = c0_next * u_2 + 0.3819183f;
+    float c0 = -31.76184f;
+    float c0_next = -4.9671f;
+    c0 = c0 * u_2 + 9.806175f;
+    c0_next = c0_next * u_2 + 1.3798f;
+    c0 = c0 * u_2 + -0.9428549f;
+    c0_next = c0_next * u_2 + -0.11825526f;
+    c0 = c0 * u_2 + 0.024483897f;
+    c0_next = c0_next * u_2 + 0.0012439326f;
+    c0 = c0 * u_2 + -0.000195474f;
+    c0_next = c0_next * u_2 + 0.0014903365f;
     c0 = c0 * u + c0_next;
-    float c1 = -56934.32f;
-    float c1_next = -6130.594f;
-    c1 = c1 * u_2 + 30256.438f;
-    c1_next = c1_next * u_2 + 5028.8726f;
-    c1 = c1 * u_2 + -6222.8223f;
-    c1_next = c1_next * u_2 + -1759.5516f;
-    c1 = c1 * u_2 + 525.9286f;
-    c1_next = c1_next * u_2 + 343.6546f;
-    c1 = c1 * u_2 + 20.85457f;
-    c1_next = c1_next * u_2 + -39.18612f;
-    c1 = c1 * u_2 + -12.47643f;
-    c1_next = c1_next * u_2 + 1.978878f;
-    c1 = c1 * u_2 + 2.0069919f;
-    c1_next = c1_next * u_2 + 1.3427521f;
+    float c1 = 537.3559f;
+    float c1_next = -357.66327f;
+    c1 = c1 * u_2 + -292.08823f;
+    c1_next = c1_next * u_2 + 163.80403f;
+    c1 = c1 * u_2 + 79.27212f;
+    c1_next = c1_next * u_2 + -26.665552f;
+    c1 = c1 * u_2 + -15.013716f;
+    c1_next = c1_next * u_2 + 1.3084285f;
+    c1 = c1 * u_2 + 2.0521932f;
+    c1_next = c1_next * u_2 + 1.3675286f;
     c1 = c1 * u + c1_next;
-    float c2 = 0.015038528f;
-    c2 = c2 * u + -0.009967779f;
-    c2 = c2 * u + -0.0038250936f;
-    c2 = c2 * u + 0.0016135286f;
-    float c3 = 0.09352668f;
-    c3 = c3 * u + 0.009367872f;
-    c3 = c3 * u + -0.0154831195f;
-    float c4 = 0.20037618f;
-    c4 = c4 * u + 0.041636527f;
-    c4 = c4 * u + -0.05882606f;
-    float c5 = -1.326785f;
-    c5 = c5 * u + -0.16704264f;
-    c5 = c5 * u + 0.41480884f;
-    const float c6 = 0.5352456f;
-    const float c7 = -3.1668057f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
-    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.2833339f;
-  float sum = terms.c7[i];
-  sum = sum * w + terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.8814456f;
+  const float u_2 = u * u;
+  float c0 = 0.07184347f;
+  float c0_next = 0.003918657f;
+  c0 = c0 * u_2 + -0.0019106093f;
+  c0_next = c0_next * u_2 + -0.0019189114f;
+  c0 = c0 * u_2 + 0.0013552242f;
+  c0 = c0_next * u + c0;
+  float c1 = -16.081287f;
+  float c1_next = 4.673593f;
+  c1 = c1 * u_2 + 1.3394245f;
+  c1_next = c1_next * u_2 + -2.462667f;
+  c1 = c1 * u_2 + 1.3848904f;
+  c1 = c1_next * u + c1;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -256.1497f;
+  float c0_next = 1699.6034f;
+  c0 = c0 * u_2 + 998.9292f;
+  c0_next = c0_next * u_2 + -1541.2606f;
+  c0 = c0 * u_2 + -179.47353f;
+  c0_next = c0_next * u_2 + 450.70056f;
+  c0 = c0 * u_2 + -48.474316f;
+  c0_next = c0_next * u_2 + -51.966682f;
+  c0 = c0 * u_2 + 15.242508f;
+  c0_next = c0_next * u_2 + 2.3688006f;
+  c0 = c0 * u_2 + -1.6250784f;
+  c0_next = c0_next * u_2 + 1.1253974f;
+  c0 = c0 * u_2 + 0.6224485f;
+  c0 = c0_next * u + c0;
+  float c1 = -2552.9202f;
+  float c1_next = -8852.744f;
+  c1 = c1 * u_2 + 4193.3457f;
+  c1_next = c1_next * u_2 + 2767.9648f;
+  c1 = c1 * u_2 + -1495.2025f;
+  c1_next = c1_next * u_2 + -49.637756f;
+  c1 = c1 * u_2 + 131.85532f;
+  c1_next = c1_next * u_2 + -28.917128f;
+  c1 = c1 * u_2 + 0.28762156f;
+  c1_next = c1_next * u_2 + 0.8008851f;
+  c1 = c1 * u_2 + -1.1944591f;
+  c1_next = c1_next * u_2 + -0.20394601f;
+  c1 = c1 * u + c1_next;
+  float c2 = 20414.31f;
+  float c2_next = -5492.8887f;
+  c2 = c2 * u_2 + -9731.498f;
+  c2_next = c2_next * u_2 + 2871.3955f;
+  c2 = c2 * u_2 + 1241.9403f;
+  c2_next = c2_next * u_2 + -598.92645f;
+  c2 = c2 * u_2 + 93.30598f;
+  c2_next = c2_next * u_2 + 2.0564322f;
+  c2 = c2 * u_2 + -2.7154284f;
+  c2_next = c2_next * u_2 + 1.6416311f;
+  c2 = c2 * u_2 + 0.2607305f;
+  c2 = c2_next * u + c2;
+  float c3 = 3029.9153f;
+  float c3_next = 22027.082f;
+  c3 = c3 * u_2 + 3690.5547f;
+  c3_next = c3_next * u_2 + -7420.7324f;
+  c3 = c3 * u_2 + 2342.5435f;
+  c3_next = c3_next * u_2 + -690.74243f;
+  c3 = c3 * u_2 + 118.068054f;
+  c3_next = c3_next * u_2 + 12.074067f;
+  c3 = c3 * u_2 + -5.2694407f;
+  c3_next = c3_next * u_2 + -0.54311687f;
+  c3 = c3 * u + c3_next;
+  float c4 = -49533.53f;
+  float c4_next = -7630.189f;
+  c4 = c4 * u_2 + 975.9889f;
+  c4_next = c4_next * u_2 + -2326.7024f;
+  c4 = c4 * u_2 + 269.83902f;
+  c4_next = c4_next * u_2 + -616.2454f;
+  c4 = c4 * u_2 + 253.94672f;
+  c4_next = c4_next * u_2 + 4.9468603f;
+  c4 = c4 * u_2 + -3.0044825f;
+  c4 = c4_next * u + c4;
+  float c5 = -60860.38f;
+  float c5_next = 48518.0f;
+  c5 = c5 * u_2 + -40181.098f;
+  c5_next = c5_next * u_2 + 35621.516f;
+  c5 = c5 * u_2 + -8025.3877f;
+  c5_next = c5_next * u_2 + -1928.6824f;
+  c5 = c5 * u_2 + 330.83673f;
+  c5_next = c5_next * u_2 + 30.452112f;
+  c5 = c5 * u + c5_next;
+  float c6 = 64769.06f;
+  float c6_next = 177818.9f;
+  c6 = c6 * u_2 + -91933.31f;
+  c6_next = c6_next * u_2 + 79439.35f;
+  c6 = c6 * u_2 + -15696.441f;
+  c6_next = c6_next * u_2 + -1696.1166f;
+  c6 = c6 * u_2 + 370.81674f;
+  c6 = c6_next * u + c6;
+  float c7 = -131735.95f;
+  float c7_next = -337573.38f;
+  c7 = c7 * u_2 + -27198.83f;
+  c7_next = c7_next * u_2 + 148245.28f;
+  c7 = c7 * u_2 + -14310.592f;
+  c7_next = c7_next * u_2 + -2431.538f;
+  c7 = c7 * u + c7_next;
+  float c8 = 894457.2f;
+  float c8_next = -1703511.2f;
+  c8 = c8 * u_2 + 63735.6f;
+  c8_next = c8_next * u_2 + 127833.79f;
+  c8 = c8 * u_2 + -15285.054f;
+  c8 = c8_next * u + c8;
+  float c9 = 4454579.0f;
+  c9 = c9 * u + -3179906.0f;
+  c9 = c9 * u + 31381.916f;
+  c9 = c9 * u + 85883.75f;
+  float c10 = 7230507.0f;
+  c10 = c10 * u + -2545568.8f;
+  c10 = c10 * u + 220100.72f;
+  float c11 = 5771767.0f;
+  c11 = c11 * u + -1133781.6f;
+  const float w = specular - 0.7902405f;
+  float sum = c11;
+  sum = sum * w + c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -313,10 +443,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.7647059f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -330,6 +476,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.7850517f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.7628907f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.58048016f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -437,8 +597,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -448,13 +613,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -466,15 +720,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -482,16 +743,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -562,19 +826,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.56666666f}, {0.009977161f, 0.56736434f}, {1.1e-05f, 6.6e-05f}},
-      {{0.10387931f, 0.53125f}, {0.10539011f, 0.542498f}, {1.1e-05f, 6.6e-05f}},
-      {{0.19775862f, 0.49583334f}, {0.20845744f, 0.5342159f}, {1.1e-05f, 6.6e-05f}},
-      {{0.29163793f, 0.46041667f}, {0.32730368f, 0.54428244f}, {1.1e-05f, 6.6e-05f}},
-      {{0.38551724f, 0.425f}, {0.46763378f, 0.5721508f}, {1.1e-05f, 6.6e-05f}},
-      {{0.47939655f, 0.38958332f}, {0.6217423f, 0.5996884f}, {1.1e-05f, 6.6e-05f}},
-      {{0.57327586f, 0.35416666f}, {0.7669095f, 0.59575844f}, {1.1e-05f, 6.6e-05f}},
-      {{0.6671552f, 0.31875f}, {0.89002246f, 0.54951876f}, {1.1e-05f, 6.6e-05f}},
-      {{0.7610345f, 0.28333333f}, {0.99713653f, 0.47888342f}, {1.1e-05f, 6.6e-05f}},
-      {{0.005f, 0.28333333f}, {0.009994056f, 0.28442815f}, {1.1e-05f, 6.6e-05f}},
-      {{1.1415517f, 0.14166667f}, {0.9960412f, 0.2399616f}, {1.1e-05f, 6.6e-05f}},
-      {{0.38551724f, 0.0f}, {0.46293285f, 0.0015752879f}, {1.1e-05f, 6.5e-05f}},
-      {{0.38551724f, 1.1333333f}, {0.4676535f, 1.5247083f}, {1.1e-05f, 0.00014f}},
+      {{0.01f, 1.0f}, {0.009940315f, 1.0f}, {0.00012f, 0.00011f}},
+      {{0.13375f, 0.9375f}, {0.13700272f, 0.96887755f}, {0.00012f, 0.00011f}},
+      {{0.2575f, 0.875f}, {0.2817514f, 0.9937566f}, {0.00012f, 0.00011f}},
+      {{0.38125f, 0.8125f}, {0.4573273f, 1.0f}, {0.00012f, 0.00011f}},
+      {{0.505f, 0.75f}, {0.6311012f, 1.0f}, {0.00012f, 0.00011f}},
+      {{0.62875f, 0.6875f}, {0.7840583f, 1.0f}, {0.00012f, 0.00011f}},
+      {{0.7525f, 0.625f}, {0.9578924f, 1.0f}, {0.00012f, 0.00011f}},
+      {{0.87625f, 0.5625f}, {1.0f, 0.78757346f}, {0.00012f, 0.00011f}},
+      {{1.0f, 0.5f}, {1.0f, 0.5593316f}, {0.00012f, 0.00011f}},
+      {{0.005f, 0.5f}, {0.010002233f, 0.50077295f}, {0.00012f, 0.00011f}},
+      {{1.5f, 0.25f}, {1.0f, 0.28022707f}, {0.00012f, 0.00011f}},
+      {{0.505f, 0.0f}, {0.6559998f, 0.0015150362f}, {0.00012f, 0.00011f}},
+      {{0.505f, 2.0f}, {0.58812875f, 2.0f}, {0.00012f, 0.00022f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_mitsuba_as.csv, sha256 f491e2284df0fdce67454dd192157c06878192a5135cf2b03a694ae5f17f13ee;
+// Table mitsuba_beckmann_to_mitsuba_as.csv, sha256 19c2caae6a4caec8c562041c75723358c9ae8ee55041e05212f19c9b57747a99;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 696 rows trained, 174 held out.
-// Error on the rows held out: alpha rms 0.00016, 99 % 0.00049, max 0.00069;
-// f0 rms 8.9e-05, 99 % 0.00024, max 0.00025.
-// Lowered from the fit. Target alpha: degree 6, proven within 3e-07 (sampled 1.9e-08), rising with alpha.
-// Target specular: degree 6, proven within 8e-05 (sampled 7.3e-05), rising with specular.
-// Covers alpha 0.01 to 1, f0 0 to 0.966666667.
+// Fit: series, seed 1, 771 rows trained, 193 held out.
+// Error on the rows held out: alpha rms 0.00014, 99 % 0.00082, max 0.00097;
+// f0 rms 5.7e-05, 99 % 0.00017, max 0.00018.
+// Lowered from the fit. Target alpha: degree 8, proven within 3.2e-07 (sampled 2.3e-08), rising with alpha.
+// Target specular: degree 12 in alpha / (alpha + 0.3), proven within 9.7e-05 (sampled 9.6e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 6, 4 in specular, proven within 7e-05 (sampled 6.3e-05).
+// All together within 7.5e-05 in alpha, 9.7e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_AS_HPP
 
@@ -36,11 +38,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00016f;
-inline constexpr float kSpecularRmsError = 8.9e-05f;
+inline constexpr float kAlphaRmsError = 0.00014f;
+inline constexpr float kSpecularRmsError = 5.7e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.15f;
+inline constexpr float kImageRmsError = 0.14f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{1.0f, 0.96666664f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,33 +76,122 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
+inline float target_alpha(float alpha, float) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = 0.4123846f;
-  float c0_next = -0.2518641f;
-  c0 = c0 * u_2 + -0.01598229f;
-  c0_next = c0_next * u_2 + 0.21934128f;
-  c0 = c0 * u_2 + -0.16123539f;
-  c0_next = c0_next * u_2 + 0.81220144f;
-  c0 = c0 * u_2 + 0.46545756f;
+  float c0 = -2.6808193f;
+  float c0_next = 0.4635551f;
+  c0 = c0 * u_2 + 1.7611371f;
+  c0_next = c0_next * u_2 + -0.46180022f;
+  c0 = c0 * u_2 + -0.22439444f;
+  c0_next = c0_next * u_2 + 0.24587345f;
+  c0 = c0 * u_2 + -0.15120274f;
+  c0_next = c0_next * u_2 + 0.8113827f;
+  c0 = c0 * u_2 + 0.4653835f;
   c0 = c0_next * u + c0;
   return c0;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float t = alpha / (alpha + 0.3f);
+    const float u = t - 0.40074456f;
+    const float u_2 = u * u;
+    float c0 = 6113.187f;
+    float c0_next = 11.262252f;
+    c0 = c0 * u_2 + -2476.9773f;
+    c0_next = c0_next * u_2 + -0.0993525f;
+    c0 = c0 * u_2 + 376.76175f;
+    c0_next = c0_next * u_2 + -0.50531125f;
+    c0 = c0 * u_2 + -26.424967f;
+    c0_next = c0_next * u_2 + 0.067637034f;
+    c0 = c0 * u_2 + 0.8362563f;
+    c0_next = c0_next * u_2 + -0.0036372314f;
+    c0 = c0 * u_2 + -0.009533932f;
+    c0_next = c0_next * u_2 + 0.00012117973f;
+    c0 = c0 * u_2 + 2.700189e-05f;
+    c0 = c0_next * u + c0;
+    float c1 = 3939.392f;
+    float c1_next = 1508.816f;
+    c1 = c1 * u_2 + -849.15576f;
+    c1_next = c1_next * u_2 + -278.28214f;
+    c1 = c1 * u_2 + 78.46936f;
+    c1_next = c1_next * u_2 + 7.71257f;
+    c1 = c1 * u_2 + -12.209579f;
+    c1_next = c1_next * u_2 + -2.9571478f;
+    c1 = c1 * u_2 + -0.07588872f;
+    c1_next = c1_next * u_2 + 0.13490258f;
+    c1 = c1 * u_2 + 0.050976664f;
+    c1_next = c1_next * u_2 + 1.0068437f;
+    c1 = c1 * u + c1_next;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c1 = -0.80012643f;
-  float c1_next = -0.14686485f;
-  c1 = c1 * u_2 + 0.90757364f;
-  c1_next = c1_next * u_2 + 0.075322755f;
-  c1 = c1 * u_2 + -0.3588835f;
-  c1_next = c1_next * u_2 + -0.08055304f;
-  c1 = c1 * u_2 + 1.0104152f;
-  c1 = c1_next * u + c1;
-  return c1;
+  float c0 = -1.9347055f;
+  float c0_next = -4.5094104f;
+  c0 = c0 * u_2 + -1.5679772f;
+  c0_next = c0_next * u_2 + 0.17054439f;
+  c0 = c0 * u_2 + -0.13482627f;
+  c0_next = c0_next * u_2 + 0.8114889f;
+  c0 = c0 * u_2 + 0.4653723f;
+  c0 = c0_next * u + c0;
+  float c1 = 340.2744f;
+  float c1_next = 185.23134f;
+  c1 = c1 * u_2 + 36.202198f;
+  c1_next = c1_next * u_2 + 2.3400178f;
+  c1 = c1 * u_2 + -0.23576918f;
+  c1_next = c1_next * u_2 + -0.026109453f;
+  c1 = c1 * u + c1_next;
+  float c2 = 5922.389f;
+  float c2_next = 6237.817f;
+  c2 = c2 * u_2 + 1925.2781f;
+  c2_next = c2_next * u_2 + 114.21594f;
+  c2 = c2 * u_2 + -8.543644f;
+  c2 = c2_next * u + c2;
+  float c3 = -637169.94f;
+  c3 = c3 * u + -207628.22f;
+  c3 = c3 * u + -21142.775f;
+  c3 = c3 * u + -274.15726f;
+  float c4 = -9616754.0f;
+  c4 = c4 * u + 23674.617f;
+  c4 = c4 * u + 231861.34f;
+  const float w = specular - 0.99254245f;
+  float sum = c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -169,14 +260,53 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.0344828f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.9850849f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -187,20 +317,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, held at 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float held, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(held) & 0x7fffffffu));
+  return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -209,16 +366,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const HeldWidth held = held_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(held.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), held.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), held.nan));
-    store(block.outside + i, held.outside);
+    const HeldWidth held = held_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(held.own));
+    store(block.scale + i, with_nan(1.0f, held.nan));
+    store(block.outside + i, held.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -228,18 +406,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, held_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -310,19 +643,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.96666664f}, {0.009898686f, 0.9669152f}, {7.8e-07f, 8.1e-05f}},
-      {{0.13375f, 0.90625f}, {0.13303326f, 0.90913296f}, {8.4e-07f, 8.1e-05f}},
-      {{0.2575f, 0.8458333f}, {0.25150335f, 0.85474753f}, {9e-07f, 8.1e-05f}},
-      {{0.38125f, 0.78541666f}, {0.36206692f, 0.7972127f}, {9.5e-07f, 8.1e-05f}},
-      {{0.505f, 0.72499996f}, {0.4654567f, 0.7325626f}, {1e-06f, 8.1e-05f}},
-      {{0.62875f, 0.6645833f}, {0.5639036f, 0.6614104f}, {1.1e-06f, 8.1e-05f}},
-      {{0.7525f, 0.6041666f}, {0.65972626f, 0.587704f}, {1.1e-06f, 8.1e-05f}},
-      {{0.87625f, 0.54375f}, {0.7549872f, 0.5160407f}, {1.2e-06f, 8.1e-05f}},
-      {{1.0f, 0.48333332f}, {0.85221493f, 0.44958177f}, {1.2e-06f, 8.1e-05f}},
-      {{0.005f, 0.48333332f}, {0.009898686f, 0.4834576f}, {7.8e-07f, 8.1e-05f}},
-      {{1.5f, 0.24166666f}, {0.85221493f, 0.22479089f}, {1.2e-06f, 8.1e-05f}},
-      {{0.505f, 0.0f}, {0.4654567f, 0.0f}, {1e-06f, 8e-05f}},
-      {{0.505f, 1.9333333f}, {0.4654567f, 1.9535003f}, {1e-06f, 0.00017f}},
+      {{0.01f, 1.0f}, {0.009999168f, 0.9999545f}, {7.5e-05f, 9.7e-05f}},
+      {{0.13375f, 0.9375f}, {0.13292316f, 0.9404884f}, {7.6e-05f, 9.7e-05f}},
+      {{0.2575f, 0.875f}, {0.25150308f, 0.8841189f}, {7.6e-05f, 9.7e-05f}},
+      {{0.38125f, 0.8125f}, {0.36215925f, 0.82479006f}, {7.6e-05f, 9.7e-05f}},
+      {{0.505f, 0.75f}, {0.46538264f, 0.7578369f}, {7.6e-05f, 9.7e-05f}},
+      {{0.62875f, 0.6875f}, {0.5638821f, 0.68415064f}, {7.6e-05f, 9.7e-05f}},
+      {{0.7525f, 0.625f}, {0.659788f, 0.60799783f}, {7.6e-05f, 9.7e-05f}},
+      {{0.87625f, 0.5625f}, {0.7549244f, 0.5338397f}, {7.6e-05f, 9.7e-05f}},
+      {{1.0f, 0.5f}, {0.852214f, 0.46515247f}, {7.6e-05f, 9.7e-05f}},
+      {{0.005f, 0.5f}, {0.009999168f, 0.49997678f}, {7.5e-05f, 9.7e-05f}},
+      {{1.5f, 0.25f}, {0.852214f, 0.23260857f}, {7.6e-05f, 9.7e-05f}},
+      {{0.505f, 0.0f}, {0.46538264f, 2.3147362e-05f}, {7.6e-05f, 9.7e-05f}},
+      {{0.505f, 2.0f}, {0.46533266f, 2.0f}, {7.6e-05f, 2e-04f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

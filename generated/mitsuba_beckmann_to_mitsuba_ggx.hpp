@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_mitsuba_ggx.csv, sha256 7cbaf97d7d44f26ce37660002bae3726e140f6be58d5e263a63436703c6930a0;
+// Table mitsuba_beckmann_to_mitsuba_ggx.csv, sha256 9c6a4cb546edc484bbc91b69c1218daad29bffe4aba047a5427e397f7442f008;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 358 rows trained, 90 held out.
-// Error on the rows held out: alpha rms 0.00023, 99 % 0.00095, max 0.00095;
-// f0 rms 0.00019, 99 % 0.00042, max 0.00042.
-// Lowered from the fit. Target alpha: degree 6, proven within 3.9e-07 (sampled 9.5e-09), rising with alpha.
-// Target specular: degree 6, proven within 3.1e-05 (sampled 2.9e-05), rising with specular.
-// Covers alpha 0.01 to 0.931724138, f0 0 to 0.533333333.
+// Fit: series, seed 1, 814 rows trained, 204 held out.
+// Error on the rows held out: alpha rms 8.9e-05, 99 % 0.00036, max 0.00051;
+// f0 rms 0.00013, 99 % 0.00042, max 0.00068.
+// Lowered from the fit. Target alpha: degree 8, 4 in specular, proven within 8.6e-06 (sampled 7.4e-06), rising with alpha.
+// Target specular: degree 9, proven within 1e-04 (sampled 9.2e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 1, proven within 5.7e-05 (sampled 5.1e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 13 in alpha / (alpha + 1), 9 in specular, proven within 9.4e-05 (sampled 7e-05).
+// All together within 2e-04 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00023f;
-inline constexpr float kSpecularRmsError = 0.00019f;
+inline constexpr float kAlphaRmsError = 8.9e-05f;
+inline constexpr float kSpecularRmsError = 0.00013f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.37f;
+inline constexpr float kImageRmsError = 0.36f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.93172413f, 0.53333336f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,33 +77,234 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
-  const float u = alpha - 0.47086304f;
+inline float target_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.48788524f;
   const float u_2 = u * u;
-  float c0 = 0.9113442f;
-  float c0_next = -0.28049347f;
-  c0 = c0 * u_2 + -0.90030414f;
-  c0_next = c0_next * u_2 + 0.34904775f;
-  c0 = c0 * u_2 + 0.5796188f;
-  c0_next = c0_next * u_2 + 0.9707137f;
-  c0 = c0 * u_2 + 0.3928349f;
+  float c0 = 5.331501f;
+  float c0_next = -0.16595723f;
+  c0 = c0 * u_2 + -1.5846356f;
+  c0_next = c0_next * u_2 + -0.087604485f;
+  c0 = c0 * u_2 + -0.55756587f;
+  c0_next = c0_next * u_2 + 0.27421793f;
+  c0 = c0 * u_2 + 0.58115697f;
+  c0_next = c0_next * u_2 + 0.9914391f;
+  c0 = c0 * u_2 + 0.4095249f;
   c0 = c0_next * u + c0;
-  return c0;
+  float c1 = 0.08020795f;
+  float c1_next = 0.033865936f;
+  c1 = c1 * u_2 + -0.027155252f;
+  c1_next = c1_next * u_2 + -0.01405857f;
+  c1 = c1 * u_2 + -0.000577706f;
+  c1_next = c1_next * u_2 + 0.00055521005f;
+  c1 = c1 * u_2 + 0.00015733248f;
+  c1 = c1_next * u + c1;
+  float c2 = -0.29436696f;
+  float c2_next = -0.10556831f;
+  c2 = c2 * u_2 + 0.11437285f;
+  c2_next = c2_next * u_2 + 0.040776122f;
+  c2 = c2 * u_2 + -0.001627137f;
+  c2_next = c2_next * u_2 + -0.000702375f;
+  c2 = c2 * u_2 + -0.000455257f;
+  c2 = c2_next * u + c2;
+  float c3 = -0.04310082f;
+  float c3_next = 0.06835945f;
+  c3 = c3 * u_2 + 0.07297604f;
+  c3_next = c3_next * u_2 + 0.005368132f;
+  c3 = c3 * u_2 + -0.0043508783f;
+  c3 = c3_next * u + c3;
+  float c4 = -0.15724365f;
+  c4 = c4 * u + -0.14687784f;
+  c4 = c4 * u + -0.013463442f;
+  c4 = c4 * u + 0.009355886f;
+  const float w = specular - 0.500001f;
+  float sum = c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float u = alpha - 0.47086304f;
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float u = alpha - 0.48788524f;
+    const float u_2 = u * u;
+    float c0 = 15.107396f;
+    float c0_next = 0.29104826f;
+    c0 = c0 * u_2 + -7.6670485f;
+    c0_next = c0_next * u_2 + -0.13114601f;
+    c0 = c0 * u_2 + 1.2944752f;
+    c0_next = c0_next * u_2 + 0.018309878f;
+    c0 = c0 * u_2 + -0.08229883f;
+    c0_next = c0_next * u_2 + -0.00069650944f;
+    c0 = c0 * u_2 + 0.0021018418f;
+    c0_next = c0_next * u_2 + 0.00025214575f;
+    c0 = c0 * u + c0_next;
+    float c1 = 12.917407f;
+    float c1_next = -0.4127307f;
+    c1 = c1 * u_2 + -9.0892105f;
+    c1_next = c1_next * u_2 + 2.8035653f;
+    c1 = c1 * u_2 + 0.29688975f;
+    c1_next = c1_next * u_2 + -0.4853557f;
+    c1 = c1 * u_2 + 1.7030343f;
+    c1_next = c1_next * u_2 + 0.8335386f;
+    c1 = c1 * u_2 + 1.1197053f;
+    c1 = c1_next * u + c1;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9795875f;
+  float c0 = -0.0029770506f;
+  c0 = c0 * u + 0.0008136785f;
+  float c1 = -2.2004492f;
+  c1 = c1 * u + 1.8045123f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c1 = -3.4544828f;
-  float c1_next = 2.927268f;
-  c1 = c1 * u_2 + -0.71740216f;
-  c1_next = c1_next * u_2 + -0.41838586f;
-  c1 = c1 * u_2 + 1.7613285f;
-  c1_next = c1_next * u_2 + 0.77508175f;
-  c1 = c1 * u_2 + 1.1063945f;
-  c1 = c1_next * u + c1;
-  return c1;
+  float c0 = 5161464.0f;
+  float c0_next = 1609881.0f;
+  c0 = c0 * u_2 + -613979.1f;
+  c0_next = c0_next * u_2 + -310246.34f;
+  c0 = c0 * u_2 + -27569.717f;
+  c0_next = c0_next * u_2 + 15201.046f;
+  c0 = c0 * u_2 + 7879.7563f;
+  c0_next = c0_next * u_2 + 830.30145f;
+  c0 = c0 * u_2 + -509.49088f;
+  c0_next = c0_next * u_2 + -102.94454f;
+  c0 = c0 * u_2 + 15.484913f;
+  c0_next = c0_next * u_2 + 6.3975024f;
+  c0 = c0 * u_2 + 1.2436352f;
+  c0_next = c0_next * u_2 + 0.29759377f;
+  c0 = c0 * u + c0_next;
+  float c1 = 412822.38f;
+  float c1_next = 799133.5f;
+  c1 = c1 * u_2 + 185816.89f;
+  c1_next = c1_next * u_2 + -108334.41f;
+  c1 = c1 * u_2 + -48828.656f;
+  c1_next = c1_next * u_2 + 1447.586f;
+  c1 = c1 * u_2 + 4825.3535f;
+  c1_next = c1_next * u_2 + 218.73727f;
+  c1 = c1 * u_2 + -196.7837f;
+  c1_next = c1_next * u_2 + -17.884626f;
+  c1 = c1 * u_2 + 4.865801f;
+  c1_next = c1_next * u_2 + -0.40274894f;
+  c1 = c1 * u + c1_next;
+  float c2 = -9997380.0f;
+  float c2_next = -4844950.5f;
+  c2 = c2 * u_2 + 1089547.4f;
+  c2_next = c2_next * u_2 + 923145.94f;
+  c2 = c2 * u_2 + 71060.88f;
+  c2_next = c2_next * u_2 + -64764.2f;
+  c2 = c2 * u_2 + -20077.422f;
+  c2_next = c2_next * u_2 + 3495.3933f;
+  c2 = c2 * u_2 + 1110.2391f;
+  c2_next = c2_next * u_2 + -159.33661f;
+  c2 = c2 * u_2 + -11.434316f;
+  c2_next = c2_next * u_2 + 2.1641588f;
+  c2 = c2 * u + c2_next;
+  float c3 = 34627476.0f;
+  float c3_next = 95977.78f;
+  c3 = c3 * u_2 + -8889829.0f;
+  c3_next = c3_next * u_2 + -1332845.8f;
+  c3 = c3 * u_2 + 638118.94f;
+  c3_next = c3_next * u_2 + 239770.0f;
+  c3 = c3 * u_2 + 9880.77f;
+  c3_next = c3_next * u_2 + -21970.45f;
+  c3 = c3 * u_2 + -2264.0198f;
+  c3_next = c3_next * u_2 + 1366.7341f;
+  c3 = c3 * u_2 + -95.96922f;
+  c3_next = c3_next * u_2 + -2.240109f;
+  c3 = c3 * u + c3_next;
+  float c4 = 47530144.0f;
+  float c4_next = 12322539.0f;
+  c4 = c4 * u_2 + -5045938.0f;
+  c4_next = c4_next * u_2 + -1702114.4f;
+  c4 = c4 * u_2 + -24190.016f;
+  c4_next = c4_next * u_2 + 64102.88f;
+  c4 = c4 * u_2 + 28206.664f;
+  c4_next = c4_next * u_2 + 186.33717f;
+  c4 = c4 * u_2 + -1551.0183f;
+  c4_next = c4_next * u_2 + -22.664827f;
+  c4 = c4 * u_2 + 23.89265f;
+  c4 = c4_next * u + c4;
+  float c5 = -579418.8f;
+  float c5_next = -101844.18f;
+  c5 = c5 * u_2 + 104098.664f;
+  c5_next = c5_next * u_2 + 31278.975f;
+  c5 = c5 * u_2 + -2289.2268f;
+  c5_next = c5_next * u_2 + -11269.183f;
+  c5 = c5 * u_2 + 3614.2102f;
+  c5_next = c5_next * u_2 + -326.91345f;
+  c5 = c5 * u + c5_next;
+  float c6 = -194951.33f;
+  float c6_next = -85908.76f;
+  c6 = c6 * u_2 + -2782.0645f;
+  c6_next = c6_next * u_2 + 24089.166f;
+  c6 = c6 * u_2 + -6404.8438f;
+  c6_next = c6_next * u_2 + 623.957f;
+  c6 = c6 * u + c6_next;
+  float c7 = 271344.4f;
+  float c7_next = 114965.766f;
+  c7 = c7 * u_2 + 15089.897f;
+  c7_next = c7_next * u_2 + -32562.059f;
+  c7 = c7 * u_2 + 4455.248f;
+  c7 = c7_next * u + c7;
+  float c8 = -699757.7f;
+  float c8_next = -276486.1f;
+  c8 = c8 * u_2 + 8613.148f;
+  c8_next = c8_next * u_2 + 109114.18f;
+  c8 = c8 * u_2 + -20473.613f;
+  c8 = c8_next * u + c8;
+  float c9 = -106053.08f;
+  c9 = c9 * u + -76816.7f;
+  c9 = c9 * u + 24279.793f;
+  const float w = specular - 0.7734217f;
+  float sum = c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -169,14 +373,53 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.8749999f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.9657684f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.9591749f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.54684246f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -187,20 +430,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, held at 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float held, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(held) & 0x7fffffffu));
+  return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -209,16 +479,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const HeldWidth held = held_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(held.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), held.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), held.nan));
-    store(block.outside + i, held.outside);
+    const HeldWidth held = held_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(held.own));
+    store(block.scale + i, with_nan(1.0f, held.nan));
+    store(block.outside + i, held.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -228,18 +519,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, held_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -310,19 +756,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.53333336f}, {0.008359771f, 0.5535705f}, {8.7e-07f, 3.2e-05f}},
-      {{0.12521552f, 0.5f}, {0.10223182f, 0.51782846f}, {9.2e-07f, 3.2e-05f}},
-      {{0.24043103f, 0.4666667f}, {0.19343796f, 0.47691512f}, {9.6e-07f, 3.2e-05f}},
-      {{0.35564655f, 0.43333337f}, {0.28800234f, 0.45106545f}, {1e-06f, 3.2e-05f}},
-      {{0.47086206f, 0.40000004f}, {0.39283395f, 0.44257435f}, {1.1e-06f, 3.2e-05f}},
-      {{0.5860776f, 0.36666667f}, {0.5127409f, 0.44671834f}, {1.2e-06f, 3.2e-05f}},
-      {{0.7012931f, 0.33333334f}, {0.6489797f, 0.45758504f}, {1.2e-06f, 3.2e-05f}},
-      {{0.8165086f, 0.3f}, {0.79933906f, 0.469739f}, {1.3e-06f, 3.2e-05f}},
-      {{0.93172413f, 0.26666668f}, {0.95975906f, 0.47791716f}, {1.4e-06f, 3.2e-05f}},
-      {{0.005f, 0.26666668f}, {0.008359771f, 0.27678525f}, {8.7e-07f, 3.2e-05f}},
-      {{1.3975862f, 0.13333334f}, {0.95975906f, 0.23895858f}, {1.4e-06f, 3.2e-05f}},
-      {{0.47086206f, 0.0f}, {0.39283395f, 0.0f}, {1.1e-06f, 3.1e-05f}},
-      {{0.47086206f, 1.0666667f}, {0.39283395f, 1.1801982f}, {1.1e-06f, 6.3e-05f}},
+      {{0.01f, 1.0f}, {0.00822445f, 1.0f}, {2e-04f, 0.00011f}},
+      {{0.13375f, 0.9375f}, {0.10913172f, 0.9695546f}, {2e-04f, 0.00011f}},
+      {{0.2575f, 0.875f}, {0.20685138f, 0.8942777f}, {2e-04f, 0.00011f}},
+      {{0.38125f, 0.8125f}, {0.3099551f, 0.85379595f}, {2e-04f, 0.00011f}},
+      {{0.505f, 0.75f}, {0.42664367f, 0.8511685f}, {2e-04f, 0.00011f}},
+      {{0.62875f, 0.6875f}, {0.5612544f, 0.87332636f}, {2e-04f, 0.00011f}},
+      {{0.7525f, 0.625f}, {0.71436995f, 0.9083519f}, {2e-04f, 0.00011f}},
+      {{0.87625f, 0.5625f}, {0.88189626f, 0.94456184f}, {2e-04f, 0.00011f}},
+      {{1.0f, 0.5f}, {1.0f, 0.8806013f}, {2e-04f, 0.00011f}},
+      {{0.005f, 0.5f}, {0.008206261f, 0.51902544f}, {2e-04f, 0.00011f}},
+      {{1.5f, 0.25f}, {1.0f, 0.44068736f}, {2e-04f, 0.00011f}},
+      {{0.505f, 0.0f}, {0.4275661f, 0.00028394698f}, {2e-04f, 0.00011f}},
+      {{0.505f, 2.0f}, {0.41563052f, 2.0f}, {2e-04f, 0.00022f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_mitsuba_phong.csv, sha256 54ac4d15ea5da0b7ef02d278e234a46153a2a3ffe7306e40c5c9538bbd3aeff1;
+// Table mitsuba_beckmann_to_mitsuba_phong.csv, sha256 bfc06c110b6e22f5efc3003c36eaa089baaa6da0854e9b616b01f13e82d10f8e;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 442 rows trained, 110 held out.
-// Error on the rows held out: alpha rms 1.6e-05, 99 % 3.8e-05, max 4.1e-05;
-// specular rms 2.1e-05, 99 % 9.5e-05, max 9.6e-05.
-// Lowered from the fit. Target alpha: degree 13, 10 in specular, proven within 1e-05 (sampled 8.6e-06), rising with alpha.
-// Target specular: degree 11, 2 in specular, proven within 9.5e-05 (sampled 9.2e-05), rising with specular.
-// Covers alpha 0.01 to 0.795172414, f0 0 to 0.766666667.
+// Fit: series, seed 1, 780 rows trained, 195 held out.
+// Error on the rows held out: alpha rms 0.00028, 99 % 0.0012, max 0.0023;
+// specular rms 4.5e-05, 99 % 0.00014, max 0.00015.
+// Lowered from the fit. Target alpha: degree 5, proven within 4e-06 (sampled 3.2e-06), rising with alpha.
+// Target specular: degree 10 in alpha / (alpha + 1), proven within 8.1e-05 (sampled 7.5e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 3 in alpha / (alpha + 0.1), proven within 1e-04 (sampled 9.1e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 8, 7 in specular, proven within 8.9e-05 (sampled 7.9e-05).
+// All together within 0.00012 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_PHONG_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "exponent";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.6e-05f;
-inline constexpr float kSpecularRmsError = 2.1e-05f;
+inline constexpr float kAlphaRmsError = 0.00028f;
+inline constexpr float kSpecularRmsError = 4.5e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.3f;
+inline constexpr float kImageRmsError = 0.31f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.7951724f, 0.76666665f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,94 +77,25 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.40258706f;
+inline float target_alpha(float alpha, float) noexcept {
+  const float u = alpha - 0.4169755f;
   const float u_2 = u * u;
-  float c0 = -1438.1212f;
-  float c0_next = 593.7682f;
-  c0 = c0 * u_2 + 721.7394f;
-  c0_next = c0_next * u_2 + -355.1922f;
-  c0 = c0 * u_2 + -125.977356f;
-  c0_next = c0_next * u_2 + 88.62938f;
-  c0 = c0 * u_2 + 2.9952548f;
-  c0_next = c0_next * u_2 + -11.653279f;
-  c0 = c0 * u_2 + 3.1592767f;
-  c0_next = c0_next * u_2 + 1.2714401f;
-  c0 = c0 * u_2 + -1.2662163f;
-  c0_next = c0_next * u_2 + -0.93307525f;
-  c0 = c0 * u_2 + 1.3810759f;
-  c0_next = c0_next * u_2 + 0.6341912f;
+  float c0 = 1.5575793f;
+  float c0_next = 0.5350943f;
+  c0 = c0 * u_2 + -1.0807145f;
+  c0_next = c0_next * u_2 + -0.95034206f;
+  c0 = c0 * u_2 + 1.3508463f;
+  c0_next = c0_next * u_2 + 0.65352553f;
   c0 = c0 * u + c0_next;
-  float c1 = 0.31778276f;
-  float c1_next = 0.0037379474f;
-  c1 = c1 * u_2 + -0.08995156f;
-  c1_next = c1_next * u_2 + 0.0014896251f;
-  c1 = c1 * u_2 + 0.0011468158f;
-  c1_next = c1_next * u_2 + -0.0016639715f;
-  c1 = c1 * u_2 + 0.0009280055f;
-  c1_next = c1_next * u_2 + 0.00022877788f;
-  c1 = c1 * u + c1_next;
-  float c2 = 1.4667205f;
-  float c2_next = 0.10450541f;
-  c2 = c2 * u_2 + -0.24610423f;
-  c2_next = c2_next * u_2 + -0.03517872f;
-  c2 = c2 * u_2 + -0.011839313f;
-  c2_next = c2_next * u_2 + 0.0107198255f;
-  c2 = c2 * u_2 + -0.0033297113f;
-  c2_next = c2_next * u_2 + -0.0011653751f;
-  c2 = c2 * u + c2_next;
-  float c3 = 0.5429087f;
-  float c3_next = -0.059467617f;
-  c3 = c3 * u_2 + 0.02378751f;
-  c3_next = c3_next * u_2 + 0.019911066f;
-  c3 = c3 * u_2 + 0.035224453f;
-  c3_next = c3_next * u_2 + 0.014060447f;
-  c3 = c3 * u + c3_next;
-  float c4 = -2.4294283f;
-  float c4_next = -0.19757427f;
-  c4 = c4 * u_2 + 0.61570764f;
-  c4_next = c4_next * u_2 + -0.14641222f;
-  c4 = c4 * u_2 + -0.04253753f;
-  c4_next = c4_next * u_2 + -0.030486763f;
-  c4 = c4 * u + c4_next;
-  float c5 = 1.2945544f;
-  float c5_next = -2.2388372f;
-  c5 = c5 * u_2 + -0.0717514f;
-  c5_next = c5_next * u_2 + -0.8370856f;
-  c5 = c5 * u_2 + -0.29064056f;
-  c5 = c5_next * u + c5;
-  float c6 = 3.7348785f;
-  c6 = c6 * u + 1.6078403f;
-  c6 = c6 * u + 1.7858337f;
-  c6 = c6 * u + 0.9955735f;
-  float c7 = -3.0675292f;
-  c7 = c7 * u + 10.015137f;
-  c7 = c7 * u + 2.2895572f;
-  float c8 = -29.57389f;
-  c8 = c8 * u + -10.417498f;
-  float c9 = -16.271366f;
-  c9 = c9 * u + 0.5531331f;
-  float c10 = 71.20671f;
-  c10 = c10 * u + 18.072334f;
-  const float w = specular - 0.3833341f;
-  float sum = c10;
-  sum = sum * w + c9;
-  sum = sum * w + c8;
-  sum = sum * w + c7;
-  sum = sum * w + c6;
-  sum = sum * w + c5;
-  sum = sum * w + c4;
-  sum = sum * w + c3;
-  sum = sum * w + c2;
-  sum = sum * w + c1;
-  sum = sum * w + c0;
-  return sum;
+  return c0;
 }
 
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -176,46 +110,122 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.40258706f;
+    const float t = alpha / (alpha + 1.0f);
+    const float u = t - 0.23082031f;
     const float u_2 = u * u;
-    float c0 = -594.7967f;
-    float c0_next = -64.09533f;
-    c0 = c0 * u_2 + 364.5083f;
-    c0_next = c0_next * u_2 + 11.260225f;
-    c0 = c0 * u_2 + -87.0774f;
-    c0_next = c0_next * u_2 + -0.6089613f;
-    c0 = c0 * u_2 + 12.082778f;
-    c0_next = c0_next * u_2 + 0.79685557f;
-    c0 = c0 * u_2 + -1.3350198f;
-    c0_next = c0_next * u_2 + -0.5244839f;
-    c0 = c0 * u_2 + -0.08493164f;
-    c0_next = c0_next * u_2 + 0.47620702f;
-    c0 = c0 * u + c0_next;
-    float c1 = -1600.2073f;
-    float c1_next = -111.46201f;
-    c1 = c1 * u_2 + 947.6902f;
-    c1_next = c1_next * u_2 + 13.238567f;
-    c1 = c1 * u_2 + -221.93793f;
-    c1_next = c1_next * u_2 + -0.36154237f;
-    c1 = c1 * u_2 + 30.700611f;
-    c1_next = c1_next * u_2 + 2.0758421f;
-    c1 = c1 * u_2 + -3.437486f;
-    c1_next = c1_next * u_2 + -1.3672178f;
-    c1 = c1 * u_2 + -0.21926215f;
-    c1_next = c1_next * u_2 + 1.2382983f;
-    c1 = c1 * u + c1_next;
-    const float c2 = 9.013695e-05f;
+    float c0 = 12598.306f;
+    float c0_next = 802.23254f;
+    c0 = c0 * u_2 + -1711.8032f;
+    c0_next = c0_next * u_2 + -69.84709f;
+    c0 = c0 * u_2 + 82.38435f;
+    c0_next = c0_next * u_2 + 1.7210212f;
+    c0 = c0 * u_2 + -1.6399101f;
+    c0_next = c0_next * u_2 + -0.014745616f;
+    c0 = c0 * u_2 + 0.0060012233f;
+    c0_next = c0_next * u_2 + -0.0018284043f;
+    c0 = c0 * u_2 + 0.0016296678f;
+    c0 = c0_next * u + c0;
+    float c1 = -154394.61f;
+    float c1_next = -59781.19f;
+    c1 = c1 * u_2 + 12551.859f;
+    c1_next = c1_next * u_2 + 8593.852f;
+    c1 = c1 * u_2 + 557.24567f;
+    c1_next = c1_next * u_2 + -328.4212f;
+    c1 = c1 * u_2 + -90.87865f;
+    c1_next = c1_next * u_2 + -13.72588f;
+    c1 = c1 * u_2 + -1.4641328f;
+    c1_next = c1_next * u_2 + -0.06535689f;
+    c1 = c1 * u_2 + 1.2500923f;
+    c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.3833341f;
-  float sum = terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 0.1f);
+  const float u = t - 0.8996859f;
+  float c0 = -31.287867f;
+  c0 = c0 * u + -0.103599034f;
+  c0 = c0 * u + -0.0076931077f;
+  c0 = c0 * u + 0.0008329101f;
+  float c1 = 5138.801f;
+  c1 = c1 * u + -164.13531f;
+  c1 = c1 * u + -12.245783f;
+  c1 = c1 * u + 0.7854186f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -30.179674f;
+  float c0_next = -51.633575f;
+  c0 = c0 * u_2 + -26.453632f;
+  c0_next = c0_next * u_2 + 0.96323127f;
+  c0 = c0 * u_2 + 4.0253835f;
+  c0_next = c0_next * u_2 + -0.4545765f;
+  c0 = c0 * u_2 + -1.4099404f;
+  c0_next = c0_next * u_2 + 1.1202692f;
+  c0 = c0 * u_2 + 0.7705499f;
+  c0 = c0_next * u + c0;
+  float c1 = -35.670937f;
+  float c1_next = -44.601162f;
+  c1 = c1 * u_2 + -12.951971f;
+  c1_next = c1_next * u_2 + 2.348807f;
+  c1 = c1 * u_2 + 0.7219435f;
+  c1_next = c1_next * u_2 + -0.511857f;
+  c1 = c1 * u_2 + -0.007584758f;
+  c1_next = c1_next * u_2 + 0.08521801f;
+  c1 = c1 * u + c1_next;
+  float c2 = -49.86706f;
+  float c2_next = -85.441055f;
+  c2 = c2 * u_2 + -52.44687f;
+  c2_next = c2_next * u_2 + -11.55856f;
+  c2 = c2 * u_2 + -0.39912507f;
+  c2_next = c2_next * u_2 + -0.13428804f;
+  c2 = c2 * u_2 + -0.14443892f;
+  c2 = c2_next * u + c2;
+  float c3 = 426.3263f;
+  float c3_next = 405.7412f;
+  c3 = c3 * u_2 + 96.69169f;
+  c3_next = c3_next * u_2 + 6.594924f;
+  c3 = c3 * u_2 + -0.33859882f;
+  c3 = c3_next * u + c3;
+  float c4 = -2604.887f;
+  float c4_next = -3687.53f;
+  c4 = c4 * u_2 + -1352.325f;
+  c4_next = c4_next * u_2 + -74.82205f;
+  c4 = c4 * u_2 + 40.37056f;
+  c4 = c4_next * u + c4;
+  float c5 = 7513.9653f;
+  c5 = c5 * u + 9338.673f;
+  c5 = c5 * u + 1228.9799f;
+  c5 = c5 * u + 53.91592f;
+  float c6 = -38030.387f;
+  c6 = c6 * u + -24196.979f;
+  c6 = c6 * u + -5159.8853f;
+  float c7 = 141260.66f;
+  c7 = c7 * u + 20851.738f;
+  const float w = specular - 0.8989877f;
+  float sum = c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -285,10 +295,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.3043479f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return 2.0f / (alpha * alpha) - 2.0f; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -302,6 +328,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.8239492f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.8114186f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.797975f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -409,8 +449,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -420,13 +465,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -438,15 +572,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -454,16 +595,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -534,19 +678,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.76666665f}, {7350.5273f, 0.9561693f}, {9.0f, 9.6e-05f}},
-      {{0.10814655f, 0.71875f}, {61.03101f, 0.89937955f}, {0.0071f, 9.6e-05f}},
-      {{0.20629309f, 0.67083335f}, {15.589016f, 0.84089935f}, {0.0011f, 9.6e-05f}},
-      {{0.30443963f, 0.62291664f}, {6.297431f, 0.7801541f}, {0.00035f, 9.6e-05f}},
-      {{0.4025862f, 0.575f}, {2.9721513f, 0.71355546f}, {0.00016f, 9.6e-05f}},
-      {{0.5007327f, 0.52708334f}, {1.4650606f, 0.6343459f}, {9.3e-05f, 9.6e-05f}},
-      {{0.5988793f, 0.47916666f}, {0.69108f, 0.5410566f}, {6.4e-05f, 9.6e-05f}},
-      {{0.69702584f, 0.43124998f}, {0.26614138f, 0.4417617f}, {4.9e-05f, 9.6e-05f}},
-      {{0.7951724f, 0.38333333f}, {0.026196389f, 0.3466983f}, {4.2e-05f, 9.6e-05f}},
-      {{0.005f, 0.38333333f}, {7353.542f, 0.47899953f}, {9.0f, 9.6e-05f}},
-      {{1.1927586f, 0.19166666f}, {0.027116219f, 0.17381819f}, {4.2e-05f, 9.5e-05f}},
-      {{0.4025862f, 0.0f}, {3.01453f, 0.0015541911f}, {0.00017f, 9.5e-05f}},
-      {{0.4025862f, 1.5333333f}, {2.971697f, 1.9017984f}, {0.00016f, 2e-04f}},
+      {{0.01f, 1.0f}, {6916.98f, 1.0f}, {95.0f, 0.00011f}},
+      {{0.13375f, 0.9375f}, {37.703804f, 1.0f}, {0.041f, 0.00011f}},
+      {{0.2575f, 0.875f}, {9.176262f, 1.0f}, {0.0061f, 0.00011f}},
+      {{0.38125f, 0.8125f}, {3.460944f, 1.0f}, {0.0021f, 0.00011f}},
+      {{0.505f, 0.75f}, {1.423092f, 0.90017205f}, {0.0011f, 0.00011f}},
+      {{0.62875f, 0.6875f}, {0.53374416f, 0.7555772f}, {0.00066f, 0.00011f}},
+      {{0.7525f, 0.625f}, {0.115284875f, 0.5978923f}, {5e-04f, 0.00011f}},
+      {{0.87625f, 0.5625f}, {0.0f, 0.45676643f}, {0.00046f, 0.00011f}},
+      {{1.0f, 0.5f}, {0.0f, 0.3307196f}, {0.00046f, 0.00011f}},
+      {{0.005f, 0.5f}, {7349.4746f, 0.6242559f}, {110.0f, 0.00011f}},
+      {{1.5f, 0.25f}, {0.0f, 0.1657233f}, {0.00046f, 0.00011f}},
+      {{0.505f, 0.0f}, {1.423092f, 0.0013911842f}, {0.0011f, 0.00011f}},
+      {{0.505f, 2.0f}, {1.2971742f, 2.0f}, {0.00098f, 0.00021f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

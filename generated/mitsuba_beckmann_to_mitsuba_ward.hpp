@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_mitsuba_ward.csv, sha256 7497b9494248c459e7e694bfae502fc2ad9cd97ae1777d1d9b51fd5f197b49df;
+// Table mitsuba_beckmann_to_mitsuba_ward.csv, sha256 72767bfe3cc26dfcd0b53af136af5b281ed41ac2a7ad3a355a10a10a48ff51ec;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 122 rows trained, 30 held out.
-// Error on the rows held out: alpha rms 0.00023, 99 % 8e-04, max 8e-04;
-// specular rms 0.00022, 99 % 0.00039, max 0.00039.
-// Lowered from the fit. Target alpha: degree 6, 2 in specular, proven within 4.6e-07 (sampled 1.5e-08), rising with alpha.
-// Target specular: degree 9 in alpha / (alpha + 0.3), proven within 9.3e-05 (sampled 8.9e-05), rising with specular.
-// Covers alpha 0.01 to 0.624482759, f0 0 to 0.266666667.
+// Fit: series, seed 1, 839 rows trained, 210 held out.
+// Error on the rows held out: alpha rms 7.1e-05, 99 % 0.00025, max 0.00039;
+// specular rms 5.9e-05, 99 % 0.00024, max 0.00028.
+// Lowered from the fit. Target alpha: degree 8, 7 in specular, proven within 8.8e-06 (sampled 7.5e-06), rising with alpha.
+// Target specular: degree 8 in alpha / (alpha + 1), proven within 1e-04 (sampled 9.6e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 5, 2 in specular, proven within 8.1e-05 (sampled 7.3e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 11, 10 in specular, proven within 9.3e-05 (sampled 7.8e-05).
+// All together within 0.00023 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_WARD_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00023f;
-inline constexpr float kSpecularRmsError = 0.00022f;
+inline constexpr float kAlphaRmsError = 7.1e-05f;
+inline constexpr float kSpecularRmsError = 5.9e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.045f;
+inline constexpr float kImageRmsError = 0.33f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.62448275f, 0.26666668f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,26 +78,61 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.31724206f;
+  const float u = alpha - 0.3345055f;
   const float u_2 = u * u;
-  float c0 = 8.021735f;
-  float c0_next = 3.0236456f;
-  c0 = c0 * u_2 + -1.2382723f;
-  c0_next = c0_next * u_2 + 0.6511002f;
-  c0 = c0 * u_2 + 1.1986208f;
-  c0_next = c0_next * u_2 + 1.4056046f;
-  c0 = c0 * u_2 + 0.36015397f;
+  float c0 = -45.266514f;
+  float c0_next = -14.333965f;
+  c0 = c0 * u_2 + 15.386866f;
+  c0_next = c0_next * u_2 + 6.071891f;
+  c0 = c0 * u_2 + -1.3138301f;
+  c0_next = c0_next * u_2 + 0.4742405f;
+  c0 = c0 * u_2 + 1.2387424f;
+  c0_next = c0_next * u_2 + 1.4503642f;
+  c0 = c0 * u_2 + 0.385f;
   c0 = c0_next * u + c0;
-  float c1 = 0.1326472f;
-  c1 = c1 * u + 0.104515575f;
-  c1 = c1 * u + 0.030448275f;
-  c1 = c1 * u + 0.0033759277f;
-  float c2 = -0.7002141f;
-  c2 = c2 * u + -0.65514475f;
-  c2 = c2 * u + -0.21072978f;
-  c2 = c2 * u + -0.02327339f;
-  const float w = specular - 0.1333336f;
-  float sum = c2;
+  float c1 = 0.2684826f;
+  float c1_next = 0.071465425f;
+  c1 = c1 * u_2 + -0.073838085f;
+  c1_next = c1_next * u_2 + -0.015728105f;
+  c1 = c1 * u_2 + 0.007917453f;
+  c1_next = c1_next * u_2 + 0.0013437195f;
+  c1 = c1 * u_2 + -0.00016258853f;
+  c1 = c1_next * u + c1;
+  float c2 = -0.17110127f;
+  float c2_next = 0.14195243f;
+  c2 = c2 * u_2 + 0.12915768f;
+  c2_next = c2_next * u_2 + -0.0156526f;
+  c2 = c2 * u_2 + -0.02070072f;
+  c2_next = c2_next * u_2 + -0.0029727344f;
+  c2 = c2 * u + c2_next;
+  float c3 = 0.22169934f;
+  float c3_next = -0.1520762f;
+  c3 = c3 * u_2 + -0.18493626f;
+  c3_next = c3_next * u_2 + 0.0017666089f;
+  c3 = c3 * u_2 + 0.011554258f;
+  c3 = c3_next * u + c3;
+  float c4 = -0.95553315f;
+  float c4_next = -0.72278374f;
+  c4 = c4 * u_2 + 0.314424f;
+  c4_next = c4_next * u_2 + 0.26023155f;
+  c4 = c4 * u_2 + 0.03904033f;
+  c4 = c4_next * u + c4;
+  float c5 = 1.3488975f;
+  c5 = c5 * u + 1.1856123f;
+  c5 = c5 * u + -0.14908479f;
+  c5 = c5 * u + -0.1182072f;
+  float c6 = -2.0341687f;
+  c6 = c6 * u + -1.1595955f;
+  c6 = c6 * u + -0.16803633f;
+  float c7 = 1.3467127f;
+  c7 = c7 * u + 0.41303355f;
+  const float w = specular - 0.500001f;
+  float sum = c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
   sum = sum * w + c1;
   sum = sum * w + c0;
   return sum;
@@ -104,6 +142,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -118,31 +158,29 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 0.3f);
-    const float u = t - 0.35387632f;
+    const float t = alpha / (alpha + 1.0f);
+    const float u = t - 0.2035661f;
     const float u_2 = u * u;
-    float c0 = 10.033796f;
-    float c0_next = 5.4465766f;
-    c0 = c0 * u_2 + -2.9605634f;
-    c0_next = c0_next * u_2 + -1.766997f;
-    c0 = c0 * u_2 + 0.30346727f;
-    c0_next = c0_next * u_2 + 0.29531604f;
-    c0 = c0 * u_2 + -0.052970696f;
-    c0_next = c0_next * u_2 + -0.014801063f;
-    c0 = c0 * u_2 + 0.004359954f;
-    c0_next = c0_next * u_2 + 0.0021896183f;
-    c0 = c0 * u + c0_next;
-    float c1 = 4222.902f;
-    float c1_next = 1784.8835f;
-    c1 = c1 * u_2 + -236.52461f;
-    c1_next = c1_next * u_2 + -50.339706f;
-    c1 = c1 * u_2 + 82.575806f;
-    c1_next = c1_next * u_2 + 37.58261f;
-    c1 = c1 * u_2 + 12.842974f;
-    c1_next = c1_next * u_2 + 4.0475454f;
-    c1 = c1 * u_2 + 0.9005656f;
-    c1_next = c1_next * u_2 + 1.4691894f;
-    c1 = c1 * u + c1_next;
+    float c0 = 202.78603f;
+    float c0_next = 239.31439f;
+    c0 = c0 * u_2 + -8.031841f;
+    c0_next = c0_next * u_2 + -14.985733f;
+    c0 = c0 * u_2 + -0.12323649f;
+    c0_next = c0_next * u_2 + 0.24910784f;
+    c0 = c0 * u_2 + 0.0109481225f;
+    c0_next = c0_next * u_2 + 0.0010597128f;
+    c0 = c0 * u_2 + 0.0021451449f;
+    c0 = c0_next * u + c0;
+    float c1 = 31306.803f;
+    float c1_next = 10288.708f;
+    c1 = c1 * u_2 + -92.42449f;
+    c1_next = c1_next * u_2 + -309.9811f;
+    c1 = c1 * u_2 + 83.8222f;
+    c1_next = c1_next * u_2 + 67.9471f;
+    c1 = c1 * u_2 + 20.979437f;
+    c1_next = c1_next * u_2 + 3.6695151f;
+    c1 = c1 * u_2 + 1.633158f;
+    c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -151,6 +189,150 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.82634753f;
+  const float u_2 = u * u;
+  float c0 = 65.14698f;
+  float c0_next = -35.870552f;
+  c0 = c0 * u_2 + 8.85297f;
+  c0_next = c0_next * u_2 + 1.1085001f;
+  c0 = c0 * u_2 + -2.7489176f;
+  c0_next = c0_next * u_2 + 1.4617511f;
+  c0 = c0 * u + c0_next;
+  float c1 = 128.73508f;
+  float c1_next = -70.46202f;
+  c1 = c1 * u_2 + 17.396545f;
+  c1_next = c1_next * u_2 + 2.2192268f;
+  c1 = c1 * u_2 + -5.4841337f;
+  c1_next = c1_next * u_2 + 2.9167635f;
+  c1 = c1 * u + c1_next;
+  float c2 = -0.62050587f;
+  c2 = c2 * u + 0.06076256f;
+  c2 = c2 * u + 0.008229711f;
+  c2 = c2 * u + -0.0004653903f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = 675.21387f;
+  float c0_next = 11.528381f;
+  c0 = c0 * u_2 + -576.13837f;
+  c0_next = c0_next * u_2 + 19.808193f;
+  c0 = c0 * u_2 + 195.90166f;
+  c0_next = c0_next * u_2 + -20.427114f;
+  c0 = c0 * u_2 + -33.377457f;
+  c0_next = c0_next * u_2 + 7.0560575f;
+  c0 = c0 * u_2 + 2.781289f;
+  c0_next = c0_next * u_2 + -1.1846006f;
+  c0 = c0 * u_2 + 0.874999f;
+  c0_next = c0_next * u_2 + 0.56811976f;
+  c0 = c0 * u + c0_next;
+  float c1 = -378.01312f;
+  float c1_next = 356.78958f;
+  c1 = c1 * u_2 + 347.51157f;
+  c1_next = c1_next * u_2 + -331.1849f;
+  c1 = c1 * u_2 + -88.89948f;
+  c1_next = c1_next * u_2 + 113.86996f;
+  c1 = c1 * u_2 + 0.14553814f;
+  c1_next = c1_next * u_2 + -18.740997f;
+  c1 = c1 * u_2 + 3.7388566f;
+  c1_next = c1_next * u_2 + 0.9294443f;
+  c1 = c1 * u_2 + -1.2082223f;
+  c1_next = c1_next * u_2 + -0.24674466f;
+  c1 = c1 * u + c1_next;
+  float c2 = -470.1429f;
+  float c2_next = -325.71445f;
+  c2 = c2 * u_2 + 573.65344f;
+  c2_next = c2_next * u_2 + 36.854954f;
+  c2 = c2 * u_2 + -164.53287f;
+  c2_next = c2_next * u_2 + 12.699133f;
+  c2 = c2 * u_2 + 21.968212f;
+  c2_next = c2_next * u_2 + -4.042373f;
+  c2 = c2 * u_2 + -1.4130857f;
+  c2_next = c2_next * u_2 + 1.5295224f;
+  c2 = c2 * u_2 + 0.3222082f;
+  c2 = c2_next * u + c2;
+  float c3 = 396.27902f;
+  float c3_next = -625.2505f;
+  c3 = c3 * u_2 + 571.71704f;
+  c3_next = c3_next * u_2 + -47.759506f;
+  c3 = c3 * u_2 + -97.95172f;
+  c3_next = c3_next * u_2 + 32.52475f;
+  c3 = c3 * u_2 + -6.796598f;
+  c3_next = c3_next * u_2 + 2.5290854f;
+  c3 = c3 * u_2 + -2.3847344f;
+  c3_next = c3_next * u_2 + -0.4088288f;
+  c3 = c3 * u + c3_next;
+  float c4 = 619.389f;
+  float c4_next = -2293.801f;
+  c4 = c4 * u_2 + 973.43176f;
+  c4_next = c4_next * u_2 + 182.93304f;
+  c4 = c4 * u_2 + -281.9506f;
+  c4_next = c4_next * u_2 + 80.05771f;
+  c4 = c4 * u_2 + -6.068714f;
+  c4_next = c4_next * u_2 + 3.3296783f;
+  c4 = c4 * u_2 + 0.69863063f;
+  c4 = c4_next * u + c4;
+  float c5 = 2537.786f;
+  float c5_next = -2379.5146f;
+  c5 = c5 * u_2 + -156.5343f;
+  c5_next = c5_next * u_2 + 708.90686f;
+  c5 = c5 * u_2 + -247.71277f;
+  c5_next = c5_next * u_2 + 45.99622f;
+  c5 = c5 * u_2 + 9.426185f;
+  c5_next = c5_next * u_2 + -5.7766066f;
+  c5 = c5 * u + c5_next;
+  float c6 = 1916.3507f;
+  float c6_next = 1511.9507f;
+  c6 = c6 * u_2 + -327.9704f;
+  c6_next = c6_next * u_2 + 305.9877f;
+  c6 = c6 * u_2 + -293.75827f;
+  c6_next = c6_next * u_2 + 2.0079176f;
+  c6 = c6 * u_2 + 11.357814f;
+  c6 = c6_next * u + c6;
+  float c7 = -3206.4114f;
+  float c7_next = -1651.124f;
+  c7 = c7 * u_2 + 705.3708f;
+  c7_next = c7_next * u_2 + 497.13995f;
+  c7 = c7 * u_2 + -369.9047f;
+  c7_next = c7_next * u_2 + 57.332123f;
+  c7 = c7 * u + c7_next;
+  float c8 = 2174.3755f;
+  float c8_next = -4556.5083f;
+  c8 = c8 * u_2 + 1769.3959f;
+  c8_next = c8_next * u_2 + 446.60403f;
+  c8 = c8 * u_2 + -117.07869f;
+  c8 = c8_next * u + c8;
+  float c9 = 6585.6895f;
+  c9 = c9 * u + -7172.2896f;
+  c9 = c9 * u + 2723.0803f;
+  c9 = c9 * u + -371.79364f;
+  float c10 = 6881.22f;
+  c10 = c10 * u + -5076.321f;
+  c10 = c10 * u + 788.0053f;
+  const float w = specular - 0.63437575f;
+  float sum = c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -220,10 +402,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 3.7499998f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -237,6 +435,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.65900964f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.65269434f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.26875f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -344,8 +556,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -355,13 +572,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -373,15 +679,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -389,16 +702,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -469,19 +785,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.26666668f}, {0.00999582f, 0.36686414f}, {9.4e-07f, 9.3e-05f}},
-      {{0.08681034f, 0.25f}, {0.08770264f, 0.3516051f}, {9.8e-07f, 9.3e-05f}},
-      {{0.16362068f, 0.23333335f}, {0.1693367f, 0.344751f}, {1.1e-06f, 9.3e-05f}},
-      {{0.24043103f, 0.21666668f}, {0.25897416f, 0.34859303f}, {1.1e-06f, 9.3e-05f}},
-      {{0.31724137f, 0.20000002f}, {0.3602746f, 0.36302164f}, {1.2e-06f, 9.3e-05f}},
-      {{0.39405173f, 0.18333334f}, {0.47566167f, 0.3856701f}, {1.2e-06f, 9.3e-05f}},
-      {{0.47086206f, 0.16666667f}, {0.6066891f, 0.41328958f}, {1.3e-06f, 9.3e-05f}},
-      {{0.5476724f, 0.15f}, {0.7555938f, 0.44264895f}, {1.3e-06f, 9.3e-05f}},
-      {{0.62448275f, 0.13333334f}, {0.92803395f, 0.47065318f}, {1.4e-06f, 9.3e-05f}},
-      {{0.005f, 0.13333334f}, {0.009991654f, 0.18467504f}, {9.4e-07f, 9.3e-05f}},
-      {{0.9367241f, 0.06666667f}, {0.92551476f, 0.2365691f}, {1.4e-06f, 9.3e-05f}},
-      {{0.31724137f, 0.0f}, {0.35928914f, 0.0024824513f}, {1.2e-06f, 9.3e-05f}},
-      {{0.31724137f, 0.53333336f}, {0.36018938f, 0.9664027f}, {1.2e-06f, 0.00019f}},
+      {{0.01f, 1.0f}, {0.010437089f, 1.0f}, {0.00023f, 0.00011f}},
+      {{0.13375f, 0.9375f}, {0.14087659f, 1.0f}, {0.00023f, 0.00011f}},
+      {{0.2575f, 0.875f}, {0.28210127f, 1.0f}, {0.00023f, 0.00011f}},
+      {{0.38125f, 0.8125f}, {0.42530328f, 1.0f}, {0.00023f, 0.00011f}},
+      {{0.505f, 0.75f}, {0.543273f, 1.0f}, {0.00023f, 0.00011f}},
+      {{0.62875f, 0.6875f}, {0.6454136f, 1.0f}, {0.00023f, 0.00011f}},
+      {{0.7525f, 0.625f}, {0.759212f, 1.0f}, {0.00023f, 0.00011f}},
+      {{0.87625f, 0.5625f}, {0.896673f, 1.0f}, {0.00023f, 0.00011f}},
+      {{1.0f, 0.5f}, {1.0f, 1.0f}, {0.00023f, 0.00011f}},
+      {{0.005f, 0.5f}, {0.010000746f, 0.68700707f}, {0.00023f, 0.00011f}},
+      {{1.5f, 0.25f}, {1.0f, 0.5221052f}, {0.00023f, 0.00011f}},
+      {{0.505f, 0.0f}, {0.66535467f, 0.0025575655f}, {0.00023f, 0.00011f}},
+      {{0.505f, 2.0f}, {0.50574255f, 2.0f}, {0.00023f, 0.00021f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

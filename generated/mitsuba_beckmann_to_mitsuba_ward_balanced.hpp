@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/ward-balanced: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_mitsuba_ward_balanced.csv, sha256 5fd0b045aaa0c633e32d0918ecb280599213d671e1d4267e54a745805fb61aa5;
+// Table mitsuba_beckmann_to_mitsuba_ward_balanced.csv, sha256 7acbe5f3961839e78a0e6111421405b38d3cb8d659204865ba52ed9f1c621d34;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 360 rows trained, 90 held out.
-// Error on the rows held out: alpha rms 1.5e-05, 99 % 4.3e-05, max 4.3e-05;
-// specular rms 1.3e-05, 99 % 7.4e-05, max 7.4e-05.
-// Lowered from the fit. Target alpha: degree 12, 12 in specular, proven within 8.7e-06 (sampled 7.4e-06), rising with alpha.
-// Target specular: degree 10, 5 in specular, proven within 8.9e-05 (sampled 8.2e-05), rising with specular.
-// Covers alpha 0.01 to 0.829310345, f0 0 to 0.6.
+// Fit: series, seed 1, 824 rows trained, 206 held out.
+// Error on the rows held out: alpha rms 0.00013, 99 % 0.00058, max 0.00079;
+// specular rms 6.3e-05, 99 % 0.00018, max 2e-04.
+// Lowered from the fit. Target alpha: degree 8, 4 in specular, proven within 1e-05 (sampled 9.4e-06), rising with alpha.
+// Target specular: degree 8, proven within 6.9e-05 (sampled 6.3e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 4 in alpha / (alpha + 0.3), proven within 9.9e-05 (sampled 9.4e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 13 in alpha / (alpha + 1), 7 in specular, proven within 8e-05 (sampled 7e-05), rising with alpha.
+// All together within 0.00012 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_WARD_BALANCED_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.5e-05f;
-inline constexpr float kSpecularRmsError = 1.3e-05f;
+inline constexpr float kAlphaRmsError = 0.00013f;
+inline constexpr float kSpecularRmsError = 6.3e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.062f;
+inline constexpr float kImageRmsError = 0.13f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.82931036f, 0.6f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,102 +78,42 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.41965604f;
+  const float u = alpha - 0.4240463f;
   const float u_2 = u * u;
-  float c0 = 374.55463f;
-  float c0_next = 74.35247f;
-  c0 = c0 * u_2 + -263.7717f;
-  c0_next = c0_next * u_2 + -46.244488f;
-  c0 = c0 * u_2 + 80.212975f;
-  c0_next = c0_next * u_2 + 7.8355885f;
-  c0 = c0 * u_2 + -13.446395f;
-  c0_next = c0_next * u_2 + 0.62004745f;
-  c0 = c0 * u_2 + 1.0067325f;
-  c0_next = c0_next * u_2 + -0.4131471f;
-  c0 = c0 * u_2 + 0.23535234f;
-  c0_next = c0_next * u_2 + 1.2489312f;
-  c0 = c0 * u_2 + 0.46341917f;
+  float c0 = 8.671648f;
+  float c0_next = -2.7551029f;
+  c0 = c0 * u_2 + -4.330437f;
+  c0_next = c0_next * u_2 + 1.6907641f;
+  c0 = c0 * u_2 + 0.4928472f;
+  c0_next = c0_next * u_2 + -0.4605059f;
+  c0 = c0 * u_2 + 0.2421078f;
+  c0_next = c0_next * u_2 + 1.2520909f;
+  c0 = c0 * u_2 + 0.46890247f;
   c0 = c0_next * u + c0;
-  float c1 = 0.03669754f;
-  float c1_next = -0.067051955f;
-  c1 = c1 * u_2 + -0.011148693f;
-  c1_next = c1_next * u_2 + 0.012430814f;
-  c1 = c1 * u_2 + -0.0005910041f;
-  c1_next = c1_next * u_2 + 0.003404758f;
-  c1 = c1 * u_2 + 0.0032466482f;
-  c1_next = c1_next * u_2 + 0.00059293205f;
-  c1 = c1 * u + c1_next;
-  float c2 = -1.3718841f;
-  float c2_next = 1.4074602f;
-  c2 = c2 * u_2 + 0.7799735f;
-  c2_next = c2_next * u_2 + -0.2623396f;
-  c2 = c2 * u_2 + -0.1343799f;
-  c2_next = c2_next * u_2 + -0.0014867476f;
-  c2 = c2 * u_2 + -0.00491433f;
-  c2_next = c2_next * u_2 + -0.0031148037f;
-  c2 = c2 * u + c2_next;
-  float c3 = -3.930243f;
-  float c3_next = -1.0011545f;
-  c3 = c3 * u_2 + 0.7713215f;
-  c3_next = c3_next * u_2 + 0.27338347f;
-  c3 = c3 * u_2 + -0.011237493f;
-  c3_next = c3_next * u_2 + -0.023578823f;
-  c3 = c3 * u_2 + -0.0020151695f;
-  c3 = c3_next * u + c3;
-  float c4 = -21.054617f;
-  float c4_next = -6.757993f;
-  c4 = c4 * u_2 + 1.2441938f;
-  c4_next = c4_next * u_2 + 3.968916f;
-  c4 = c4 * u_2 + -0.5582819f;
-  c4_next = c4_next * u_2 + -0.3711545f;
-  c4 = c4 * u_2 + 0.07109367f;
-  c4 = c4_next * u + c4;
-  float c5 = 72.17677f;
-  float c5_next = 22.06418f;
-  c5 = c5 * u_2 + -5.521612f;
-  c5_next = c5_next * u_2 + -12.732734f;
-  c5 = c5 * u_2 + 1.0653493f;
-  c5_next = c5_next * u_2 + 4.5505657f;
-  c5 = c5 * u_2 + 0.909273f;
-  c5 = c5_next * u + c5;
-  float c6 = 43.630806f;
-  float c6_next = -63.011932f;
-  c6 = c6 * u_2 + 38.067623f;
-  c6_next = c6_next * u_2 + 3.7044194f;
-  c6 = c6 * u_2 + -5.354125f;
-  c6 = c6_next * u + c6;
-  float c7 = -143.0134f;
-  float c7_next = 202.01544f;
-  c7 = c7 * u_2 + -88.28057f;
-  c7_next = c7_next * u_2 + -146.11786f;
-  c7 = c7 * u_2 + -28.54004f;
-  c7 = c7_next * u + c7;
-  float c8 = 508.35867f;
-  c8 = c8 * u + -920.6136f;
-  c8 = c8 * u + 120.02451f;
-  c8 = c8 * u + 149.26018f;
-  float c9 = -1629.8547f;
-  c9 = c9 * u + 2682.9004f;
-  c9 = c9 * u + 2305.3953f;
-  c9 = c9 * u + 380.0654f;
-  float c10 = 4786.8916f;
-  c10 = c10 * u + -4745.975f;
-  c10 = c10 * u + -1950.4928f;
-  float c11 = -15319.303f;
-  c11 = c11 * u + -9239.184f;
-  c11 = c11 * u + -1045.9003f;
-  float c12 = 24478.97f;
-  c12 = c12 * u + 6950.115f;
-  const float w = specular - 0.3000006f;
-  float sum = c12;
-  sum = sum * w + c11;
-  sum = sum * w + c10;
-  sum = sum * w + c9;
-  sum = sum * w + c8;
-  sum = sum * w + c7;
-  sum = sum * w + c6;
-  sum = sum * w + c5;
-  sum = sum * w + c4;
+  float c1 = -0.07901584f;
+  float c1_next = 0.0056755156f;
+  c1 = c1 * u_2 + 0.0224428f;
+  c1_next = c1_next * u_2 + -9.655018e-06f;
+  c1 = c1 * u_2 + -0.0027900147f;
+  c1_next = c1_next * u_2 + -0.0013217534f;
+  c1 = c1 * u_2 + -0.00027204026f;
+  c1 = c1_next * u + c1;
+  float c2 = -0.006092328f;
+  float c2_next = -0.014376845f;
+  c2 = c2 * u_2 + 0.0076184412f;
+  c2_next = c2_next * u_2 + 0.008615185f;
+  c2 = c2 * u_2 + 0.0014860291f;
+  c2 = c2_next * u + c2;
+  float c3 = -0.013612171f;
+  c3 = c3 * u + 0.03907268f;
+  c3 = c3 * u + 0.035321325f;
+  c3 = c3 * u + 0.0069858963f;
+  float c4 = 0.06329801f;
+  c4 = c4 * u + -0.10269692f;
+  c4 = c4 * u + -0.09517983f;
+  c4 = c4 * u + -0.017682752f;
+  const float w = specular - 0.500001f;
+  float sum = c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -181,7 +124,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -196,53 +141,143 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.41965604f;
+    const float u = alpha - 0.4240463f;
     const float u_2 = u * u;
-    float c0 = -144.87146f;
-    float c0_next = 31.815704f;
-    c0 = c0 * u_2 + 74.60543f;
-    c0_next = c0_next * u_2 + -19.732798f;
-    c0 = c0 * u_2 + -14.351966f;
-    c0_next = c0_next * u_2 + 5.5104485f;
-    c0 = c0 * u_2 + 1.2029119f;
-    c0_next = c0_next * u_2 + -1.263758f;
-    c0 = c0 * u_2 + 0.034977976f;
-    c0_next = c0_next * u_2 + 0.34941077f;
-    c0 = c0 * u_2 + 0.38121754f;
+    float c0 = 1.0221783f;
+    float c0_next = 0.1483819f;
+    c0 = c0 * u_2 + -0.34774894f;
+    c0_next = c0_next * u_2 + -0.044635125f;
+    c0 = c0 * u_2 + 0.037129913f;
+    c0_next = c0_next * u_2 + 0.0027476933f;
+    c0 = c0 * u_2 + -0.0019127588f;
+    c0_next = c0_next * u_2 + -0.0002047872f;
+    c0 = c0 * u_2 + 0.001454003f;
     c0 = c0_next * u + c0;
-    float c1 = -483.2182f;
-    float c1_next = 94.46869f;
-    c1 = c1 * u_2 + 246.27397f;
-    c1_next = c1_next * u_2 + -60.893917f;
-    c1 = c1 * u_2 + -46.971516f;
-    c1_next = c1_next * u_2 + 17.681557f;
-    c1 = c1 * u_2 + 3.904971f;
-    c1_next = c1_next * u_2 + -4.1730666f;
-    c1 = c1 * u_2 + 0.12288273f;
-    c1_next = c1_next * u_2 + 1.1644337f;
-    c1 = c1 * u_2 + 1.2657394f;
+    float c1 = 35.79383f;
+    float c1_next = -26.034363f;
+    c1 = c1 * u_2 + -15.413844f;
+    c1_next = c1_next * u_2 + 13.427587f;
+    c1 = c1 * u_2 + 2.1555302f;
+    c1_next = c1_next * u_2 + -3.9819677f;
+    c1 = c1 * u_2 + 0.115889005f;
+    c1_next = c1_next * u_2 + 1.1642513f;
+    c1 = c1 * u_2 + 1.2707977f;
     c1 = c1_next * u + c1;
-    const float c2 = -0.00086425076f;
-    const float c3 = 0.0086510135f;
-    const float c4 = 0.014110222f;
-    const float c5 = -0.10096641f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.3000006f;
-  float sum = terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 0.3f);
+  const float u = t - 0.7518078f;
+  const float u_2 = u * u;
+  float c0 = -1374.7931f;
+  float c0_next = 8.176299f;
+  c0 = c0 * u_2 + 0.3579927f;
+  c0_next = c0_next * u_2 + -0.009687976f;
+  c0 = c0 * u_2 + 0.0014614281f;
+  c0 = c0_next * u + c0;
+  float c1 = 13876.842f;
+  float c1_next = 937.2859f;
+  c1 = c1 * u_2 + -69.766045f;
+  c1_next = c1_next * u_2 + -10.372862f;
+  c1 = c1 * u_2 + 1.4565656f;
+  c1 = c1_next * u + c1;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
+  const float u_2 = u * u;
+  float c0 = 9433859.0f;
+  float c0_next = 2402832.5f;
+  c0 = c0 * u_2 + -1384521.6f;
+  c0_next = c0_next * u_2 + -396489.28f;
+  c0 = c0 * u_2 + 51288.992f;
+  c0_next = c0_next * u_2 + 18518.535f;
+  c0 = c0 * u_2 + 883.8091f;
+  c0_next = c0_next * u_2 + 398.04532f;
+  c0 = c0 * u_2 + 4.334031f;
+  c0_next = c0_next * u_2 + -57.16106f;
+  c0 = c0 * u_2 + -2.0365684f;
+  c0_next = c0_next * u_2 + 3.5346196f;
+  c0 = c0 * u_2 + 2.20751f;
+  c0_next = c0_next * u_2 + 0.3678835f;
+  c0 = c0 * u + c0_next;
+  float c1 = -6222.287f;
+  float c1_next = -4313.6436f;
+  c1 = c1 * u_2 + -1607.3754f;
+  c1_next = c1_next * u_2 + 137.59871f;
+  c1 = c1 * u_2 + 451.52237f;
+  c1_next = c1_next * u_2 + 112.368454f;
+  c1 = c1 * u_2 + -69.34366f;
+  c1_next = c1_next * u_2 + -2.0722044f;
+  c1 = c1 * u_2 + -0.5838477f;
+  c1_next = c1_next * u_2 + 0.014437358f;
+  c1 = c1 * u + c1_next;
+  float c2 = -84855.33f;
+  float c2_next = 2780.7976f;
+  c2 = c2 * u_2 + 14980.228f;
+  c2_next = c2_next * u_2 + 266.0432f;
+  c2 = c2 * u_2 + -1674.0875f;
+  c2_next = c2_next * u_2 + -322.12408f;
+  c2 = c2 * u_2 + 229.1177f;
+  c2_next = c2_next * u_2 + -14.613106f;
+  c2 = c2 * u_2 + 0.32042238f;
+  c2_next = c2_next * u_2 + -0.013244407f;
+  c2 = c2 * u + c2_next;
+  float c3 = -130228.5f;
+  float c3_next = -35952.496f;
+  c3 = c3 * u_2 + 9340.835f;
+  c3_next = c3_next * u_2 + 4028.0176f;
+  c3 = c3 * u_2 + 360.66995f;
+  c3_next = c3_next * u_2 + -142.01193f;
+  c3 = c3 * u_2 + -77.63068f;
+  c3_next = c3_next * u_2 + 14.152674f;
+  c3 = c3 * u_2 + -0.6776187f;
+  c3 = c3_next * u + c3;
+  float c4 = 124755.3f;
+  float c4_next = 36418.848f;
+  c4 = c4 * u_2 + -7177.5356f;
+  c4_next = c4_next * u_2 + -4308.627f;
+  c4 = c4 * u_2 + -686.3299f;
+  c4_next = c4_next * u_2 + 506.39462f;
+  c4 = c4 * u_2 + -91.56365f;
+  c4_next = c4_next * u_2 + 8.984509f;
+  c4 = c4 * u + c4_next;
+  float c5 = 2188.3845f;
+  float c5_next = 267.5081f;
+  c5 = c5 * u_2 + -82.30871f;
+  c5_next = c5_next * u_2 + 69.639984f;
+  c5 = c5 * u_2 + -13.65633f;
+  c5 = c5_next * u + c5;
+  float c6 = 379.4821f;
+  c6 = c6 * u + 1099.7966f;
+  c6 = c6 * u + -229.85774f;
+  float c7 = -4743.83f;
+  c7 = c7 * u + -3436.0662f;
+  c7 = c7 * u + 794.75903f;
+  const float w = specular - 0.8096881f;
+  float sum = c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -312,10 +347,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.6666666f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -329,6 +380,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.83809084f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.82945406f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.6193754f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -436,8 +501,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -447,13 +517,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -465,15 +624,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -481,16 +647,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -561,19 +730,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.6f}, {0.009999787f, 0.6005963f}, {9.2e-06f, 8.9e-05f}},
-      {{0.112413794f, 0.5625f}, {0.11344395f, 0.57347625f}, {9.3e-06f, 8.9e-05f}},
-      {{0.21482758f, 0.52500004f}, {0.22171554f, 0.5616251f}, {9.3e-06f, 8.9e-05f}},
-      {{0.31724137f, 0.4875f}, {0.33853194f, 0.56328446f}, {9.4e-06f, 8.9e-05f}},
-      {{0.41965517f, 0.45000002f}, {0.4634687f, 0.5711159f}, {9.4e-06f, 8.9e-05f}},
-      {{0.522069f, 0.41250002f}, {0.593524f, 0.57169676f}, {9.5e-06f, 8.9e-05f}},
-      {{0.62448275f, 0.375f}, {0.7269422f, 0.5576299f}, {9.6e-06f, 8.9e-05f}},
-      {{0.7268966f, 0.3375f}, {0.8625181f, 0.5279714f}, {9.6e-06f, 8.9e-05f}},
-      {{0.82931036f, 0.3f}, {0.99917597f, 0.4849708f}, {9.7e-06f, 8.9e-05f}},
-      {{0.005f, 0.3f}, {0.010016165f, 0.3010546f}, {9.2e-06f, 8.9e-05f}},
-      {{1.2439655f, 0.15f}, {0.99850434f, 0.24312161f}, {9.7e-06f, 8.9e-05f}},
-      {{0.41965517f, 0.0f}, {0.46005735f, 0.0015504992f}, {9.4e-06f, 8.9e-05f}},
-      {{0.41965517f, 1.2f}, {0.46350107f, 1.5219778f}, {9.4e-06f, 0.00018f}},
+      {{0.01f, 1.0f}, {0.0100011015f, 1.0f}, {0.00012f, 0.00011f}},
+      {{0.13375f, 0.9375f}, {0.13543409f, 0.96210915f}, {0.00012f, 0.00011f}},
+      {{0.2575f, 0.875f}, {0.2693235f, 0.96242154f}, {0.00012f, 0.00011f}},
+      {{0.38125f, 0.8125f}, {0.41587502f, 0.99389654f}, {0.00012f, 0.00011f}},
+      {{0.505f, 0.75f}, {0.57015896f, 1.0f}, {0.00012f, 0.00011f}},
+      {{0.62875f, 0.6875f}, {0.7285725f, 1.0f}, {0.00012f, 0.00011f}},
+      {{0.7525f, 0.625f}, {0.8967604f, 0.98619163f}, {0.00012f, 0.00011f}},
+      {{0.87625f, 0.5625f}, {1.0f, 0.8588809f}, {0.00012f, 0.00011f}},
+      {{1.0f, 0.5f}, {1.0f, 0.63178635f}, {0.00012f, 0.00011f}},
+      {{0.005f, 0.5f}, {0.010000791f, 0.50082123f}, {0.00012f, 0.00011f}},
+      {{1.5f, 0.25f}, {1.0f, 0.31655085f}, {0.00012f, 0.00011f}},
+      {{0.505f, 0.0f}, {0.5694937f, 0.0014331583f}, {0.00012f, 0.00011f}},
+      {{0.505f, 2.0f}, {0.552486f, 2.0f}, {0.00012f, 0.00021f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

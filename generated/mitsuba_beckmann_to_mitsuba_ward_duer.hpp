@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/beckmann to mitsuba/ward-duer: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_beckmann_to_mitsuba_ward_duer.csv, sha256 15305d08e19e00c4d62a657dec16a9330ebec394ac050e9667961d1de9537b36;
+// Table mitsuba_beckmann_to_mitsuba_ward_duer.csv, sha256 ca530143371f228336af8e77bd4ec2e9b44cf6a7011af1d780efe842e757ca82;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 294 rows trained, 74 held out.
-// Error on the rows held out: alpha rms 1.8e-05, 99 % 6.7e-05, max 6.7e-05;
-// specular rms 1.1e-05, 99 % 2.5e-05, max 2.5e-05.
-// Lowered from the fit. Target alpha: degree 14, 12 in specular, proven within 7.3e-06 (sampled 6e-06), rising with alpha.
-// Target specular: degree 9, 5 in specular, proven within 8.4e-05 (sampled 7.6e-05), rising with specular.
-// Covers alpha 0.01 to 0.761034483, f0 0 to 0.533333333.
+// Fit: series, seed 1, 833 rows trained, 208 held out.
+// Error on the rows held out: alpha rms 9.2e-05, 99 % 0.00048, max 0.00063;
+// specular rms 0.00012, 99 % 0.00045, max 5e-04.
+// Lowered from the fit. Target alpha: degree 8, 7 in specular, proven within 6.9e-06 (sampled 5.8e-06), rising with alpha.
+// Target specular: degree 7, proven within 2.5e-05 (sampled 1.4e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 4 in alpha / (alpha + 1), proven within 1e-04 (sampled 9.7e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 12, 11 in specular, proven within 9.5e-05 (sampled 7.4e-05).
+// All together within 2e-04 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_WARD_DUER_HPP
 #define REMAP_GENERATED_MITSUBA_BECKMANN_TO_MITSUBA_WARD_DUER_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.8e-05f;
-inline constexpr float kSpecularRmsError = 1.1e-05f;
+inline constexpr float kAlphaRmsError = 9.2e-05f;
+inline constexpr float kSpecularRmsError = 0.00012f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.092f;
+inline constexpr float kImageRmsError = 0.2f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.7610345f, 0.53333336f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,95 +78,51 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.38551804f;
+  const float u = alpha - 0.40505442f;
   const float u_2 = u * u;
-  float c0 = -10633.818f;
-  float c0_next = 139.70499f;
-  c0 = c0 * u_2 + 6506.31f;
-  c0_next = c0_next * u_2 + -52.519447f;
-  c0 = c0 * u_2 + -1631.0376f;
-  c0_next = c0_next * u_2 + 24.686277f;
-  c0 = c0 * u_2 + 201.54353f;
-  c0_next = c0_next * u_2 + -19.763268f;
-  c0 = c0 * u_2 + -9.27913f;
-  c0_next = c0_next * u_2 + 7.338534f;
-  c0 = c0 * u_2 + -0.83160585f;
-  c0_next = c0_next * u_2 + -1.325382f;
-  c0 = c0 * u_2 + 0.43588758f;
-  c0_next = c0_next * u_2 + 1.3541929f;
-  c0 = c0 * u_2 + 0.4382843f;
+  float c0 = -9.311174f;
+  float c0_next = -12.343511f;
+  c0 = c0 * u_2 + 4.193939f;
+  c0_next = c0_next * u_2 + 6.6528363f;
+  c0 = c0 * u_2 + -0.81836206f;
+  c0_next = c0_next * u_2 + -1.3492949f;
+  c0 = c0 * u_2 + 0.3722851f;
+  c0_next = c0_next * u_2 + 1.3700523f;
+  c0 = c0 * u_2 + 0.46495137f;
   c0 = c0_next * u + c0;
-  float c1 = -0.73734677f;
-  float c1_next = -0.2552202f;
-  c1 = c1 * u_2 + 0.19564907f;
-  c1_next = c1_next * u_2 + 0.079695955f;
-  c1 = c1 * u_2 + -0.0107284f;
-  c1_next = c1_next * u_2 + 0.00027942413f;
-  c1 = c1 * u_2 + 0.0044513843f;
-  c1_next = c1_next * u_2 + 0.00079763687f;
+  float c1 = 0.4703652f;
+  float c1_next = 0.16241948f;
+  c1 = c1 * u_2 + -0.10346434f;
+  c1_next = c1_next * u_2 + -0.030809712f;
+  c1 = c1 * u_2 + 0.000531705f;
+  c1_next = c1_next * u_2 + 0.0042447466f;
+  c1 = c1 * u_2 + 0.0022827233f;
+  c1_next = c1_next * u_2 + 0.00013969484f;
   c1 = c1 * u + c1_next;
-  float c2 = 4.1328554f;
-  float c2_next = 0.8211126f;
-  c2 = c2 * u_2 + -1.6047628f;
-  c2_next = c2_next * u_2 + 0.009799974f;
-  c2 = c2 * u_2 + 0.10612057f;
-  c2_next = c2_next * u_2 + -0.052266903f;
-  c2 = c2 * u_2 + -0.01904529f;
-  c2_next = c2_next * u_2 + -0.002682576f;
-  c2 = c2 * u + c2_next;
-  float c3 = 1.5611281f;
-  float c3_next = -1.84311f;
-  c3 = c3 * u_2 + -0.17171675f;
-  c3_next = c3_next * u_2 + 0.6585528f;
-  c3 = c3 * u_2 + 0.05959769f;
-  c3_next = c3_next * u_2 + -0.0171273f;
-  c3 = c3 * u + c3_next;
-  float c4 = -10.972929f;
-  float c4_next = 7.445953f;
-  c4 = c4 * u_2 + 1.0619857f;
-  c4_next = c4_next * u_2 + -0.90942603f;
-  c4 = c4 * u_2 + -0.030498266f;
-  c4 = c4_next * u + c4;
-  float c5 = 70.912895f;
-  float c5_next = -22.980417f;
-  c5 = c5 * u_2 + -34.68845f;
-  c5_next = c5_next * u_2 + 3.0971687f;
-  c5 = c5 * u_2 + 2.5156903f;
-  c5 = c5_next * u + c5;
-  float c6 = 95.606606f;
-  float c6_next = -237.82605f;
-  c6 = c6 * u_2 + 47.79182f;
-  c6_next = c6_next * u_2 + 36.715675f;
-  c6 = c6 * u_2 + -2.5670795f;
-  c6 = c6_next * u + c6;
-  float c7 = -625.4595f;
-  float c7_next = 868.7205f;
-  c7 = c7 * u_2 + 794.2287f;
-  c7_next = c7_next * u_2 + -182.61107f;
-  c7 = c7 * u_2 + -90.990364f;
-  c7 = c7_next * u + c7;
-  float c8 = 1933.1248f;
-  c8 = c8 * u + -2370.7651f;
-  c8 = c8 * u + -578.8821f;
-  c8 = c8 * u + 144.13477f;
-  float c9 = -7536.9307f;
-  c9 = c9 * u + -4431.191f;
-  c9 = c9 * u + 4859.9556f;
-  c9 = c9 * u + 1537.2708f;
-  float c10 = 17057.0f;
-  c10 = c10 * u + -4578.419f;
-  c10 = c10 * u + -3433.443f;
-  float c11 = -26879.033f;
-  c11 = c11 * u + -7016.6772f;
-  float c12 = 55837.375f;
-  c12 = c12 * u + 17591.719f;
-  const float w = specular - 0.2666672f;
-  float sum = c12;
-  sum = sum * w + c11;
-  sum = sum * w + c10;
-  sum = sum * w + c9;
-  sum = sum * w + c8;
-  sum = sum * w + c7;
+  float c2 = -0.023998305f;
+  float c2_next = 0.010333585f;
+  c2 = c2 * u_2 + -0.0077230027f;
+  c2_next = c2_next * u_2 + -0.015180244f;
+  c2 = c2 * u_2 + -0.003554466f;
+  c2 = c2_next * u + c2;
+  float c3 = 0.053065367f;
+  c3 = c3 * u + -0.07928785f;
+  c3 = c3 * u + -0.019276805f;
+  c3 = c3 * u + 0.0075759883f;
+  float c4 = -0.124440394f;
+  c4 = c4 * u + 0.16427441f;
+  c4 = c4 * u + 0.208879f;
+  c4 = c4 * u + 0.048437774f;
+  float c5 = 0.61563283f;
+  c5 = c5 * u + -0.02352884f;
+  c5 = c5 * u + -0.10251846f;
+  float c6 = -1.1925446f;
+  c6 = c6 * u + -1.0273458f;
+  c6 = c6 * u + -0.2170438f;
+  float c7 = 1.1310934f;
+  c7 = c7 * u + 0.4412182f;
+  const float w = specular - 0.500001f;
+  float sum = c7;
   sum = sum * w + c6;
   sum = sum * w + c5;
   sum = sum * w + c4;
@@ -177,7 +136,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -192,56 +153,170 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.38551804f;
+    const float u = alpha - 0.40505442f;
     const float u_2 = u * u;
-    float c0 = 78.83271f;
-    float c0_next = -21.819859f;
-    c0 = c0 * u_2 + -42.453087f;
-    c0_next = c0_next * u_2 + 11.742491f;
-    c0 = c0 * u_2 + 10.893545f;
-    c0_next = c0_next * u_2 + -2.3966668f;
-    c0 = c0 * u_2 + -2.1519775f;
-    c0_next = c0_next * u_2 + 0.3376079f;
-    c0 = c0 * u_2 + 0.48048413f;
-    c0_next = c0_next * u_2 + 0.35834897f;
+    float c0 = 0.04064833f;
+    float c0_next = 0.043659505f;
+    c0 = c0 * u_2 + 0.018198606f;
+    c0_next = c0_next * u_2 + -0.008594269f;
+    c0 = c0 * u_2 + -0.008067354f;
+    c0_next = c0_next * u_2 + -0.00089459587f;
+    c0 = c0 * u_2 + 0.00046440444f;
+    c0_next = c0_next * u_2 + 0.0015656671f;
     c0 = c0 * u + c0_next;
-    float c1 = 279.34045f;
-    float c1_next = -93.74016f;
-    c1 = c1 * u_2 + -152.55772f;
-    c1_next = c1_next * u_2 + 47.34603f;
-    c1 = c1 * u_2 + 39.916527f;
-    c1_next = c1_next * u_2 + -9.267141f;
-    c1 = c1 * u_2 + -8.006388f;
-    c1_next = c1_next * u_2 + 1.2769953f;
-    c1 = c1 * u_2 + 1.7993953f;
-    c1_next = c1_next * u_2 + 1.3378367f;
+    float c1 = -63.18723f;
+    float c1_next = 12.4110985f;
+    c1 = c1 * u_2 + 32.120975f;
+    c1_next = c1_next * u_2 + -3.9603066f;
+    c1 = c1 * u_2 + -8.022763f;
+    c1_next = c1_next * u_2 + 0.759251f;
+    c1 = c1 * u_2 + 1.8332984f;
+    c1_next = c1_next * u_2 + 1.3735696f;
     c1 = c1 * u + c1_next;
-    float c2 = 0.006682646f;
-    c2 = c2 * u + -0.0038414886f;
-    c2 = c2 * u + -0.0012745978f;
-    float c3 = 0.028568562f;
-    c3 = c3 * u + 0.007139849f;
-    float c4 = 0.07831923f;
-    c4 = c4 * u + 0.017176628f;
-    float c5 = -0.437971f;
-    c5 = c5 * u + -0.10737615f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.2666672f;
-  float sum = terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.4703942f;
+  const float u_2 = u * u;
+  float c0 = -96.62527f;
+  float c0_next = 2.7238157f;
+  c0 = c0 * u_2 + 0.006295039f;
+  c0_next = c0_next * u_2 + -0.008013902f;
+  c0 = c0 * u_2 + 0.0016719773f;
+  c0 = c0_next * u + c0;
+  float c1 = -1817.3169f;
+  float c1_next = 380.26315f;
+  c1 = c1 * u_2 + -15.618114f;
+  c1_next = c1_next * u_2 + -9.308021f;
+  c1 = c1 * u_2 + 1.6277236f;
+  c1 = c1_next * u + c1;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = -262.6868f;
+  float c0_next = 144.91718f;
+  c0 = c0 * u_2 + 419.11096f;
+  c0_next = c0_next * u_2 + -427.7054f;
+  c0 = c0 * u_2 + 16.945816f;
+  c0_next = c0_next * u_2 + 122.47338f;
+  c0 = c0 * u_2 + -37.10119f;
+  c0_next = c0_next * u_2 + -13.465691f;
+  c0 = c0 * u_2 + 8.4208355f;
+  c0_next = c0_next * u_2 + 0.37327224f;
+  c0 = c0 * u_2 + -1.0147818f;
+  c0_next = c0_next * u_2 + 1.1059515f;
+  c0 = c0 * u_2 + 0.5829396f;
+  c0 = c0_next * u + c0;
+  float c1 = 1180.7583f;
+  float c1_next = -1891.672f;
+  c1 = c1 * u_2 + 580.82385f;
+  c1_next = c1_next * u_2 + 363.15988f;
+  c1 = c1 * u_2 + -246.25206f;
+  c1_next = c1_next * u_2 + 61.102463f;
+  c1 = c1 * u_2 + -10.0554905f;
+  c1_next = c1_next * u_2 + -5.616836f;
+  c1 = c1 * u_2 + 4.1294665f;
+  c1_next = c1_next * u_2 + -0.61112726f;
+  c1 = c1 * u_2 + -1.0705094f;
+  c1_next = c1_next * u_2 + -0.14586058f;
+  c1 = c1 * u + c1_next;
+  float c2 = 2023.6292f;
+  float c2_next = 1594.9384f;
+  c2 = c2 * u_2 + -2790.685f;
+  c2_next = c2_next * u_2 + 642.8322f;
+  c2 = c2 * u_2 + 199.7382f;
+  c2_next = c2_next * u_2 + -78.37918f;
+  c2 = c2 * u_2 + 1.52235f;
+  c2_next = c2_next * u_2 + 1.4027526f;
+  c2 = c2 * u_2 + 0.3918075f;
+  c2_next = c2_next * u_2 + 1.1606613f;
+  c2 = c2 * u_2 + 0.15476635f;
+  c2 = c2_next * u + c2;
+  float c3 = -9774.57f;
+  float c3_next = 2800.3064f;
+  c3 = c3 * u_2 + 3089.424f;
+  c3_next = c3_next * u_2 + -2381.9521f;
+  c3 = c3 * u_2 + 993.74927f;
+  c3_next = c3_next * u_2 + -155.896f;
+  c3 = c3 * u_2 + -34.069775f;
+  c3_next = c3_next * u_2 + 4.8839345f;
+  c3 = c3 * u_2 + 0.62989277f;
+  c3_next = c3_next * u_2 + -0.22413747f;
+  c3 = c3 * u + c3_next;
+  float c4 = 17241.852f;
+  float c4_next = -11909.799f;
+  c4 = c4 * u_2 + 3559.1267f;
+  c4_next = c4_next * u_2 + -2111.8267f;
+  c4 = c4 * u_2 + 895.67755f;
+  c4_next = c4_next * u_2 + -171.86879f;
+  c4 = c4 * u_2 + 17.81141f;
+  c4_next = c4_next * u_2 + 6.2683687f;
+  c4 = c4 * u_2 + -0.45398718f;
+  c4 = c4_next * u + c4;
+  float c5 = 30793.344f;
+  float c5_next = -23920.97f;
+  c5 = c5 * u_2 + 1893.2076f;
+  c5_next = c5_next * u_2 + 2438.9666f;
+  c5 = c5 * u_2 + -124.83774f;
+  c5_next = c5_next * u_2 + -251.99684f;
+  c5 = c5 * u_2 + 5.202955f;
+  c5 = c5_next * u + c5;
+  float c6 = -104695.945f;
+  float c6_next = 93018.016f;
+  c6 = c6 * u_2 + -14783.241f;
+  c6_next = c6_next * u_2 + -6708.919f;
+  c6 = c6 * u_2 + 1661.4098f;
+  c6_next = c6_next * u_2 + 141.28981f;
+  c6 = c6 * u_2 + -41.08274f;
+  c6 = c6_next * u + c6;
+  float c7 = -30109.26f;
+  float c7_next = 12859.709f;
+  c7 = c7 * u_2 + 7308.0107f;
+  c7_next = c7_next * u_2 + -22694.863f;
+  c7 = c7 * u_2 + 10672.127f;
+  c7_next = c7_next * u_2 + -92.78335f;
+  c7 = c7 * u + c7_next;
+  float c8 = -15694.594f;
+  c8 = c8 * u + 53485.2f;
+  c8 = c8 * u + -26650.264f;
+  c8 = c8 * u + 3387.276f;
+  float c9 = 193799.77f;
+  c9 = c9 * u + -106168.33f;
+  c9 = c9 * u + -7215.146f;
+  float c10 = -594941.06f;
+  c10 = c10 * u + 338479.4f;
+  c10 = c10 * u + -44656.848f;
+  const float c11 = 132204.8f;
+  const float w = specular - 0.7684554f;
+  float sum = c11;
+  sum = sum * w + c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -311,10 +386,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.8749999f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -328,6 +419,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.8001071f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.78823173f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.5369098f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -435,8 +540,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -446,13 +556,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -464,15 +663,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -480,16 +686,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -560,19 +769,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.53333336f}, {0.009997926f, 0.534103f}, {7.7e-06f, 8.5e-05f}},
-      {{0.10387931f, 0.5f}, {0.10501394f, 0.511658f}, {7.8e-06f, 8.5e-05f}},
-      {{0.19775862f, 0.4666667f}, {0.20541403f, 0.50565535f}, {7.8e-06f, 8.5e-05f}},
-      {{0.29163793f, 0.43333337f}, {0.31600586f, 0.51534045f}, {7.9e-06f, 8.5e-05f}},
-      {{0.38551724f, 0.40000004f}, {0.43834352f, 0.5367601f}, {8e-06f, 8.5e-05f}},
-      {{0.47939655f, 0.36666667f}, {0.5682156f, 0.5556136f}, {8e-06f, 8.5e-05f}},
-      {{0.57327586f, 0.33333334f}, {0.6995727f, 0.5570351f}, {8.1e-06f, 8.5e-05f}},
-      {{0.6671552f, 0.3f}, {0.8295802f, 0.5358714f}, {8.1e-06f, 8.5e-05f}},
-      {{0.7610345f, 0.26666668f}, {0.96061385f, 0.4974137f}, {8.2e-06f, 8.5e-05f}},
-      {{0.005f, 0.26666668f}, {0.010007573f, 0.26779145f}, {7.7e-06f, 8.5e-05f}},
-      {{1.1415517f, 0.13333334f}, {0.95971555f, 0.24938719f}, {8.2e-06f, 8.5e-05f}},
-      {{0.38551724f, 0.0f}, {0.43509352f, 0.001585331f}, {8e-06f, 8.4e-05f}},
-      {{0.38551724f, 1.0666667f}, {0.43837243f, 1.4303218f}, {8e-06f, 0.00017f}},
+      {{0.01f, 1.0f}, {0.009894207f, 1.0f}, {2e-04f, 0.00011f}},
+      {{0.13375f, 0.9375f}, {0.13611768f, 0.9721496f}, {2e-04f, 0.00011f}},
+      {{0.2575f, 0.875f}, {0.27445427f, 1.0f}, {2e-04f, 0.00011f}},
+      {{0.38125f, 0.8125f}, {0.4306254f, 1.0f}, {2e-04f, 0.00011f}},
+      {{0.505f, 0.75f}, {0.58569986f, 1.0f}, {2e-04f, 0.00011f}},
+      {{0.62875f, 0.6875f}, {0.73139656f, 1.0f}, {2e-04f, 0.00011f}},
+      {{0.7525f, 0.625f}, {0.8878889f, 1.0f}, {2e-04f, 0.00011f}},
+      {{0.87625f, 0.5625f}, {1.0f, 0.9348318f}, {2e-04f, 0.00011f}},
+      {{1.0f, 0.5f}, {1.0f, 0.674928f}, {2e-04f, 0.00011f}},
+      {{0.005f, 0.5f}, {0.010000169f, 0.50094f}, {2e-04f, 0.00011f}},
+      {{1.5f, 0.25f}, {1.0f, 0.3381805f}, {2e-04f, 0.00011f}},
+      {{0.505f, 0.0f}, {0.60013735f, 0.0016004272f}, {2e-04f, 0.00011f}},
+      {{0.505f, 2.0f}, {0.55517757f, 2.0f}, {2e-04f, 0.00021f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -85,7 +85,7 @@ inline float target_alpha(float alpha, float specular) noexcept {
   c0 = c0 * u_2 + 0.9757186f;
   c0_next = c0_next * u_2 + 0.5029683f;
   c0 = c0 * u + c0_next;
-  float c1 = -0.00012921156f;
+  float c1 = -0.00012921153f;
   float c1_next = -0.00870031f;
   c1 = c1 * u_2 + 0.0016964605f;
   c1_next = c1_next * u_2 + 0.017970966f;

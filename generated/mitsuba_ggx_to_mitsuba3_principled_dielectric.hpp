@@ -123,7 +123,7 @@ inline float target_alpha(float alpha, float specular) noexcept {
   c4_next = c4_next * u_2 + -8212.372f;
   c4 = c4 * u_2 + -16858.545f;
   c4_next = c4_next * u_2 + -10429.194f;
-  c4 = c4 * u_2 + -4240.986f;
+  c4 = c4 * u_2 + -4240.9854f;
   c4 = c4_next * u + c4;
   float c5 = 380987.9f;
   float c5_next = 120932.125f;
@@ -142,7 +142,7 @@ inline float target_alpha(float alpha, float specular) noexcept {
   c7 = c7 * u + 9928237.0f;
   c7 = c7 * u + -27824708.0f;
   c7 = c7 * u + -8688203.0f;
-  const float c8 = -73709064.0f;
+  const float c8 = -73709056.0f;
   const float w = specular - 0.04000008f;
   float sum = c8;
   sum = sum * w + c7;

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba_phong.csv, sha256 f49c39937d5e0813406cb446691d78834df17e0c20f21e28186bb84644bd3d0e;
+// Table mitsuba_ggx_to_mitsuba_phong.csv, sha256 0c66d2e9cd49b8d139ee62dde359e87c9a43c90401bf5eea66be99e572b61970;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: svr, seed 1, 600 rows trained, 150 held out.
-// Error on the rows held out: alpha rms 0.00049, 99 % 0.0018, max 0.0027;
-// specular rms 0.00038, 99 % 0.00078, max 8e-04.
-// Lowered from the fit. Target alpha: degree 7 on 4 pieces, 2 in specular, proven within 7.6e-06 (sampled 6.5e-06), rising with alpha.
-// Target specular: degree 10 in alpha / (alpha + 1), 5 in specular, proven within 8.1e-05 (sampled 7.2e-05), rising with specular.
-// Covers alpha 0.01 to 0.829310345, f0 0 to 1.
+// Fit: series, seed 1, 720 rows trained, 180 held out.
+// Error on the rows held out: alpha rms 0.00018, 99 % 0.00073, max 0.00083;
+// specular rms 0.00011, 99 % 0.00053, max 6e-04.
+// Lowered from the fit. Target alpha: degree 10, 4 in specular, proven within 9.8e-06 (sampled 7.8e-06), rising with alpha.
+// Target specular: degree 8 in alpha / (alpha + 1), proven within 9.1e-05 (sampled 8.2e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, proven within 2.2e-05 (sampled 1.9e-05), rising with specular.
+// All together within 9.8e-06 in alpha, 9.5e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_PHONG_HPP
 
@@ -36,11 +38,11 @@ inline constexpr const char* kTargetRoughness = "exponent";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00049f;
-inline constexpr float kSpecularRmsError = 0.00038f;
+inline constexpr float kAlphaRmsError = 0.00018f;
+inline constexpr float kSpecularRmsError = 0.00011f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.32f;
+inline constexpr float kImageRmsError = 0.31f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.82931036f, 1.0f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,47 +76,62 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-// x rounded down, held in [0, last]. Masks in place of comparisons: compilers would branch on them.
-inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
-  const std::int32_t cell = static_cast<std::int32_t>(x);
-  const std::int32_t below = (cell & ~(cell >> 31)) - last;
-  return last + (below & (below >> 31));
-}
-
-inline constexpr float kAlphaTable[4][18] = {
-    {0.22844663f, 0.41566974f, -0.0031935822f, 0.04103193f, 0.0040880484f, -0.15328084f, 0.06790507f, 0.064494364f, 7.953396e-05f, 0.00051480223f, 0.002009687f, 0.0035021189f, -0.0025864404f, -0.0034462842f, 2.8868355e-05f, -0.0056844642f, 0.0032212462f, -0.002759705f},
-    {0.63314325f, 0.3541445f, -0.0907082f, -0.027725797f, 0.007144966f, -0.007272455f, 0.010814142f, 0.007679724f, 0.0019807494f, 0.00045591555f, -0.0029159458f, 0.0022095996f, 0.002840104f, -0.0026451498f, -0.004531804f, -0.0038269782f, 0.0018282328f, 0.0015340693f},
-    {0.88090295f, 0.14542583f, -0.077750936f, 0.037257876f, -0.0012570673f, -0.016774692f, 0.00076907943f, 0.004059792f, 0.001813021f, -0.0003211091f, -0.0011953161f, -0.00061686843f, 0.0020445697f, 0.0009239817f, -0.0055949786f, 0.001378012f, 0.0010370722f, -0.0018259229f},
-    {0.97403055f, 0.056172557f, -0.018623376f, 0.030969929f, -0.0076559046f, -0.066107355f, -0.03244254f, 0.028335081f, 0.0013988029f, 0.0002455262f, -0.0008960684f, -0.003987004f, -0.00025694614f, 0.0032368018f, -0.004756575f, -0.0008369693f, -0.0022340342f, -0.00017323147f},
-};
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float x = alpha * 4.882144f - 0.04882127f;
-  const std::int32_t cell = cell_of(x, 3);
-  const float u = x - (static_cast<float>(cell) + 0.5f);
-  const float* row = kAlphaTable[cell];
+  const float u = alpha - 0.4434948f;
   const float u_2 = u * u;
-  float c0 = row[7];
-  float c0_next = row[6];
-  c0 = c0 * u_2 + row[5];
-  c0_next = c0_next * u_2 + row[4];
-  c0 = c0 * u_2 + row[3];
-  c0_next = c0_next * u_2 + row[2];
-  c0 = c0 * u_2 + row[1];
-  c0_next = c0_next * u_2 + row[0];
-  c0 = c0 * u + c0_next;
-  float c1 = row[13];
-  float c1_next = row[12];
-  c1 = c1 * u_2 + row[11];
-  c1_next = c1_next * u_2 + row[10];
-  c1 = c1 * u_2 + row[9];
-  c1_next = c1_next * u_2 + row[8];
+  float c0 = -86.17822f;
+  float c0_next = -149.79118f;
+  c0 = c0 * u_2 + 86.316956f;
+  c0_next = c0_next * u_2 + 90.01888f;
+  c0 = c0 * u_2 + -37.440044f;
+  c0_next = c0_next * u_2 + -20.404516f;
+  c0 = c0 * u_2 + 10.046928f;
+  c0_next = c0_next * u_2 + 1.9864633f;
+  c0 = c0 * u_2 + -2.6134508f;
+  c0_next = c0_next * u_2 + 1.0746291f;
+  c0 = c0 * u_2 + 0.81117505f;
+  c0 = c0_next * u + c0;
+  float c1 = -7.7252884f;
+  float c1_next = 1.0260602f;
+  c1 = c1 * u_2 + 4.6235433f;
+  c1_next = c1_next * u_2 + -0.23185842f;
+  c1 = c1 * u_2 + -0.9398138f;
+  c1_next = c1_next * u_2 + -0.03203804f;
+  c1 = c1 * u_2 + 0.07798226f;
+  c1_next = c1_next * u_2 + 0.011187134f;
+  c1 = c1 * u_2 + -0.0028348183f;
+  c1_next = c1_next * u_2 + -0.000896753f;
   c1 = c1 * u + c1_next;
-  float c2 = row[17];
-  c2 = c2 * u + row[16];
-  c2 = c2 * u + row[15];
-  c2 = c2 * u + row[14];
+  float c2 = -10.03326f;
+  float c2_next = -3.554532f;
+  c2 = c2 * u_2 + 2.4917302f;
+  c2_next = c2_next * u_2 + 1.4226042f;
+  c2 = c2 * u_2 + 0.14884074f;
+  c2_next = c2_next * u_2 + -0.17839865f;
+  c2 = c2 * u_2 + -0.06894457f;
+  c2_next = c2_next * u_2 + 0.009338693f;
+  c2 = c2 * u_2 + 0.0047440943f;
+  c2 = c2_next * u + c2;
+  float c3 = -3.9146729f;
+  float c3_next = -0.24663061f;
+  c3 = c3 * u_2 + 1.9064038f;
+  c3_next = c3_next * u_2 + 0.023600312f;
+  c3 = c3 * u_2 + -0.31263638f;
+  c3_next = c3_next * u_2 + 0.015016505f;
+  c3 = c3 * u_2 + 0.022309609f;
+  c3 = c3_next * u + c3;
+  float c4 = 14.061991f;
+  float c4_next = 0.09672424f;
+  c4 = c4 * u_2 + -6.198058f;
+  c4_next = c4_next * u_2 + 0.057091005f;
+  c4 = c4 * u_2 + 0.90611595f;
+  c4_next = c4_next * u_2 + -0.042345542f;
+  c4 = c4 * u_2 + -0.056942128f;
+  c4 = c4_next * u + c4;
   const float w = specular - 0.500001f;
-  float sum = c2;
+  float sum = c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
   sum = sum * w + c1;
   sum = sum * w + c0;
   return sum;
@@ -123,7 +140,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -139,66 +158,48 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
     const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.2316237f;
+    const float u = t - 0.23856649f;
     const float u_2 = u * u;
-    float c0 = -49626.81f;
-    float c0_next = 17043.361f;
-    c0 = c0 * u_2 + 4154.7163f;
-    c0_next = c0_next * u_2 + -1877.2905f;
-    c0 = c0 * u_2 + -182.32097f;
-    c0_next = c0_next * u_2 + 121.99078f;
-    c0 = c0 * u_2 + 13.878366f;
-    c0_next = c0_next * u_2 + -6.8542905f;
-    c0 = c0 * u_2 + -2.5351593f;
-    c0_next = c0_next * u_2 + -0.37807992f;
-    c0 = c0 * u_2 + 0.4750703f;
+    float c0 = 637.9882f;
+    float c0_next = -19.176788f;
+    c0 = c0 * u_2 + -67.61893f;
+    c0_next = c0_next * u_2 + 1.8226544f;
+    c0 = c0 * u_2 + 2.2866573f;
+    c0_next = c0_next * u_2 + -0.04262874f;
+    c0 = c0 * u_2 + -0.030387266f;
+    c0_next = c0_next * u_2 + -0.0021883212f;
+    c0 = c0 * u_2 + 0.0012340042f;
     c0 = c0_next * u + c0;
-    float c1 = -141815.16f;
-    float c1_next = 23943.205f;
-    c1 = c1 * u_2 + 18537.67f;
-    c1_next = c1_next * u_2 + -3338.156f;
-    c1 = c1 * u_2 + -1161.9928f;
-    c1_next = c1_next * u_2 + 283.4908f;
-    c1 = c1 * u_2 + 55.60781f;
-    c1_next = c1_next * u_2 + -16.951218f;
-    c1 = c1 * u_2 + -5.530821f;
-    c1_next = c1_next * u_2 + -0.69355315f;
-    c1 = c1 * u_2 + 0.94944507f;
+    float c1 = -215.81816f;
+    float c1_next = 106.8832f;
+    c1 = c1 * u_2 + 34.147465f;
+    c1_next = c1_next * u_2 + -11.578544f;
+    c1 = c1 * u_2 + -5.405411f;
+    c1_next = c1_next * u_2 + -0.82429385f;
+    c1 = c1 * u_2 + 0.9429824f;
     c1 = c1_next * u + c1;
-    float c2 = -193.37013f;
-    float c2_next = 20.47418f;
-    c2 = c2 * u_2 + 18.153063f;
-    c2_next = c2_next * u_2 + -1.6939337f;
-    c2 = c2 * u_2 + -0.47551578f;
-    c2_next = c2_next * u_2 + 0.023490641f;
-    c2 = c2 * u_2 + 0.0025125432f;
-    c2 = c2_next * u + c2;
-    float c3 = -8.7183f;
-    float c3_next = 5.189442f;
-    c3 = c3 * u_2 + 0.55837065f;
-    c3_next = c3_next * u_2 + -0.17834115f;
-    c3 = c3 * u_2 + 0.008421284f;
-    c3 = c3_next * u + c3;
-    float c4 = 0.027164372f;
-    c4 = c4 * u + 0.0010409708f;
-    const float c5 = -0.049090527f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.500001f;
-  float sum = terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9196391f;
+  float c0 = -0.0016518522f;
+  c0 = c0 * u + -0.00053376815f;
+  c0 = c0 * u + 0.00043074047f;
+  float c1 = 0.2720542f;
+  c1 = c1 * u + -0.7170356f;
+  c1 = c1 * u + 0.4344842f;
+  float sum = c1;
+  sum = sum * specular + c0;
   return sum;
 }
 
@@ -268,6 +269,22 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
@@ -285,6 +302,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.87698776f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.8392779f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -392,8 +423,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -403,13 +439,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -421,15 +546,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -437,16 +569,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -517,19 +652,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {4444.1567f, 0.9838424f}, {3.2f, 8.1e-05f}},
-      {{0.112413794f, 0.9375f}, {36.311474f, 0.9289569f}, {0.0026f, 8.1e-05f}},
-      {{0.21482758f, 0.875f}, {8.439997f, 0.855268f}, {0.00037f, 8.1e-05f}},
-      {{0.31724137f, 0.8125f}, {2.9863937f, 0.7662728f}, {0.00013f, 8.1e-05f}},
-      {{0.41965517f, 0.75f}, {1.2487098f, 0.65897125f}, {6.4e-05f, 8.1e-05f}},
-      {{0.522069f, 0.6875f}, {0.5765149f, 0.54399693f}, {4.5e-05f, 8.1e-05f}},
-      {{0.62448275f, 0.625f}, {0.2712959f, 0.4335717f}, {3.8e-05f, 8.1e-05f}},
-      {{0.7268966f, 0.5625f}, {0.10776309f, 0.33518282f}, {3.4e-05f, 8.1e-05f}},
-      {{0.82931036f, 0.5f}, {0.006004355f, 0.2517814f}, {3.1e-05f, 8.1e-05f}},
-      {{0.005f, 0.5f}, {4857.375f, 0.49290046f}, {3.7f, 8.1e-05f}},
-      {{1.2439655f, 0.25f}, {0.008340846f, 0.12670073f}, {3.1e-05f, 8.1e-05f}},
-      {{0.41965517f, 0.0f}, {1.2692951f, 0.0015725165f}, {6.5e-05f, 8.1e-05f}},
-      {{0.41965517f, 2.0f}, {1.2538815f, 1.7554927f}, {6.4e-05f, 0.00017f}},
+      {{0.01f, 1.0f}, {4734.0513f, 0.98453003f}, {4.6f, 9.6e-05f}},
+      {{0.13375f, 0.9375f}, {25.01669f, 0.9275638f}, {0.002f, 9.6e-05f}},
+      {{0.2575f, 0.875f}, {5.3181505f, 0.8458067f}, {0.00028f, 9.5e-05f}},
+      {{0.38125f, 0.8125f}, {1.710841f, 0.73560387f}, {0.00011f, 9.5e-05f}},
+      {{0.505f, 0.75f}, {0.65355086f, 0.604902f}, {6.1e-05f, 9.5e-05f}},
+      {{0.62875f, 0.6875f}, {0.26417407f, 0.4738432f}, {4.8e-05f, 9.5e-05f}},
+      {{0.7525f, 0.625f}, {0.079608165f, 0.35702428f}, {4.2e-05f, 9.5e-05f}},
+      {{0.87625f, 0.5625f}, {0.0f, 0.2626539f}, {4e-05f, 9.5e-05f}},
+      {{1.0f, 0.5f}, {0.0f, 0.18970218f}, {4e-05f, 9.5e-05f}},
+      {{0.005f, 0.5f}, {4734.0405f, 0.4929796f}, {4.6f, 9.5e-05f}},
+      {{1.5f, 0.25f}, {0.0f, 0.095047064f}, {4e-05f, 9.5e-05f}},
+      {{0.505f, 0.0f}, {0.682504f, 0.0009050883f}, {6.2e-05f, 9.5e-05f}},
+      {{0.505f, 2.0f}, {0.6547865f, 1.6124687f}, {6.1e-05f, 0.00019f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba_ward.csv, sha256 ec068dd2dcd72c3b5f1ad443e45a166cbf81c42e29e89c07c8e9fd8e433e4a98;
+// Table mitsuba_ggx_to_mitsuba_ward.csv, sha256 9d0473edc387a5ffd4ad030345bec9b57eaa64744b698e77928b375ef4ce748f;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 163 rows trained, 41 held out.
-// Error on the rows held out: alpha rms 2e-05, 99 % 6.1e-05, max 6.1e-05;
-// specular rms 6.8e-05, 99 % 0.00042, max 0.00042.
-// Lowered from the fit. Target alpha: degree 12, 12 in specular, proven within 8.4e-06 (sampled 7e-06), rising with alpha.
-// Target specular: degree 9, 5 in specular, proven within 7e-05 (sampled 6.1e-05), rising with specular.
-// Covers alpha 0.01 to 0.556206897, f0 0 to 0.4.
+// Fit: series, seed 1, 848 rows trained, 212 held out.
+// Error on the rows held out: alpha rms 0.00027, 99 % 0.0012, max 0.0026;
+// specular rms 2.9e-05, 99 % 9.8e-05, max 0.00021.
+// Lowered from the fit. Target alpha: degree 8, 4 in specular, proven within 1e-05 (sampled 9.4e-06), rising with alpha.
+// Target specular: degree 9 in alpha / (alpha + 1), proven within 8.6e-05 (sampled 7.7e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 5, 2 in specular, proven within 5.8e-05 (sampled 5.2e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 12, 11 in specular, proven within 1e-04 (sampled 1.5e-05).
+// All together within 0.00017 in alpha, 9.6e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 2e-05f;
-inline constexpr float kSpecularRmsError = 6.8e-05f;
+inline constexpr float kAlphaRmsError = 0.00027f;
+inline constexpr float kSpecularRmsError = 2.9e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.28f;
+inline constexpr float kImageRmsError = 0.31f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.5562069f, 0.4f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,100 +78,48 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.28310403f;
+  const float u = alpha - 0.30329672f;
   const float u_2 = u * u;
-  float c0 = -28261.496f;
-  float c0_next = -376.06677f;
-  c0 = c0 * u_2 + 9826.378f;
-  c0_next = c0_next * u_2 + 333.04785f;
-  c0 = c0 * u_2 + -1616.1853f;
-  c0_next = c0_next * u_2 + -137.68619f;
-  c0 = c0 * u_2 + 166.70224f;
-  c0_next = c0_next * u_2 + 28.270096f;
-  c0 = c0 * u_2 + -12.514533f;
-  c0_next = c0_next * u_2 + -2.907337f;
-  c0 = c0 * u_2 + 1.4046726f;
-  c0_next = c0_next * u_2 + 1.7906135f;
-  c0 = c0 * u_2 + 0.39973417f;
+  float c0 = -565.2941f;
+  float c0_next = -194.85867f;
+  c0 = c0 * u_2 + 101.71249f;
+  c0_next = c0_next * u_2 + 41.73154f;
+  c0 = c0 * u_2 + -8.192757f;
+  c0_next = c0_next * u_2 + -3.755291f;
+  c0 = c0 * u_2 + 1.1965348f;
+  c0_next = c0_next * u_2 + 1.8454276f;
+  c0 = c0 * u_2 + 0.43674785f;
   c0 = c0_next * u + c0;
-  float c1 = 3479.766f;
-  float c1_next = -261.13193f;
-  c1 = c1 * u_2 + -866.917f;
-  c1_next = c1_next * u_2 + 25.988901f;
-  c1 = c1 * u_2 + 72.89109f;
-  c1_next = c1_next * u_2 + 1.1925678f;
-  c1 = c1 * u_2 + -2.4928424f;
-  c1_next = c1_next * u_2 + -0.1816283f;
-  c1 = c1 * u_2 + 0.0714135f;
-  c1_next = c1_next * u_2 + 0.02446134f;
-  c1 = c1 * u_2 + 0.002419206f;
-  c1 = c1_next * u + c1;
-  float c2 = 1207.1615f;
-  float c2_next = 77.41697f;
-  c2 = c2 * u_2 + -219.32416f;
-  c2_next = c2_next * u_2 + -17.554522f;
-  c2 = c2 * u_2 + 13.978429f;
-  c2_next = c2_next * u_2 + 0.8070498f;
-  c2 = c2 * u_2 + -0.65837413f;
-  c2_next = c2_next * u_2 + -0.14601491f;
-  c2 = c2 * u_2 + -0.009417154f;
+  float c1 = -72.43302f;
+  float c1_next = -24.672441f;
+  c1 = c1 * u_2 + 8.335001f;
+  c1_next = c1_next * u_2 + 3.2889848f;
+  c1 = c1 * u_2 + -0.1383779f;
+  c1_next = c1_next * u_2 + -0.115671724f;
+  c1 = c1 * u_2 + -0.009463821f;
+  c1_next = c1_next * u_2 + -0.0003842221f;
+  c1 = c1 * u + c1_next;
+  float c2 = 42.349415f;
+  float c2_next = 13.470519f;
+  c2 = c2 * u_2 + -2.8546276f;
+  c2_next = c2_next * u_2 + -1.1139078f;
+  c2 = c2 * u_2 + 0.05193732f;
+  c2_next = c2_next * u_2 + 0.043335356f;
+  c2 = c2 * u_2 + 0.0038517264f;
   c2 = c2_next * u + c2;
-  float c3 = -802.8284f;
-  float c3_next = 292.66736f;
-  c3 = c3 * u_2 + 115.93324f;
-  c3_next = c3_next * u_2 + -37.785156f;
-  c3 = c3 * u_2 + -8.8271265f;
-  c3_next = c3_next * u_2 + 3.2591565f;
-  c3 = c3 * u_2 + 1.2748773f;
-  c3_next = c3_next * u_2 + 0.11719367f;
+  float c3 = -8.758435f;
+  float c3_next = -4.584421f;
+  c3 = c3 * u_2 + -0.09043712f;
+  c3_next = c3_next * u_2 + 0.4809301f;
+  c3 = c3 * u_2 + 0.15237002f;
+  c3_next = c3_next * u_2 + 0.015963955f;
   c3 = c3 * u + c3_next;
-  float c4 = -296.33582f;
-  float c4_next = 21.026281f;
-  c4 = c4 * u_2 + 69.5026f;
-  c4_next = c4_next * u_2 + 23.706804f;
-  c4 = c4 * u_2 + -1.81932f;
-  c4_next = c4_next * u_2 + -1.394236f;
-  c4 = c4 * u + c4_next;
-  float c5 = 1215.7775f;
-  float c5_next = -156.15909f;
-  c5 = c5 * u_2 + 15.893512f;
-  c5_next = c5_next * u_2 + -261.3382f;
-  c5 = c5 * u_2 + -92.820366f;
-  c5_next = c5_next * u_2 + -3.9212298f;
-  c5 = c5 * u + c5_next;
-  float c6 = -1023.0634f;
-  c6 = c6 * u + -1821.3618f;
-  c6 = c6 * u + 247.42142f;
-  c6 = c6 * u + 129.26863f;
-  float c7 = -5742.2344f;
-  c7 = c7 * u + 21590.662f;
-  c7 = c7 * u + 6367.2285f;
-  c7 = c7 * u + 70.008514f;
-  float c8 = 27458.4f;
-  c8 = c8 * u + 16700.023f;
-  c8 = c8 * u + -33066.793f;
-  c8 = c8 * u + -6504.5054f;
-  float c9 = -463870.25f;
-  c9 = c9 * u + -84288.336f;
-  c9 = c9 * u + 9876.345f;
-  float c10 = 108283.766f;
-  c10 = c10 * u + 651899.94f;
-  c10 = c10 * u + 95438.734f;
-  float c11 = 3100279.8f;
-  c11 = c11 * u + 311381.1f;
-  c11 = c11 * u + -122391.57f;
-  float c12 = -4090405.0f;
-  c12 = c12 * u + -524975.06f;
-  const float w = specular - 0.2000004f;
-  float sum = c12;
-  sum = sum * w + c11;
-  sum = sum * w + c10;
-  sum = sum * w + c9;
-  sum = sum * w + c8;
-  sum = sum * w + c7;
-  sum = sum * w + c6;
-  sum = sum * w + c5;
-  sum = sum * w + c4;
+  float c4 = 0.38430783f;
+  c4 = c4 * u + -0.56994f;
+  c4 = c4 * u + -0.33921662f;
+  c4 = c4 * u + -0.04200881f;
+  const float w = specular - 0.500001f;
+  float sum = c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -179,7 +130,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -194,71 +147,187 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.28310403f;
+    const float t = alpha / (alpha + 1.0f);
+    const float u = t - 0.19178371f;
     const float u_2 = u * u;
-    float c0 = 484.6065f;
-    float c0_next = -492.48932f;
-    c0 = c0 * u_2 + -38.68523f;
-    c0_next = c0_next * u_2 + 99.02236f;
-    c0 = c0 * u_2 + 4.146478f;
-    c0_next = c0_next * u_2 + -9.909822f;
-    c0 = c0 * u_2 + -1.3007814f;
-    c0_next = c0_next * u_2 + 1.2003585f;
-    c0 = c0 * u_2 + 0.55334026f;
-    c0_next = c0_next * u_2 + 0.28366f;
+    float c0 = -3341.99f;
+    float c0_next = 103.667366f;
+    c0 = c0 * u_2 + 222.18875f;
+    c0_next = c0_next * u_2 + -8.591057f;
+    c0 = c0 * u_2 + -4.2738194f;
+    c0_next = c0_next * u_2 + 0.19577928f;
+    c0 = c0 * u_2 + -0.023400577f;
+    c0_next = c0_next * u_2 + -0.011258476f;
+    c0 = c0 * u_2 + -9.7059434e-05f;
+    c0_next = c0_next * u_2 + 0.0016183029f;
     c0 = c0 * u + c0_next;
-    float c1 = -2474.38f;
-    float c1_next = 194.1553f;
-    c1 = c1 * u_2 + 509.7565f;
-    c1_next = c1_next * u_2 + 1.6240445f;
-    c1 = c1 * u_2 + -50.992085f;
-    c1_next = c1_next * u_2 + -6.1752014f;
-    c1 = c1 * u_2 + 6.048767f;
-    c1_next = c1_next * u_2 + 2.7666423f;
-    c1 = c1 * u_2 + 1.4103761f;
-    c1 = c1_next * u + c1;
-    float c2 = -2.0378616f;
-    float c2_next = -0.5191874f;
-    c2 = c2 * u_2 + 2.7454474f;
-    c2_next = c2_next * u_2 + 0.1703725f;
-    c2 = c2 * u_2 + -0.20268087f;
-    c2_next = c2_next * u_2 + -0.007953209f;
-    c2 = c2 * u_2 + 0.0021326158f;
-    c2 = c2_next * u + c2;
-    float c3 = -611.1592f;
-    float c3_next = -57.604263f;
-    c3 = c3 * u_2 + 62.284836f;
-    c3_next = c3_next * u_2 + 3.8382227f;
-    c3 = c3 * u_2 + -0.5136928f;
-    c3_next = c3_next * u_2 + 0.1037148f;
-    c3 = c3 * u_2 + -0.017201364f;
-    c3 = c3_next * u + c3;
-    float c4 = -90.87115f;
-    float c4_next = -3.4874172f;
-    c4 = c4 * u_2 + 7.131643f;
-    c4_next = c4_next * u_2 + 0.24059771f;
-    c4 = c4 * u_2 + -0.07335298f;
-    c4 = c4_next * u + c4;
-    float c5 = -26.327017f;
-    c5 = c5 * u + -3.4832203f;
-    c5 = c5 * u + 0.56282574f;
+    float c1 = -219965.1f;
+    float c1_next = 18043.94f;
+    c1 = c1 * u_2 + 35875.38f;
+    c1_next = c1_next * u_2 + 155.4206f;
+    c1 = c1 * u_2 + -1860.9703f;
+    c1_next = c1_next * u_2 + -156.47678f;
+    c1 = c1 * u_2 + 49.300064f;
+    c1_next = c1_next * u_2 + 19.106264f;
+    c1 = c1 * u_2 + 3.3607755f;
+    c1_next = c1_next * u_2 + 1.2964017f;
+    c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.2000004f;
-  float sum = terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.79439956f;
+  const float u_2 = u * u;
+  float c0 = -2.492834f;
+  float c0_next = -3.9600437f;
+  c0 = c0 * u_2 + 3.241204f;
+  c0_next = c0_next * u_2 + 0.31617075f;
+  c0 = c0 * u_2 + -1.6198285f;
+  c0_next = c0_next * u_2 + 0.9316574f;
+  c0 = c0 * u + c0_next;
+  float c1 = -8.802723f;
+  float c1_next = -7.526375f;
+  c1 = c1 * u_2 + 6.7005286f;
+  c1_next = c1_next * u_2 + 0.61372596f;
+  c1 = c1 * u_2 + -3.2370415f;
+  c1_next = c1_next * u_2 + 1.8595767f;
+  c1 = c1 * u + c1_next;
+  float c2 = 0.25214297f;
+  c2 = c2 * u + -0.034287926f;
+  c2 = c2 * u + -0.003640116f;
+  c2 = c2 * u + 0.00022852817f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = 871.4175f;
+  float c0_next = -1484.1938f;
+  c0 = c0 * u_2 + -810.22424f;
+  c0_next = c0_next * u_2 + 307.48093f;
+  c0 = c0 * u_2 + 463.287f;
+  c0_next = c0_next * u_2 + -140.13629f;
+  c0 = c0 * u_2 + -35.83557f;
+  c0_next = c0_next * u_2 + 15.467867f;
+  c0 = c0 * u_2 + -3.1296782f;
+  c0_next = c0_next * u_2 + 1.7762678f;
+  c0 = c0 * u_2 + -0.25922063f;
+  c0_next = c0_next * u_2 + 0.89376664f;
+  c0 = c0 * u_2 + 0.64622927f;
+  c0 = c0_next * u + c0;
+  float c1 = 3519.5688f;
+  float c1_next = 3003.7861f;
+  c1 = c1 * u_2 + 6522.732f;
+  c1_next = c1_next * u_2 + -3624.3254f;
+  c1 = c1 * u_2 + -1056.2805f;
+  c1_next = c1_next * u_2 + 568.6436f;
+  c1 = c1 * u_2 + 2.814098f;
+  c1_next = c1_next * u_2 + -10.423774f;
+  c1 = c1 * u_2 + -1.9212488f;
+  c1_next = c1_next * u_2 + -0.038949843f;
+  c1 = c1 * u_2 + -0.7051364f;
+  c1_next = c1_next * u_2 + -0.4311512f;
+  c1 = c1 * u + c1_next;
+  float c2 = -7938.8706f;
+  float c2_next = -35517.168f;
+  c2 = c2 * u_2 + 2264.5378f;
+  c2_next = c2_next * u_2 + 8664.04f;
+  c2 = c2 * u_2 + -1378.0991f;
+  c2_next = c2_next * u_2 + -176.347f;
+  c2 = c2 * u_2 + 4.7419615f;
+  c2_next = c2_next * u_2 + 3.5141876f;
+  c2 = c2 * u_2 + 1.923338f;
+  c2_next = c2_next * u_2 + 0.09017433f;
+  c2 = c2 * u_2 + 0.7628965f;
+  c2 = c2_next * u + c2;
+  float c3 = 47818.746f;
+  float c3_next = 45467.676f;
+  c3 = c3 * u_2 + -22333.516f;
+  c3_next = c3_next * u_2 + 234.9104f;
+  c3 = c3 * u_2 + 498.94632f;
+  c3_next = c3_next * u_2 + 47.40861f;
+  c3 = c3 * u_2 + -18.728142f;
+  c3_next = c3_next * u_2 + -9.451398f;
+  c3 = c3 * u_2 + 1.9452635f;
+  c3_next = c3_next * u_2 + -1.4273114f;
+  c3 = c3 * u + c3_next;
+  float c4 = -85636.28f;
+  float c4_next = 26045.72f;
+  c4 = c4 * u_2 + 10864.484f;
+  c4_next = c4_next * u_2 + -5777.6196f;
+  c4 = c4 * u_2 + -682.36835f;
+  c4_next = c4_next * u_2 + 72.340805f;
+  c4 = c4 * u_2 + 89.652054f;
+  c4_next = c4_next * u_2 + -6.583127f;
+  c4 = c4 * u_2 + 1.0557721f;
+  c4 = c4_next * u + c4;
+  float c5 = -11888.45f;
+  float c5_next = -104223.9f;
+  c5 = c5 * u_2 + 19046.482f;
+  c5_next = c5_next * u_2 + 3054.4827f;
+  c5 = c5 * u_2 + 1616.1901f;
+  c5_next = c5_next * u_2 + -319.53983f;
+  c5 = c5 * u_2 + 26.58073f;
+  c5_next = c5_next * u_2 + 1.5006019f;
+  c5 = c5 * u + c5_next;
+  float c6 = 215688.78f;
+  float c6_next = 30515.7f;
+  c6 = c6 * u_2 + 11927.4f;
+  c6_next = c6_next * u_2 + -5643.977f;
+  c6 = c6 * u_2 + -964.5151f;
+  c6_next = c6_next * u_2 + -78.73098f;
+  c6 = c6 * u_2 + 55.888393f;
+  c6 = c6_next * u + c6;
+  float c7 = -133993.2f;
+  float c7_next = -31567.432f;
+  c7 = c7 * u_2 + -13004.543f;
+  c7_next = c7_next * u_2 + 5579.0366f;
+  c7 = c7 * u_2 + -763.9829f;
+  c7_next = c7_next * u_2 + -186.96251f;
+  c7 = c7 * u + c7_next;
+  float c8 = -37934.918f;
+  float c8_next = 30611.264f;
+  c8 = c8 * u_2 + 1552.6078f;
+  c8_next = c8_next * u_2 + 3284.874f;
+  c8 = c8 * u_2 + -811.5621f;
+  c8 = c8_next * u + c8;
+  float c9 = 52032.305f;
+  c9 = c9 * u + -47562.242f;
+  c9 = c9 * u + 7825.826f;
+  c9 = c9 * u + 2766.7595f;
+  float c10 = 81189.09f;
+  c10 = c10 * u + -38117.348f;
+  c10 = c10 * u + 5071.3745f;
+  float c11 = 20174.027f;
+  c11 = c11 * u + -16728.107f;
+  const float w = specular - 0.7015631f;
+  float sum = c11;
+  sum = sum * w + c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -328,10 +397,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 2.5f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -345,6 +430,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.5965921f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.5887983f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.403125f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -452,8 +551,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -463,13 +567,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -481,15 +674,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -497,16 +697,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -577,19 +780,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.4f}, {0.012154972f, 0.4249803f}, {8.9e-06f, 7e-05f}},
-      {{0.07827586f, 0.375f}, {0.09496746f, 0.4092341f}, {8.9e-06f, 7e-05f}},
-      {{0.14655171f, 0.35f}, {0.18416572f, 0.4026415f}, {9e-06f, 7e-05f}},
-      {{0.21482758f, 0.32500002f}, {0.28474608f, 0.4079762f}, {9e-06f, 7e-05f}},
-      {{0.28310344f, 0.3f}, {0.39990902f, 0.42469677f}, {9.1e-06f, 7e-05f}},
-      {{0.3513793f, 0.275f}, {0.52764297f, 0.44823638f}, {9.1e-06f, 7e-05f}},
-      {{0.41965517f, 0.25f}, {0.661061f, 0.4691326f}, {9.2e-06f, 7e-05f}},
-      {{0.487931f, 0.22500001f}, {0.7953431f, 0.4787896f}, {9.2e-06f, 7e-05f}},
-      {{0.5562069f, 0.2f}, {0.93157816f, 0.47455293f}, {9.3e-06f, 7e-05f}},
-      {{0.005f, 0.2f}, {0.01212041f, 0.21326047f}, {8.9e-06f, 7e-05f}},
-      {{0.8343103f, 0.1f}, {0.9294269f, 0.2378323f}, {9.3e-06f, 7e-05f}},
-      {{0.28310344f, 0.0f}, {0.39275718f, 0.0015018354f}, {9.1e-06f, 7e-05f}},
-      {{0.28310344f, 0.8f}, {0.39998513f, 1.1314825f}, {9.1e-06f, 0.00015f}},
+      {{0.01f, 1.0f}, {0.009717854f, 1.0f}, {0.00017f, 9.7e-05f}},
+      {{0.13375f, 0.9375f}, {0.16767414f, 1.0f}, {0.00017f, 9.7e-05f}},
+      {{0.2575f, 0.875f}, {0.342473f, 1.0f}, {0.00017f, 9.7e-05f}},
+      {{0.38125f, 0.8125f}, {0.4967176f, 1.0f}, {0.00017f, 9.7e-05f}},
+      {{0.505f, 0.75f}, {0.62697417f, 1.0f}, {0.00017f, 9.7e-05f}},
+      {{0.62875f, 0.6875f}, {0.7633167f, 1.0f}, {0.00017f, 9.7e-05f}},
+      {{0.7525f, 0.625f}, {0.9254999f, 1.0f}, {0.00017f, 9.7e-05f}},
+      {{0.87625f, 0.5625f}, {1.0f, 0.9028931f}, {0.00017f, 9.7e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.6321815f}, {0.00017f, 9.7e-05f}},
+      {{0.005f, 0.5f}, {0.01214856f, 0.5308461f}, {0.00017f, 9.7e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.31679386f}, {0.00017f, 9.7e-05f}},
+      {{0.505f, 0.0f}, {0.8181504f, 0.0012583607f}, {0.00017f, 9.6e-05f}},
+      {{0.505f, 2.0f}, {0.56090456f, 2.0f}, {0.00017f, 2e-04f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

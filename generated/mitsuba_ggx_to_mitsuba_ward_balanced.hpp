@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba/ward-balanced: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba_ward_balanced.csv, sha256 09cd31eeef222c40e4c8042ff739bbf3b7c3f1ec7727dc1fdb23eb3c65fcc24b;
+// Table mitsuba_ggx_to_mitsuba_ward_balanced.csv, sha256 6c59a2094e05a7bc304839277b5123a69e3ed6f626dcbe9629f0c71d59d7bc19;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 600 rows trained, 150 held out.
-// Error on the rows held out: alpha rms 0.00039, 99 % 0.0013, max 0.0014;
-// specular rms 0.00012, 99 % 0.00032, max 0.00034.
-// Lowered from the fit. Target alpha: degree 6, 4 in specular, proven within 5.5e-07 (sampled 4.3e-08), rising with alpha.
-// Target specular: degree 8 in alpha / (alpha + 1), proven within 9.7e-05 (sampled 9.4e-05), rising with specular.
-// Covers alpha 0.01 to 0.829310345, f0 0 to 1.
+// Fit: series, seed 1, 720 rows trained, 180 held out.
+// Error on the rows held out: alpha rms 7.5e-05, 99 % 0.00029, max 0.00036;
+// specular rms 8.5e-05, 99 % 0.00039, max 0.00044.
+// Lowered from the fit. Target alpha: degree 16 in alpha / (alpha + 1), 9 in specular, proven within 9.8e-06 (sampled 6.8e-06), rising with alpha.
+// Target specular: degree 12 in alpha / (alpha + 0.3), proven within 9.5e-05 (sampled 8.5e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 3, proven within 1.2e-05 (sampled 6.6e-06), rising with specular.
+// All together within 9.8e-06 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_BALANCED_HPP
 
@@ -36,11 +38,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00039f;
-inline constexpr float kSpecularRmsError = 0.00012f;
+inline constexpr float kAlphaRmsError = 7.5e-05f;
+inline constexpr float kSpecularRmsError = 8.5e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.26f;
+inline constexpr float kImageRmsError = 0.25f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.82931036f, 1.0f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,34 +77,109 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.41965604f;
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.23701297f;
   const float u_2 = u * u;
-  float c0 = -10.127235f;
-  float c0_next = 0.85930735f;
-  c0 = c0 * u_2 + 4.025477f;
-  c0_next = c0_next * u_2 + -0.79867953f;
-  c0 = c0 * u_2 + -0.7259762f;
-  c0_next = c0_next * u_2 + 1.3034291f;
-  c0 = c0 * u_2 + 0.5574669f;
+  float c0 = -1325416448.0f;
+  float c0_next = -385758176.0f;
+  c0 = c0 * u_2 + 176265408.0f;
+  c0_next = c0_next * u_2 + 55064388.0f;
+  c0 = c0 * u_2 + -7833936.0f;
+  c0_next = c0_next * u_2 + -2394211.5f;
+  c0 = c0 * u_2 + 271955.47f;
+  c0_next = c0_next * u_2 + 26839.209f;
+  c0 = c0 * u_2 + -22034.498f;
+  c0_next = c0_next * u_2 + -1772.5706f;
+  c0 = c0 * u_2 + 1188.9397f;
+  c0_next = c0_next * u_2 + 240.85478f;
+  c0 = c0 * u_2 + -32.352055f;
+  c0_next = c0_next * u_2 + -11.487871f;
+  c0 = c0 * u_2 + 2.5508084f;
+  c0_next = c0_next * u_2 + 2.442816f;
+  c0 = c0 * u_2 + 0.408422f;
   c0 = c0_next * u + c0;
-  float c1 = 0.0010135344f;
-  c1 = c1 * u + -0.000681189f;
-  c1 = c1 * u + -0.0022509135f;
-  c1 = c1 * u + -0.0007497381f;
-  float c2 = 0.025166474f;
-  c2 = c2 * u + 0.012760335f;
-  c2 = c2 * u + 0.009674622f;
-  c2 = c2 * u + 0.0036727323f;
-  float c3 = -0.11362477f;
-  c3 = c3 * u + 0.002606948f;
-  c3 = c3 * u + 0.06927621f;
-  c3 = c3 * u + 0.020215504f;
-  float c4 = 0.09427609f;
-  c4 = c4 * u + -0.06100655f;
-  c4 = c4 * u + -0.15868373f;
-  c4 = c4 * u + -0.04888107f;
+  float c1 = 40830.64f;
+  float c1_next = 4031.3213f;
+  c1 = c1 * u_2 + -6359.804f;
+  c1_next = c1_next * u_2 + -507.82217f;
+  c1 = c1 * u_2 + 392.1977f;
+  c1_next = c1_next * u_2 + 26.919739f;
+  c1 = c1 * u_2 + -10.989023f;
+  c1_next = c1_next * u_2 + -0.70706445f;
+  c1 = c1 * u_2 + 0.09195296f;
+  c1_next = c1_next * u_2 + 0.008016036f;
+  c1 = c1 * u_2 + 0.003684852f;
+  c1_next = c1_next * u_2 + 0.0005636422f;
+  c1 = c1 * u + c1_next;
+  float c2 = -286.69437f;
+  float c2_next = 55.362324f;
+  c2 = c2 * u_2 + 52.90093f;
+  c2_next = c2_next * u_2 + 2.5628946f;
+  c2 = c2 * u_2 + -1.0160797f;
+  c2_next = c2_next * u_2 + 0.15712076f;
+  c2 = c2 * u_2 + 0.028593764f;
+  c2_next = c2_next * u_2 + 0.001258457f;
+  c2 = c2 * u_2 + 0.0013731912f;
+  c2 = c2_next * u + c2;
+  float c3 = -1790.4332f;
+  float c3_next = -863.01855f;
+  c3 = c3 * u_2 + 68.864296f;
+  c3_next = c3_next * u_2 + 50.932026f;
+  c3 = c3 * u_2 + -2.274128f;
+  c3_next = c3_next * u_2 + -0.67701477f;
+  c3 = c3 * u_2 + 0.28083807f;
+  c3_next = c3_next * u_2 + -0.0069315364f;
+  c3 = c3 * u_2 + -0.011338888f;
+  c3 = c3_next * u + c3;
+  float c4 = 4470.0825f;
+  float c4_next = 512.5947f;
+  c4 = c4 * u_2 + -561.98126f;
+  c4_next = c4_next * u_2 + -124.09781f;
+  c4 = c4 * u_2 + -5.818274f;
+  c4_next = c4_next * u_2 + -3.7308302f;
+  c4 = c4 * u_2 + -1.0810792f;
+  c4_next = c4_next * u_2 + -0.40446264f;
+  c4 = c4 * u_2 + -0.07755433f;
+  c4 = c4_next * u + c4;
+  float c5 = 2147.804f;
+  float c5_next = 513.0411f;
+  c5 = c5 * u_2 + 98.07216f;
+  c5_next = c5_next * u_2 + 20.410402f;
+  c5 = c5 * u_2 + -8.58602f;
+  c5_next = c5_next * u_2 + -2.4068375f;
+  c5 = c5 * u_2 + 1.0356674f;
+  c5_next = c5_next * u_2 + 0.26880634f;
+  c5 = c5 * u + c5_next;
+  float c6 = 85.67122f;
+  float c6_next = 141.42697f;
+  c6 = c6 * u_2 + 57.860855f;
+  c6_next = c6_next * u_2 + 11.382732f;
+  c6 = c6 * u_2 + 4.421291f;
+  c6_next = c6_next * u_2 + 0.76887935f;
+  c6 = c6 * u + c6_next;
+  float c7 = -551.02325f;
+  float c7_next = -184.49712f;
+  c7 = c7 * u_2 + 8.345756f;
+  c7_next = c7_next * u_2 + 0.16903141f;
+  c7 = c7 * u_2 + -9.966773f;
+  c7_next = c7_next * u_2 + -2.0664482f;
+  c7 = c7 * u + c7_next;
+  float c8 = -177.94392f;
+  float c8_next = -101.672585f;
+  c8 = c8 * u_2 + -43.5075f;
+  c8_next = c8_next * u_2 + -18.105783f;
+  c8 = c8 * u_2 + -2.581954f;
+  c8 = c8_next * u + c8;
+  float c9 = 49.47971f;
+  c9 = c9 * u + 36.896748f;
+  c9 = c9 * u + 5.919106f;
   const float w = specular - 0.500001f;
-  float sum = c4;
+  float sum = c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -114,6 +191,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -128,29 +207,36 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float t = alpha / (alpha + 1.0f);
-    const float u = t - 0.2316237f;
+    const float t = alpha / (alpha + 0.3f);
+    const float u = t - 0.38749582f;
     const float u_2 = u * u;
-    float c0 = 8.383078f;
-    float c0_next = -0.7362514f;
-    c0 = c0 * u_2 + -1.0166036f;
-    c0_next = c0_next * u_2 + 0.053356186f;
-    c0 = c0 * u_2 + 0.09488368f;
-    c0_next = c0_next * u_2 + -0.005223116f;
-    c0 = c0 * u_2 + -0.006550697f;
-    c0_next = c0_next * u_2 + -0.0012027753f;
-    c0 = c0 * u_2 + 0.0010405112f;
+    float c0 = -16196.701f;
+    float c0_next = 277.2965f;
+    c0 = c0 * u_2 + 6112.1597f;
+    c0_next = c0_next * u_2 + -92.55739f;
+    c0 = c0 * u_2 + -859.7194f;
+    c0_next = c0_next * u_2 + 11.498352f;
+    c0 = c0 * u_2 + 54.936176f;
+    c0_next = c0_next * u_2 + -0.6158552f;
+    c0 = c0 * u_2 + -1.5337079f;
+    c0_next = c0_next * u_2 + 0.005797441f;
+    c0 = c0 * u_2 + 0.012176628f;
+    c0_next = c0_next * u_2 + -0.00027207952f;
+    c0 = c0 * u_2 + 0.0011057409f;
     c0 = c0_next * u + c0;
-    float c1 = -6368.7344f;
-    float c1_next = -794.27924f;
-    c1 = c1 * u_2 + 1012.27734f;
-    c1_next = c1_next * u_2 + 200.7343f;
-    c1 = c1 * u_2 + -74.475174f;
-    c1_next = c1_next * u_2 + -23.921255f;
-    c1 = c1 * u_2 + 0.83057f;
-    c1_next = c1_next * u_2 + 1.055973f;
-    c1 = c1 * u_2 + 0.88769114f;
-    c1 = c1_next * u + c1;
+    float c1 = -14169.935f;
+    float c1_next = -2634.7397f;
+    c1 = c1 * u_2 + 5176.9746f;
+    c1_next = c1_next * u_2 + 1215.4363f;
+    c1 = c1 * u_2 + -577.8818f;
+    c1_next = c1_next * u_2 + -201.78043f;
+    c1 = c1 * u_2 + -13.521402f;
+    c1_next = c1_next * u_2 + 0.37605178f;
+    c1 = c1 * u_2 + 2.125802f;
+    c1_next = c1_next * u_2 + 1.3883957f;
+    c1 = c1 * u_2 + 0.39081177f;
+    c1_next = c1_next * u_2 + 0.8226703f;
+    c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
   }
@@ -159,6 +245,22 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   float sum = terms.c1[i];
   sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.91967064f;
+  float c0 = 0.03228842f;
+  c0 = c0 * u + -0.0024114125f;
+  c0 = c0 * u + -0.00082039286f;
+  c0 = c0 * u + 0.00072894664f;
+  float c1 = 1.9216999f;
+  c1 = c1 * u + 0.21630983f;
+  c1 = c1 * u + -1.2021528f;
+  c1 = c1 * u + 0.78938097f;
+  float sum = c1;
+  sum = sum * specular + c0;
   return sum;
 }
 
@@ -228,6 +330,22 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
@@ -245,6 +363,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 3.4028235e+38f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.86610496f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.839341f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -352,8 +484,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -363,13 +500,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -381,15 +607,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -397,16 +630,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -477,19 +713,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.012174045f, 0.7728227f}, {1.1e-06f, 9.8e-05f}},
-      {{0.112413794f, 0.9375f}, {0.13668111f, 0.7444843f}, {1.1e-06f, 9.8e-05f}},
-      {{0.21482758f, 0.875f}, {0.2730658f, 0.7322192f}, {1.2e-06f, 9.8e-05f}},
-      {{0.31724137f, 0.8125f}, {0.41783577f, 0.7302082f}, {1.3e-06f, 9.8e-05f}},
-      {{0.41965517f, 0.75f}, {0.55763286f, 0.7144797f}, {1.3e-06f, 9.8e-05f}},
-      {{0.522069f, 0.6875f}, {0.68300647f, 0.67199004f}, {1.4e-06f, 9.8e-05f}},
-      {{0.62448275f, 0.625f}, {0.79376197f, 0.60611737f}, {1.5e-06f, 9.7e-05f}},
-      {{0.7268966f, 0.5625f}, {0.8958929f, 0.5279099f}, {1.5e-06f, 9.7e-05f}},
-      {{0.82931036f, 0.5f}, {0.99010307f, 0.44633183f}, {1.5e-06f, 9.7e-05f}},
-      {{0.005f, 0.5f}, {0.012176209f, 0.38701752f}, {1.1e-06f, 9.7e-05f}},
-      {{1.2439655f, 0.25f}, {0.99014777f, 0.22344664f}, {1.5e-06f, 9.7e-05f}},
-      {{0.41965517f, 0.0f}, {0.5531768f, 0.000922348f}, {1.3e-06f, 9.7e-05f}},
-      {{0.41965517f, 2.0f}, {0.557481f, 1.9046062f}, {1.3e-06f, 2e-04f}},
+      {{0.01f, 1.0f}, {0.01214778f, 0.7729581f}, {1.1e-05f, 0.00011f}},
+      {{0.13375f, 0.9375f}, {0.16410585f, 0.7506334f}, {1.1e-05f, 0.00011f}},
+      {{0.2575f, 0.875f}, {0.3327329f, 0.7538504f}, {1.1e-05f, 0.00011f}},
+      {{0.38125f, 0.8125f}, {0.50697094f, 0.75967705f}, {1.1e-05f, 0.00011f}},
+      {{0.505f, 0.75f}, {0.6629862f, 0.73175347f}, {1.1e-05f, 0.00011f}},
+      {{0.62875f, 0.6875f}, {0.79854894f, 0.6659558f}, {1.1e-05f, 0.00011f}},
+      {{0.7525f, 0.625f}, {0.9206584f, 0.5801057f}, {1.1e-05f, 0.00011f}},
+      {{0.87625f, 0.5625f}, {1.0f, 0.47428986f}, {1.1e-05f, 0.00011f}},
+      {{1.0f, 0.5f}, {1.0f, 0.34826452f}, {1.1e-05f, 0.00011f}},
+      {{0.005f, 0.5f}, {0.012149359f, 0.38703978f}, {1.1e-05f, 0.00011f}},
+      {{1.5f, 0.25f}, {1.0f, 0.17446266f}, {1.1e-05f, 0.00011f}},
+      {{0.505f, 0.0f}, {0.6517862f, 0.00086027454f}, {1.1e-05f, 0.00011f}},
+      {{0.505f, 2.0f}, {0.6631171f, 1.9507691f}, {1.1e-05f, 0.00021f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

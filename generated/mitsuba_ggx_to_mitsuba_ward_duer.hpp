@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to mitsuba/ward-duer: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_mitsuba_ward_duer.csv, sha256 da821cbb37640c665ad9e8acd300ef47872ff014ada59489a700234c3a3b5882;
+// Table mitsuba_ggx_to_mitsuba_ward_duer.csv, sha256 86b254c9b7d3e37665020e18d75ea29cb60e890a722e35dab01403089e881a75;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: svr, seed 1, 541 rows trained, 135 held out.
-// Error on the rows held out: alpha rms 0.00041, 99 % 0.0011, max 0.0017;
-// specular rms 0.00034, 99 % 0.00071, max 0.00098.
-// Lowered from the fit. Target alpha: degree 13, 6 in specular, proven within 8.1e-06 (sampled 5.8e-06), rising with alpha.
-// Target specular: degree 11, 5 in specular, proven within 7.1e-05 (sampled 6.3e-05), rising with specular.
-// Covers alpha 0.01 to 0.863448276, f0 0 to 0.866666667.
+// Fit: series, seed 1, 758 rows trained, 190 held out.
+// Error on the rows held out: alpha rms 0.00034, 99 % 0.0016, max 0.0027;
+// specular rms 5.4e-05, 99 % 0.00011, max 0.00058.
+// Lowered from the fit. Target alpha: degree 12, 4 in specular, proven within 4.4e-06 (sampled 3.8e-08), rising with alpha.
+// Target specular: degree 11, proven within 3.2e-05 (sampled 1.6e-06), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, proven within 6.7e-05 (sampled 6.3e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 4, 2 in specular, proven within 7.6e-05 (sampled 6.9e-05), rising with alpha.
+// All together within 0.00011 in alpha, 7.2e-05 in specular.
+// Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_DUER_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_MITSUBA_WARD_DUER_HPP
 
@@ -36,8 +39,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00041f;
-inline constexpr float kSpecularRmsError = 0.00034f;
+inline constexpr float kAlphaRmsError = 0.00034f;
+inline constexpr float kSpecularRmsError = 5.4e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.28f;
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.86344826f, 0.8666667f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,81 +78,70 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.43672505f;
+  const float u = alpha - 0.46300748f;
   const float u_2 = u * u;
-  float c0 = -1734.8865f;
-  float c0_next = 754.658f;
-  c0 = c0 * u_2 + 1797.423f;
-  c0_next = c0_next * u_2 + -735.3045f;
-  c0 = c0 * u_2 + -802.75385f;
-  c0_next = c0_next * u_2 + 324.2827f;
-  c0 = c0 * u_2 + 181.09236f;
-  c0_next = c0_next * u_2 + -83.97431f;
-  c0 = c0 * u_2 + -17.441298f;
-  c0_next = c0_next * u_2 + 14.150823f;
-  c0 = c0 * u_2 + -0.4195666f;
-  c0_next = c0_next * u_2 + -1.7346812f;
-  c0 = c0 * u_2 + 1.2727917f;
-  c0_next = c0_next * u_2 + 0.6095064f;
-  c0 = c0 * u + c0_next;
-  float c1 = 27.374237f;
-  float c1_next = -2.0940998f;
-  c1 = c1 * u_2 + -22.770689f;
-  c1_next = c1_next * u_2 + -3.3099186f;
-  c1 = c1 * u_2 + 7.6799283f;
-  c1_next = c1_next * u_2 + 2.5509112f;
-  c1 = c1 * u_2 + -1.0011142f;
-  c1_next = c1_next * u_2 + -0.4876645f;
-  c1 = c1 * u_2 + 0.06879339f;
-  c1_next = c1_next * u_2 + 0.037698746f;
-  c1 = c1 * u_2 + -0.0070512653f;
-  c1_next = c1_next * u_2 + -0.0023184246f;
+  float c0 = 1120.6692f;
+  float c0_next = 1036.663f;
+  c0 = c0 * u_2 + -965.3703f;
+  c0_next = c0_next * u_2 + -790.4874f;
+  c0 = c0 * u_2 + 346.76593f;
+  c0_next = c0_next * u_2 + 225.61717f;
+  c0 = c0 * u_2 + -76.493744f;
+  c0_next = c0_next * u_2 + -28.306103f;
+  c0 = c0 * u_2 + 12.897825f;
+  c0_next = c0_next * u_2 + 0.9261098f;
+  c0 = c0 * u_2 + -1.7458768f;
+  c0_next = c0_next * u_2 + 1.1830944f;
+  c0 = c0 * u_2 + 0.6421429f;
+  c0 = c0_next * u + c0;
+  float c1 = 144.88219f;
+  float c1_next = -15.346834f;
+  c1 = c1 * u_2 + -135.12411f;
+  c1_next = c1_next * u_2 + -16.02269f;
+  c1 = c1 * u_2 + 34.449142f;
+  c1_next = c1_next * u_2 + 7.0813766f;
+  c1 = c1 * u_2 + -2.9842572f;
+  c1_next = c1_next * u_2 + -0.8010592f;
+  c1 = c1 * u_2 + 0.05537426f;
+  c1_next = c1_next * u_2 + 0.026787646f;
+  c1 = c1 * u_2 + -0.00095570495f;
+  c1_next = c1_next * u_2 + -0.0009816387f;
   c1 = c1 * u + c1_next;
-  float c2 = -722.8948f;
-  float c2_next = 198.88304f;
-  c2 = c2 * u_2 + 572.19446f;
-  c2_next = c2_next * u_2 + -140.99953f;
-  c2 = c2 * u_2 + -181.11208f;
-  c2_next = c2_next * u_2 + 39.222958f;
-  c2 = c2 * u_2 + 24.149366f;
-  c2_next = c2_next * u_2 + -4.785471f;
-  c2 = c2 * u_2 + -1.2175477f;
-  c2_next = c2_next * u_2 + 0.11768598f;
-  c2 = c2 * u_2 + 0.06380972f;
-  c2_next = c2_next * u_2 + 0.017070664f;
-  c2 = c2 * u + c2_next;
-  float c3 = 22.927933f;
-  float c3_next = -3.5231206f;
-  c3 = c3 * u_2 + -16.200226f;
-  c3_next = c3_next * u_2 + 1.1597761f;
-  c3 = c3 * u_2 + 4.5835557f;
-  c3_next = c3_next * u_2 + -0.20015469f;
-  c3 = c3 * u_2 + -0.5184011f;
-  c3_next = c3_next * u_2 + 0.11334908f;
-  c3 = c3 * u_2 + 0.051594887f;
-  c3 = c3_next * u + c3;
-  float c4 = 18.15956f;
-  float c4_next = 2.6218295f;
-  c4 = c4 * u_2 + -5.3897014f;
-  c4_next = c4_next * u_2 + -2.416263f;
-  c4 = c4 * u_2 + 0.87011766f;
-  c4_next = c4_next * u_2 + 1.0156239f;
-  c4 = c4 * u_2 + -0.5019155f;
-  c4_next = c4_next * u_2 + -0.20183647f;
-  c4 = c4 * u + c4_next;
-  float c5 = -1.0854919f;
-  float c5_next = -0.21684001f;
-  c5 = c5 * u_2 + 0.16939528f;
-  c5_next = c5_next * u_2 + 0.020632252f;
-  c5 = c5 * u_2 + 0.0034242459f;
-  c5 = c5_next * u + c5;
-  float c6 = -0.38633123f;
-  c6 = c6 * u + 0.20943835f;
-  c6 = c6 * u + 0.119743966f;
-  const float w = specular - 0.4333342f;
-  float sum = c6;
-  sum = sum * w + c5;
-  sum = sum * w + c4;
+  float c2 = -128.51656f;
+  float c2_next = -17.205532f;
+  c2 = c2 * u_2 + 78.140305f;
+  c2_next = c2_next * u_2 + 18.144272f;
+  c2 = c2 * u_2 + -14.337275f;
+  c2_next = c2_next * u_2 + -4.7214313f;
+  c2 = c2 * u_2 + 0.76439637f;
+  c2_next = c2_next * u_2 + 0.39657062f;
+  c2 = c2 * u_2 + 0.007731149f;
+  c2_next = c2_next * u_2 + 0.0021662978f;
+  c2 = c2 * u_2 + 0.0033058529f;
+  c2 = c2_next * u + c2;
+  float c3 = 92.694275f;
+  float c3_next = 92.357635f;
+  c3 = c3 * u_2 + -6.863346f;
+  c3_next = c3_next * u_2 + -36.176212f;
+  c3 = c3 * u_2 + -6.848574f;
+  c3_next = c3_next * u_2 + 4.8195977f;
+  c3 = c3 * u_2 + 1.1125861f;
+  c3_next = c3_next * u_2 + -0.25785333f;
+  c3 = c3 * u_2 + 0.011549262f;
+  c3_next = c3_next * u_2 + 0.024401475f;
+  c3 = c3 * u + c3_next;
+  float c4 = -84.08445f;
+  float c4_next = -62.951763f;
+  c4 = c4 * u_2 + 26.988201f;
+  c4_next = c4_next * u_2 + 22.90534f;
+  c4 = c4 * u_2 + -3.0394692f;
+  c4_next = c4_next * u_2 + -2.398094f;
+  c4 = c4 * u_2 + 0.18465249f;
+  c4_next = c4_next * u_2 + -0.06027465f;
+  c4 = c4 * u_2 + -0.053728215f;
+  c4 = c4_next * u + c4;
+  const float w = specular - 0.500001f;
+  float sum = c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -160,7 +152,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -175,77 +169,80 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.43672505f;
+    const float u = alpha - 0.46300748f;
     const float u_2 = u * u;
-    float c0 = 589.1519f;
-    float c0_next = -214.56822f;
-    c0 = c0 * u_2 + -356.3498f;
-    c0_next = c0_next * u_2 + 169.59506f;
-    c0 = c0 * u_2 + 73.54692f;
-    c0_next = c0_next * u_2 + -57.96789f;
-    c0 = c0 * u_2 + -2.0294607f;
-    c0_next = c0_next * u_2 + 11.51638f;
-    c0 = c0 * u_2 + -1.6874931f;
-    c0_next = c0_next * u_2 + -1.561999f;
-    c0 = c0 * u_2 + 0.27885142f;
-    c0_next = c0_next * u_2 + 0.47673193f;
+    float c0 = -0.17600879f;
+    float c0_next = 0.7459636f;
+    c0 = c0 * u_2 + 0.6415488f;
+    c0_next = c0_next * u_2 + -0.53961945f;
+    c0 = c0 * u_2 + -0.2719313f;
+    c0_next = c0_next * u_2 + 0.15716647f;
+    c0 = c0 * u_2 + 0.03967216f;
+    c0_next = c0_next * u_2 + -0.022919115f;
+    c0 = c0 * u_2 + -0.0021367297f;
+    c0_next = c0_next * u_2 + 0.0004742811f;
+    c0 = c0 * u_2 + -0.00070798234f;
+    c0_next = c0_next * u_2 + 0.0009799587f;
     c0 = c0 * u + c0_next;
-    float c1 = 2251.7944f;
-    float c1_next = -880.6242f;
-    c1 = c1 * u_2 + -1207.7284f;
-    c1_next = c1_next * u_2 + 597.79297f;
-    c1 = c1 * u_2 + 215.34477f;
-    c1_next = c1_next * u_2 + -173.50426f;
-    c1 = c1 * u_2 + -5.1096177f;
-    c1_next = c1_next * u_2 + 30.212013f;
-    c1 = c1 * u_2 + -3.978808f;
-    c1_next = c1_next * u_2 + -3.7687178f;
-    c1 = c1 * u_2 + 0.64116204f;
-    c1_next = c1_next * u_2 + 1.0966557f;
+    float c1 = 2548.9634f;
+    float c1_next = -927.95905f;
+    c1 = c1 * u_2 + -1591.377f;
+    c1_next = c1_next * u_2 + 592.57477f;
+    c1 = c1 * u_2 + 372.75195f;
+    c1_next = c1_next * u_2 + -167.09872f;
+    c1 = c1 * u_2 + -35.76829f;
+    c1_next = c1_next * u_2 + 29.785229f;
+    c1 = c1 * u_2 + -0.664832f;
+    c1_next = c1_next * u_2 + -3.9382436f;
+    c1 = c1 * u_2 + 0.44047764f;
+    c1_next = c1_next * u_2 + 1.1129197f;
     c1 = c1 * u + c1_next;
-    float c2 = 7.0970364f;
-    float c2_next = 2.1807528f;
-    c2 = c2 * u_2 + -2.7740157f;
-    c2_next = c2_next * u_2 + -1.2964126f;
-    c2 = c2 * u_2 + 0.4861001f;
-    c2_next = c2_next * u_2 + 0.25540337f;
-    c2 = c2 * u_2 + -0.064872384f;
-    c2_next = c2_next * u_2 + -0.017466536f;
-    c2 = c2 * u_2 + -0.003011297f;
-    c2 = c2_next * u + c2;
-    float c3 = -121.90202f;
-    float c3_next = 59.07446f;
-    c3 = c3 * u_2 + 37.047424f;
-    c3_next = c3_next * u_2 + -16.181229f;
-    c3 = c3 * u_2 + -5.34448f;
-    c3_next = c3_next * u_2 + 1.0209084f;
-    c3 = c3 * u_2 + 0.33697f;
-    c3_next = c3_next * u_2 + 0.02250303f;
-    c3 = c3 * u_2 + 0.062181655f;
-    c3 = c3_next * u + c3;
-    float c4 = 0.05630915f;
-    c4 = c4 * u + 0.005317944f;
-    c4 = c4 * u + 0.03202542f;
-    float c5 = 0.4245273f;
-    c5 = c5 * u + -0.079156965f;
-    c5 = c5 * u + -0.32529163f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.4333342f;
-  float sum = terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9481621f;
+  float c0 = -0.0135281775f;
+  c0 = c0 * u + -0.00047979757f;
+  c0 = c0 * u + 0.0007814728f;
+  float c1 = 0.6148119f;
+  c1 = c1 * u + -1.3427893f;
+  c1 = c1 * u + 0.8261476f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.65862143f;
+  const float u_2 = u * u;
+  float c0 = -2.022271f;
+  float c0_next = 1.7341986f;
+  c0 = c0 * u_2 + 0.58613807f;
+  c0_next = c0_next * u_2 + 1.0047956f;
+  c0 = c0 * u_2 + 0.81805915f;
+  c0 = c0_next * u + c0;
+  float c1 = -4.02591f;
+  c1 = c1 * u + -2.521671f;
+  c1 = c1 * u + -1.1251507f;
+  c1 = c1 * u + -0.4416327f;
+  float c2 = 7.5817094f;
+  c2 = c2 * u + 2.464828f;
+  c2 = c2 * u + 0.6826824f;
+  const float w = specular - 0.94387287f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -315,10 +312,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.f0,
-                                 kDomainMax.f0, 1.1538461f};
+                                 kDomainMax.f0, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -332,6 +345,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.916013f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.8963239f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.31724137f), held_above(specular, 0.88774556f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -439,8 +466,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -450,13 +482,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -468,15 +589,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -484,16 +612,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -564,19 +695,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.8666667f}, {0.01288073f, 0.66946524f}, {8.6e-06f, 7.2e-05f}},
-      {{0.11668103f, 0.8125f}, {0.14278917f, 0.6539416f}, {8.7e-06f, 7.2e-05f}},
-      {{0.22336206f, 0.7583333f}, {0.29091164f, 0.6665397f}, {8.8e-06f, 7.2e-05f}},
-      {{0.3300431f, 0.70416665f}, {0.45694995f, 0.7026578f}, {8.8e-06f, 7.2e-05f}},
-      {{0.43672413f, 0.65f}, {0.6098998f, 0.71474296f}, {8.9e-06f, 7.2e-05f}},
-      {{0.5434052f, 0.59583336f}, {0.7268136f, 0.6703351f}, {9e-06f, 7.2e-05f}},
-      {{0.6500862f, 0.5416667f}, {0.8160184f, 0.5843091f}, {9e-06f, 7.2e-05f}},
-      {{0.7567672f, 0.4875f}, {0.89314044f, 0.48735955f}, {9e-06f, 7.2e-05f}},
-      {{0.86344826f, 0.43333334f}, {0.9729297f, 0.39946234f}, {9.1e-06f, 7.2e-05f}},
-      {{0.005f, 0.43333334f}, {0.01237763f, 0.3358556f}, {8.6e-06f, 7.1e-05f}},
-      {{1.2951725f, 0.21666667f}, {0.9724895f, 0.19986057f}, {9.1e-06f, 7.1e-05f}},
-      {{0.43672413f, 0.0f}, {0.60314375f, 0.0019754835f}, {8.9e-06f, 7.1e-05f}},
-      {{0.43672413f, 1.7333333f}, {0.6096323f, 1.9050959f}, {8.9e-06f, 0.00015f}},
+      {{0.01f, 1.0f}, {0.012148464f, 0.7729074f}, {0.00011f, 7.2e-05f}},
+      {{0.13375f, 0.9375f}, {0.1654109f, 0.76204216f}, {0.00011f, 7.2e-05f}},
+      {{0.2575f, 0.875f}, {0.3429751f, 0.7995207f}, {0.00011f, 7.2e-05f}},
+      {{0.38125f, 0.8125f}, {0.5341515f, 0.85607475f}, {0.00011f, 7.2e-05f}},
+      {{0.505f, 0.75f}, {0.6889858f, 0.8443338f}, {0.00011f, 7.2e-05f}},
+      {{0.62875f, 0.6875f}, {0.80009663f, 0.75071985f}, {0.00011f, 7.2e-05f}},
+      {{0.7525f, 0.625f}, {0.8906309f, 0.62671775f}, {0.00011f, 7.2e-05f}},
+      {{0.87625f, 0.5625f}, {0.9835351f, 0.5128925f}, {0.00011f, 7.2e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.3798126f}, {0.00011f, 7.2e-05f}},
+      {{0.005f, 0.5f}, {0.012148682f, 0.3870172f}, {0.00011f, 7.2e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.19026908f}, {0.00011f, 7.2e-05f}},
+      {{0.505f, 0.0f}, {0.6836236f, 0.0009514849f}, {0.00011f, 7.2e-05f}},
+      {{0.505f, 2.0f}, {0.6539722f, 2.0f}, {0.00011f, 0.00015f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

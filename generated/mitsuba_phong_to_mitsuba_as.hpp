@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_as.csv, sha256 d59e860e2bf71fd7d3bfa7f15d63c8d9455bb86a9c246e8f1e750dd6b1d056b6;
+// Table mitsuba_phong_to_mitsuba_as.csv, sha256 bc6bd4433970c805ef9e9df8b4fe4e3d0c3e0ad0df9676b507f9a9bd9230b4f3;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: svr, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 0.00031, 99 % 0.0016, max 0.0018;
-// f0 rms 0.00032, 99 % 7e-04, max 7e-04.
-// Lowered from the fit. Target alpha: degree 11, 2 in specular, proven within 8.8e-06 (sampled 7.7e-06), rising with alpha.
-// Target specular: degree 10, 5 in specular, proven within 9.1e-05 (sampled 8.3e-05), rising with specular.
+// Fit: series, seed 1, 720 rows trained, 180 held out.
+// Error on the rows held out: alpha rms 2.3e-05, 99 % 7.4e-05, max 8e-05;
+// f0 rms 0.00012, 99 % 0.00053, max 7e-04.
+// Lowered from the fit. Target alpha: degree 12, 11 in specular, proven within 1e-05 (sampled 8.9e-06), rising with alpha.
+// Target specular: degree 12 in alpha / (alpha + 1), proven within 8.8e-05 (sampled 7.8e-05), rising with specular.
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_AS_HPP
@@ -37,8 +37,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00031f;
-inline constexpr float kSpecularRmsError = 0.00032f;
+inline constexpr float kAlphaRmsError = 2.3e-05f;
+inline constexpr float kSpecularRmsError = 0.00012f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.31f;
@@ -78,36 +78,98 @@ inline constexpr std::size_t kBlock = 128;
 inline float target_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = -12.387787f;
-  float c0_next = -9.956869f;
-  c0 = c0 * u_2 + 16.808468f;
-  c0_next = c0_next * u_2 + 13.448018f;
-  c0 = c0 * u_2 + -9.005105f;
-  c0_next = c0_next * u_2 + -7.66118f;
-  c0 = c0 * u_2 + 1.0225321f;
-  c0_next = c0_next * u_2 + 1.6686028f;
-  c0 = c0 * u_2 + 0.35028726f;
-  c0_next = c0_next * u_2 + 0.0034679691f;
-  c0 = c0 * u_2 + 0.551135f;
-  c0_next = c0_next * u_2 + 0.28231165f;
-  c0 = c0 * u + c0_next;
-  float c1 = 0.025706727f;
-  float c1_next = -0.01976381f;
-  c1 = c1 * u_2 + -0.015459517f;
-  c1_next = c1_next * u_2 + 0.007486242f;
-  c1 = c1 * u_2 + 0.0013457255f;
-  c1_next = c1_next * u_2 + -0.0021799451f;
-  c1 = c1 * u_2 + -0.00055596046f;
+  float c0 = 490.86444f;
+  float c0_next = 323.09235f;
+  c0 = c0 * u_2 + -245.96132f;
+  c0_next = c0_next * u_2 + -191.89119f;
+  c0 = c0 * u_2 + 32.50264f;
+  c0_next = c0_next * u_2 + 36.565403f;
+  c0 = c0 * u_2 + -1.8944516f;
+  c0_next = c0_next * u_2 + -3.121932f;
+  c0 = c0 * u_2 + 0.62467945f;
+  c0_next = c0_next * u_2 + 0.49601436f;
+  c0 = c0 * u_2 + 0.050330162f;
+  c0_next = c0_next * u_2 + 0.54957026f;
+  c0 = c0 * u_2 + 0.2821476f;
+  c0 = c0_next * u + c0;
+  float c1 = 0.34993806f;
+  float c1_next = 0.086763255f;
+  c1 = c1 * u_2 + -0.16633193f;
+  c1_next = c1_next * u_2 + -0.027994856f;
+  c1 = c1 * u_2 + 0.023847066f;
+  c1_next = c1_next * u_2 + 0.0014222628f;
+  c1 = c1 * u_2 + -0.002143995f;
+  c1_next = c1_next * u_2 + -0.00067374937f;
+  c1 = c1 * u_2 + -0.00010173325f;
   c1 = c1_next * u + c1;
-  float c2 = 0.019979462f;
-  float c2_next = -0.00881024f;
-  c2 = c2 * u_2 + -0.022567552f;
-  c2_next = c2_next * u_2 + 0.0026371242f;
-  c2 = c2 * u_2 + 0.004578142f;
-  c2_next = c2_next * u_2 + 0.0018723771f;
-  c2 = c2 * u + c2_next;
+  float c2 = 0.0499729f;
+  float c2_next = 0.013176864f;
+  c2 = c2 * u_2 + -0.072932184f;
+  c2_next = c2_next * u_2 + 0.046642896f;
+  c2 = c2 * u_2 + -0.0083536515f;
+  c2_next = c2_next * u_2 + -0.026722413f;
+  c2 = c2 * u_2 + 0.0068639577f;
+  c2_next = c2_next * u_2 + 0.005797828f;
+  c2 = c2 * u_2 + 0.00080709916f;
+  c2 = c2_next * u + c2;
+  float c3 = -3.4235456f;
+  float c3_next = -0.89316523f;
+  c3 = c3 * u_2 + 1.6796995f;
+  c3_next = c3_next * u_2 + 0.20217493f;
+  c3 = c3 * u_2 + -0.14081949f;
+  c3_next = c3_next * u_2 + 0.058567718f;
+  c3 = c3 * u_2 + 0.025756748f;
+  c3_next = c3_next * u_2 + -0.0011257019f;
+  c3 = c3 * u_2 + -0.0032371285f;
+  c3 = c3_next * u + c3;
+  float c4 = -0.41475406f;
+  float c4_next = 0.46653402f;
+  c4 = c4 * u_2 + 0.3015258f;
+  c4_next = c4_next * u_2 + -0.15446122f;
+  c4 = c4 * u_2 + -0.12511678f;
+  c4_next = c4_next * u_2 + -0.029074049f;
+  c4 = c4 * u + c4_next;
+  float c5 = 1.0600858f;
+  float c5_next = -1.3594171f;
+  c5 = c5 * u_2 + -0.8957982f;
+  c5_next = c5_next * u_2 + -0.5266982f;
+  c5 = c5 * u_2 + -0.0660955f;
+  c5_next = c5_next * u_2 + 0.0856111f;
+  c5 = c5 * u + c5_next;
+  float c6 = -2.1921258f;
+  float c6_next = -0.8013292f;
+  c6 = c6 * u_2 + 1.7066541f;
+  c6_next = c6_next * u_2 + 1.8455997f;
+  c6 = c6 * u_2 + 0.5412376f;
+  c6 = c6_next * u + c6;
+  float c7 = 5.3549166f;
+  float c7_next = 2.1309557f;
+  c7 = c7 * u_2 + 4.837424f;
+  c7_next = c7_next * u_2 + -0.23662974f;
+  c7 = c7 * u_2 + -1.2433467f;
+  c7 = c7_next * u + c7;
+  float c8 = -9.558488f;
+  c8 = c8 * u + -12.168696f;
+  c8 = c8 * u + -3.6958642f;
+  float c9 = -15.491503f;
+  c9 = c9 * u + 8.699678f;
+  c9 = c9 * u + 7.611333f;
+  float c10 = 26.24157f;
+  c10 = c10 * u + 31.16565f;
+  c10 = c10 * u + 8.948869f;
+  float c11 = -36.91075f;
+  c11 = c11 * u + -17.50912f;
   const float w = specular - 0.500001f;
-  float sum = c2;
+  float sum = c11;
+  sum = sum * w + c10;
+  sum = sum * w + c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
   sum = sum * w + c1;
   sum = sum * w + c0;
   return sum;
@@ -116,7 +178,7 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
 };
 
 template <class Count>
@@ -131,75 +193,45 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.50500107f;
+    const float t = alpha / (alpha + 1.0f);
+    const float u = t - 0.25495073f;
     const float u_2 = u * u;
-    float c0 = 39.649456f;
-    float c0_next = 20.084976f;
-    c0 = c0 * u_2 + -29.208416f;
-    c0_next = c0_next * u_2 + -17.0048f;
-    c0 = c0 * u_2 + 5.224152f;
-    c0_next = c0_next * u_2 + 4.0699973f;
-    c0 = c0 * u_2 + 0.3842551f;
-    c0_next = c0_next * u_2 + 0.06293199f;
-    c0 = c0 * u_2 + 0.0983583f;
-    c0_next = c0_next * u_2 + 0.0420649f;
-    c0 = c0 * u_2 + 0.33933818f;
+    float c0 = 227120.2f;
+    float c0_next = 11544.5625f;
+    c0 = c0 * u_2 + -42967.75f;
+    c0_next = c0_next * u_2 + -2087.5398f;
+    c0 = c0 * u_2 + 3116.9937f;
+    c0_next = c0_next * u_2 + 125.45239f;
+    c0 = c0 * u_2 + -107.75366f;
+    c0_next = c0_next * u_2 + -2.715858f;
+    c0 = c0 * u_2 + 1.7820848f;
+    c0_next = c0_next * u_2 + 0.017074114f;
+    c0 = c0 * u_2 + -0.008747608f;
+    c0_next = c0_next * u_2 + 0.0008847852f;
+    c0 = c0 * u_2 + -0.001369489f;
     c0 = c0_next * u + c0;
-    float c1 = 60.199238f;
-    float c1_next = 42.788124f;
-    c1 = c1 * u_2 + -50.478966f;
-    c1_next = c1_next * u_2 + -35.619846f;
-    c1 = c1 * u_2 + 10.391972f;
-    c1_next = c1_next * u_2 + 8.671201f;
-    c1 = c1 * u_2 + 0.6311601f;
-    c1_next = c1_next * u_2 + 0.033377793f;
-    c1 = c1 * u_2 + 0.18908288f;
-    c1_next = c1_next * u_2 + 0.087599665f;
-    c1 = c1 * u_2 + 0.6795603f;
+    float c1 = -5941795.0f;
+    float c1_next = -1610636.4f;
+    c1 = c1 * u_2 + 682008.44f;
+    c1_next = c1_next * u_2 + 185614.97f;
+    c1 = c1 * u_2 + -27062.598f;
+    c1_next = c1_next * u_2 + -6235.816f;
+    c1 = c1 * u_2 + 970.2752f;
+    c1_next = c1_next * u_2 + 174.65096f;
+    c1 = c1 * u_2 + -5.236634f;
+    c1_next = c1_next * u_2 + -0.28211042f;
+    c1 = c1 * u_2 + 0.37124142f;
+    c1_next = c1_next * u_2 + 0.079245664f;
+    c1 = c1 * u_2 + 0.67211604f;
     c1 = c1_next * u + c1;
-    float c2 = 0.5472481f;
-    float c2_next = 1.3363507f;
-    c2 = c2 * u_2 + 0.49793667f;
-    c2_next = c2_next * u_2 + -0.6177571f;
-    c2 = c2 * u_2 + -0.2120227f;
-    c2_next = c2_next * u_2 + 0.10206361f;
-    c2 = c2 * u_2 + 0.018250274f;
-    c2_next = c2_next * u_2 + -0.007931446f;
-    c2 = c2 * u_2 + -0.006190484f;
-    c2 = c2_next * u + c2;
-    float c3 = 23.62377f;
-    float c3_next = 7.6902547f;
-    c3 = c3 * u_2 + -14.472922f;
-    c3_next = c3_next * u_2 + -4.496f;
-    c3 = c3 * u_2 + 2.0200896f;
-    c3_next = c3_next * u_2 + 0.80965513f;
-    c3 = c3 * u_2 + -0.0038478295f;
-    c3_next = c3_next * u_2 + -0.036780708f;
-    c3 = c3 * u_2 + 0.031578254f;
-    c3 = c3_next * u + c3;
-    float c4 = -0.09272998f;
-    c4 = c4 * u + -0.019100906f;
-    c4 = c4 * u + 0.02398824f;
-    c4 = c4 * u + 0.027763793f;
-    float c5 = -0.025711887f;
-    c5 = c5 * u + -0.11818007f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.500001f;
-  float sum = terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
@@ -518,19 +550,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.0f, 1.0f}, {0.614769f, 0.908781f}, {9.6e-06f, 9.1e-05f}},
-      {{2499.75f, 0.9375f}, {0.016247477f, 0.6226849f}, {9.3e-06f, 9.1e-05f}},
-      {{4999.5f, 0.875f}, {0.011494844f, 0.58129054f}, {9.3e-06f, 9.1e-05f}},
-      {{7499.25f, 0.8125f}, {0.009355505f, 0.5397039f}, {9.3e-06f, 9.1e-05f}},
-      {{9999.0f, 0.75f}, {0.008063805f, 0.4980615f}, {9.3e-06f, 9.1e-05f}},
-      {{12498.75f, 0.6875f}, {0.007176719f, 0.45643058f}, {9.3e-06f, 9.1e-05f}},
-      {{14998.5f, 0.625f}, {0.0065235673f, 0.4148326f}, {9.3e-06f, 9.1e-05f}},
-      {{17498.25f, 0.5625f}, {0.006022794f, 0.3732564f}, {9.3e-06f, 9.1e-05f}},
-      {{19998.0f, 0.5f}, {0.005629879f, 0.3316718f}, {9.3e-06f, 9.1e-05f}},
-      {{0.0f, 0.5f}, {0.6150025f, 0.4544982f}, {9.6e-06f, 9.1e-05f}},
-      {{29997.0f, 0.25f}, {0.0057534208f, 0.16476065f}, {9.3e-06f, 9.1e-05f}},
-      {{9999.0f, 0.0f}, {0.00843222f, 0.0f}, {9.3e-06f, 9.1e-05f}},
-      {{9999.0f, 2.0f}, {0.008405076f, 1.3282216f}, {9.3e-06f, 0.00019f}},
+      {{0.0f, 1.0f}, {0.61470467f, 0.90865815f}, {1.1e-05f, 8.9e-05f}},
+      {{2499.75f, 0.9375f}, {0.016010826f, 0.6222635f}, {1.1e-05f, 8.9e-05f}},
+      {{4999.5f, 0.875f}, {0.011335668f, 0.58081263f}, {1.1e-05f, 8.9e-05f}},
+      {{7499.25f, 0.8125f}, {0.009267825f, 0.5392935f}, {1.1e-05f, 8.9e-05f}},
+      {{9999.0f, 0.75f}, {0.008037297f, 0.4977423f}, {1.1e-05f, 8.9e-05f}},
+      {{12498.75f, 0.6875f}, {0.007197638f, 0.45617294f}, {1.1e-05f, 8.9e-05f}},
+      {{14998.5f, 0.625f}, {0.0065777386f, 0.41459212f}, {1.1e-05f, 8.9e-05f}},
+      {{17498.25f, 0.5625f}, {0.006096777f, 0.37300342f}, {1.1e-05f, 8.9e-05f}},
+      {{19998.0f, 0.5f}, {0.0057098465f, 0.331409f}, {1.1e-05f, 8.9e-05f}},
+      {{0.0f, 0.5f}, {0.61481625f, 0.45388952f}, {1.1e-05f, 8.9e-05f}},
+      {{29997.0f, 0.25f}, {0.0057098605f, 0.16497591f}, {1.1e-05f, 8.9e-05f}},
+      {{9999.0f, 0.0f}, {0.0080338735f, 0.0f}, {1.1e-05f, 8.8e-05f}},
+      {{9999.0f, 2.0f}, {0.008036897f, 1.3282914f}, {1.1e-05f, 0.00018f}},
   }};
   std::array<float, kGolden.size()> exponent{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/beckmann: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_beckmann.csv, sha256 3674b44eeb635398df8f2f1e72928c8b82cd0214b21d838eda7e9013a597d03a;
+// Table mitsuba_phong_to_mitsuba_beckmann.csv, sha256 f9bc4ee4a0fefc57b6f296c32843cfdd29197f48b8332a1c20e616ae3c3b9760;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 1.3e-05, 99 % 5.8e-05, max 6.3e-05;
-// f0 rms 4.6e-05, 99 % 0.00021, max 0.00024.
-// Lowered from the fit. Target alpha: degree 6 on 8 pieces, 12 in specular, proven within 1e-05 (sampled 8e-06), rising with alpha.
-// Target specular: degree 14, 7 in specular, proven within 5.4e-05 (sampled 4.8e-05), rising with specular.
+// Fit: series, seed 1, 720 rows trained, 180 held out.
+// Error on the rows held out: alpha rms 0.00012, 99 % 0.00046, max 0.00058;
+// f0 rms 0.00014, 99 % 0.00042, max 0.00049.
+// Lowered from the fit. Target alpha: degree 15 in alpha / (alpha + 1), 9 in specular, proven within 9.7e-06 (sampled 7.5e-06), rising with alpha.
+// Target specular: degree 7, proven within 2.7e-05 (sampled 1.8e-05), rising with specular.
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_BECKMANN_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_BECKMANN_HPP
@@ -37,8 +37,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.3e-05f;
-inline constexpr float kSpecularRmsError = 4.6e-05f;
+inline constexpr float kAlphaRmsError = 0.00012f;
+inline constexpr float kSpecularRmsError = 0.00014f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.31f;
@@ -75,78 +75,101 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-// x rounded down, held in [0, last]. Masks in place of comparisons: compilers would branch on them.
-inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
-  const std::int32_t cell = static_cast<std::int32_t>(x);
-  const std::int32_t below = (cell & ~(cell >> 31)) - last;
-  return last + (below & (below >> 31));
-}
-
-inline constexpr float kAlphaTable[8][42] = {
-    {0.04070112f, 0.0701334f, 0.00020415928f, -0.0001549821f, 8.564695e-05f, 2.6199198e-06f, -4.314029e-06f, 2.3862951e-05f, -9.723508e-06f, 7.175899e-05f, -5.7451587e-05f, 4.498072e-06f, -0.00019244732f, -6.9679622e-06f, 0.00022653893f, -5.814531e-05f, -0.001488069f, -0.0004996971f, 0.00025148413f, -4.5701886e-06f, 0.003599021f, 0.0005426613f, -0.0015185721f, 0.00019735907f, 0.023291742f, 0.009742429f, -0.0023594159f, -0.036948264f, -0.013706918f, 0.006479408f, -0.24750635f, -0.0981358f, 0.31109634f, 0.11903513f, 1.4488131f, 0.5688452f, -1.8882121f, -0.69969314f, -3.1270425f, -1.3140783f, 4.5075293f, 1.8228246f},
-    {0.110968105f, 0.0704046f, 0.00020342314f, 0.00011053348f, 1.8967325e-05f, -2.7260896e-05f, -1.9400627e-06f, 5.3808602e-05f, 1.4883876e-05f, -6.888891e-05f, -7.373814e-07f, 1.2864242e-05f, -0.0001271806f, 0.0001455978f, 0.00017445273f, -7.841279e-05f, -0.0023093158f, -0.0008526956f, 0.0007924946f, -7.3813055e-05f, 0.0045720167f, 0.0007960239f, -0.0024824822f, 0.0003040477f, 0.03494215f, 0.012526498f, -0.0044232034f, -0.053060394f, -0.016225494f, 0.011063107f, -0.36266932f, -0.13219015f, 0.44585997f, 0.15049213f, 2.1148152f, 0.7631592f, -2.6781898f, -0.88026226f, -4.713209f, -1.8582546f, 6.664664f, 2.4914446f},
-    {0.18167861f, 0.07108416f, 0.00039456817f, -2.042389e-05f, -2.2173517e-05f, 4.1839787e-05f, 2.254633e-05f, 4.0865107e-05f, -3.9927192e-05f, -5.3170792e-05f, 2.0653068e-05f, -3.4275552e-06f, -2.2968585e-05f, 9.3795665e-05f, 0.0001877746f, -1.8821489e-05f, -0.0033380827f, -0.0009583143f, 0.0012046561f, -8.7960136e-05f, 0.0058232844f, 0.0010270076f, -0.0035795833f, 0.00021977151f, 0.048848823f, 0.014163148f, -0.0066705937f, -0.070293106f, -0.015601798f, 0.016339371f, -0.5088287f, -0.16012862f, 0.60059416f, 0.15897624f, 2.9628024f, 0.9328154f, -3.591382f, -0.94612235f, -6.874532f, -2.4643917f, 9.473903f, 3.127034f},
-    {0.25317773f, 0.072046384f, 0.0008725308f, 0.00059074204f, 0.00030491708f, 4.1151725e-06f, -4.4498185e-05f, 5.9316644e-06f, -4.1039108e-05f, -7.290212e-05f, -1.4249755e-05f, -4.910835e-07f, 4.3782988e-05f, 0.00013868682f, 0.00039314368f, 3.3641896e-05f, -0.004418032f, -0.0010403079f, 0.0015155032f, 6.4547996e-05f, 0.007144053f, 0.00091214984f, -0.004914154f, -7.938915e-05f, 0.062851705f, 0.01331379f, -0.007728257f, -0.083550125f, -0.0089643905f, 0.020235103f, -0.6684361f, -0.15908623f, 0.72999746f, 0.09983036f, 3.9221382f, 0.9858563f, -4.4159265f, -0.702966f, -9.60772f, -3.001986f, 12.759369f, 3.4438975f},
-    {0.32695743f, 0.076565325f, 0.0039367178f, 0.0011657586f, -4.9064078e-05f, -1.0031559e-05f, 5.788983e-05f, -6.173137e-05f, -0.00011832377f, -0.00012322309f, 1.2895364e-05f, 5.7892403e-06f, 0.00030296904f, 0.00040450893f, 0.00040012432f, -0.000118975906f, -0.005388905f, -0.00067457126f, 0.0019175963f, -0.0001678355f, 0.0076928283f, -0.0003920927f, -0.0058706254f, 0.00047643288f, 0.07320253f, 0.006614407f, -0.009275162f, -0.0840634f, 0.009885512f, 0.024130467f, -0.7910838f, -0.086209096f, 0.72729826f, -0.10522889f, 4.781536f, 0.7329393f, -4.6642737f, 0.20627162f, -12.687995f, -3.1585631f, 15.905585f, 2.8485363f},
-    {0.40862235f, 0.08800334f, 0.0077478467f, 0.0016642995f, 0.00028838808f, -3.382788e-05f, -7.577463e-05f, -0.00022162104f, -0.00015446248f, -2.658538e-05f, -1.2894466e-05f, -4.8153684e-06f, 0.0007095365f, 0.0002776568f, 0.00017093743f, 0.00018447803f, -0.0056250906f, -9.065134e-05f, 0.0013972874f, 0.00029861805f, 0.006272578f, -0.0014731071f, -0.0042136386f, -0.0010636509f, 0.07003858f, -0.012310831f, -0.008012211f, -0.052849423f, 0.050307434f, 0.019660437f, -0.7785469f, 0.111282915f, 0.40729675f, -0.53477424f, 5.09088f, -0.11425199f, -3.4598346f, 2.2026072f, -15.4373455f, -2.340137f, 17.544533f, 0.42935792f},
-    {0.50622123f, 0.10904551f, 0.013048389f, 0.0009879259f, -0.0012474108f, -0.0011343779f, -0.00062496564f, -0.00038195172f, -0.00013374488f, -2.3697287e-06f, -2.7199914e-05f, 7.77651e-05f, 0.001127983f, 0.0004923631f, 0.00028964016f, 0.00032041987f, -0.0048650247f, -5.5226756e-05f, -0.00144362f, 0.0006836081f, 0.0024148296f, -0.0027360648f, 0.0011947412f, -0.0021448876f, 0.042103443f, -0.035764158f, 0.0075783725f, 0.027656594f, 0.09473029f, -0.012288223f, -0.52852094f, 0.3887692f, -0.39908156f, -1.0779827f, 4.380644f, -1.3062202f, -0.02609117f, 4.6648808f, -16.932507f, -0.65018433f, 16.150158f, -3.218108f},
-    {0.6264432f, 0.12521367f, -0.004748711f, -0.0064291726f, 0.01561511f, 0.009891755f, -0.007247638f, -0.00046385423f, 0.00010203352f, -0.00011683837f, -0.0006087862f, 0.00032041827f, 0.0017918412f, 0.00012635735f, 0.00033481512f, 0.0026059148f, -0.004763303f, -0.00071753137f, -0.0013085932f, 0.0034912608f, -0.0018180353f, -0.003474638f, 0.00042562792f, -0.008413459f, -0.0029803056f, -0.05144109f, 0.013502913f, 0.13835476f, 0.12252154f, -0.020577323f, -0.025943462f, 0.6163858f, -1.6869352f, -1.4977249f, 2.6080675f, -2.2389333f, 5.5233493f, 6.4340005f, -16.747248f, 1.0207044f, 11.392502f, -6.297207f},
-};
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float x = alpha * 8.0807905f - 0.08080762f;
-  const std::int32_t cell = cell_of(x, 7);
-  const float u = x - (static_cast<float>(cell) + 0.5f);
-  const float* row = kAlphaTable[cell];
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c0 = row[6];
-  float c0_next = row[5];
-  c0 = c0 * u_2 + row[4];
-  c0_next = c0_next * u_2 + row[3];
-  c0 = c0 * u_2 + row[2];
-  c0_next = c0_next * u_2 + row[1];
-  c0 = c0 * u_2 + row[0];
-  c0 = c0_next * u + c0;
-  float c1 = row[11];
-  float c1_next = row[10];
-  c1 = c1 * u_2 + row[9];
-  c1_next = c1_next * u_2 + row[8];
-  c1 = c1 * u_2 + row[7];
+  float c0 = -63009780.0f;
+  float c0_next = -23479564.0f;
+  c0 = c0 * u_2 + 6164014.0f;
+  c0_next = c0_next * u_2 + 2447838.5f;
+  c0 = c0 * u_2 + -401559.47f;
+  c0_next = c0_next * u_2 + -127136.25f;
+  c0 = c0 * u_2 + 19098.535f;
+  c0_next = c0_next * u_2 + 5071.3633f;
+  c0 = c0 * u_2 + -50.555458f;
+  c0_next = c0_next * u_2 + 70.86888f;
+  c0 = c0 * u_2 + 49.646526f;
+  c0_next = c0_next * u_2 + 9.468294f;
+  c0 = c0 * u_2 + 2.3723679f;
+  c0_next = c0_next * u_2 + 1.453573f;
+  c0 = c0 * u_2 + 1.0354736f;
+  c0_next = c0_next * u_2 + 0.19480948f;
+  c0 = c0 * u + c0_next;
+  float c1 = -187808.33f;
+  float c1_next = -39868.55f;
+  c1 = c1 * u_2 + 27409.43f;
+  c1_next = c1_next * u_2 + 5997.792f;
+  c1 = c1 * u_2 + -1285.5857f;
+  c1_next = c1_next * u_2 + -281.6093f;
+  c1 = c1 * u_2 + 23.852255f;
+  c1_next = c1_next * u_2 + 4.699475f;
+  c1 = c1 * u_2 + -0.19438913f;
+  c1_next = c1_next * u_2 + -0.030476306f;
+  c1 = c1 * u_2 + -0.0028661932f;
+  c1_next = c1_next * u_2 + -0.0007424354f;
+  c1 = c1 * u_2 + -9.789011e-05f;
   c1 = c1_next * u + c1;
-  float c2 = row[15];
-  c2 = c2 * u + row[14];
-  c2 = c2 * u + row[13];
-  c2 = c2 * u + row[12];
-  float c3 = row[19];
-  c3 = c3 * u + row[18];
-  c3 = c3 * u + row[17];
-  c3 = c3 * u + row[16];
-  float c4 = row[23];
-  c4 = c4 * u + row[22];
-  c4 = c4 * u + row[21];
-  c4 = c4 * u + row[20];
-  float c5 = row[26];
-  c5 = c5 * u + row[25];
-  c5 = c5 * u + row[24];
-  float c6 = row[29];
-  c6 = c6 * u + row[28];
-  c6 = c6 * u + row[27];
-  float c7 = row[31];
-  c7 = c7 * u + row[30];
-  float c8 = row[33];
-  c8 = c8 * u + row[32];
-  float c9 = row[35];
-  c9 = c9 * u + row[34];
-  float c10 = row[37];
-  c10 = c10 * u + row[36];
-  float c11 = row[39];
-  c11 = c11 * u + row[38];
-  float c12 = row[41];
-  c12 = c12 * u + row[40];
+  float c2 = -9929.773f;
+  float c2_next = -2421.3774f;
+  c2 = c2 * u_2 + 954.25745f;
+  c2_next = c2_next * u_2 + 320.94983f;
+  c2 = c2 * u_2 + -7.673854f;
+  c2_next = c2_next * u_2 + -12.140589f;
+  c2 = c2 * u_2 + -0.861726f;
+  c2_next = c2_next * u_2 + 0.053308673f;
+  c2 = c2 * u_2 + -0.012197363f;
+  c2_next = c2_next * u_2 + -0.002476255f;
+  c2 = c2 * u_2 + -0.00026868584f;
+  c2 = c2_next * u + c2;
+  float c3 = -516.4643f;
+  float c3_next = -140.79356f;
+  c3 = c3 * u_2 + 23.679882f;
+  c3_next = c3_next * u_2 + 6.6495776f;
+  c3 = c3 * u_2 + -0.44686642f;
+  c3_next = c3_next * u_2 + -0.1701049f;
+  c3 = c3 * u_2 + 0.0042220177f;
+  c3_next = c3_next * u_2 + 0.004062044f;
+  c3 = c3 * u + c3_next;
+  float c4 = -430.33685f;
+  float c4_next = -119.25393f;
+  c4 = c4 * u_2 + 21.759153f;
+  c4_next = c4_next * u_2 + 5.2827225f;
+  c4 = c4 * u_2 + 2.55323f;
+  c4_next = c4_next * u_2 + 1.0397403f;
+  c4 = c4 * u_2 + 0.15497391f;
+  c4_next = c4_next * u_2 + 0.013040321f;
+  c4 = c4 * u + c4_next;
+  float c5 = 2242.7175f;
+  float c5_next = 646.9955f;
+  c5 = c5 * u_2 + -97.05861f;
+  c5_next = c5_next * u_2 + -22.836359f;
+  c5 = c5 * u_2 + 6.035397f;
+  c5_next = c5_next * u_2 + 1.4268254f;
+  c5 = c5 * u_2 + -0.30350038f;
+  c5_next = c5_next * u_2 + -0.08597073f;
+  c5 = c5 * u + c5_next;
+  float c6 = 11.858309f;
+  float c6_next = -22.270243f;
+  c6 = c6 * u_2 + -10.270341f;
+  c6_next = c6_next * u_2 + -1.6329316f;
+  c6 = c6 * u_2 + -0.13082121f;
+  c6 = c6_next * u + c6;
+  float c7 = -47.75425f;
+  float c7_next = -27.205437f;
+  c7 = c7 * u_2 + -2.5539901f;
+  c7_next = c7_next * u_2 + 3.014187f;
+  c7 = c7 * u_2 + 0.61106956f;
+  c7 = c7_next * u + c7;
+  float c8 = 70.64902f;
+  c8 = c8 * u + 31.530674f;
+  c8 = c8 * u + 5.429386f;
+  c8 = c8 * u + 0.42735568f;
+  float c9 = -13.624832f;
+  c9 = c9 * u + -9.868782f;
+  c9 = c9 * u + -1.5079397f;
   const float w = specular - 0.500001f;
-  float sum = c12;
-  sum = sum * w + c11;
-  sum = sum * w + c10;
-  sum = sum * w + c9;
+  float sum = c9;
   sum = sum * w + c8;
   sum = sum * w + c7;
   sum = sum * w + c6;
@@ -162,7 +185,7 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
 };
 
 template <class Count>
@@ -179,86 +202,32 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = -1376.8068f;
-    float c0_next = -54.897163f;
-    c0 = c0 * u_2 + 1457.4877f;
-    c0_next = c0_next * u_2 + 125.47898f;
-    c0 = c0 * u_2 + -611.5728f;
-    c0_next = c0_next * u_2 + -77.119995f;
-    c0 = c0 * u_2 + 124.67108f;
-    c0_next = c0_next * u_2 + 16.847975f;
-    c0 = c0 * u_2 + -13.353382f;
-    c0_next = c0_next * u_2 + -0.95673627f;
-    c0 = c0 * u_2 + 1.4322679f;
-    c0_next = c0_next * u_2 + 0.37120652f;
-    c0 = c0 * u_2 + 0.066337675f;
-    c0_next = c0_next * u_2 + 0.019579746f;
-    c0 = c0 * u_2 + 0.33424821f;
-    c0 = c0_next * u + c0;
-    float c1 = 437.22067f;
-    float c1_next = 156.09428f;
-    c1 = c1 * u_2 + -335.43814f;
-    c1_next = c1_next * u_2 + -124.77294f;
-    c1 = c1 * u_2 + 89.865685f;
-    c1_next = c1_next * u_2 + 29.850412f;
-    c1 = c1 * u_2 + -11.8383465f;
-    c1_next = c1_next * u_2 + -1.7412393f;
-    c1 = c1 * u_2 + 2.1862135f;
-    c1_next = c1_next * u_2 + 0.7429329f;
-    c1 = c1 * u_2 + 0.14439861f;
-    c1_next = c1_next * u_2 + 0.038180865f;
-    c1 = c1 * u_2 + 0.6711087f;
-    c1 = c1_next * u + c1;
-    float c2 = -1.9713916f;
-    float c2_next = 0.34720007f;
-    c2 = c2 * u_2 + 1.0004761f;
-    c2_next = c2_next * u_2 + -0.15313911f;
-    c2 = c2 * u_2 + -0.15426324f;
-    c2_next = c2_next * u_2 + 0.019573683f;
-    c2 = c2 * u_2 + 0.0058915108f;
-    c2_next = c2_next * u_2 + -0.0009282913f;
-    c2 = c2 * u_2 + 0.0004579641f;
-    c2 = c2_next * u + c2;
-    float c3 = -10.03755f;
-    float c3_next = 0.20483029f;
-    c3 = c3 * u_2 + 3.9812167f;
-    c3_next = c3_next * u_2 + -0.11729982f;
-    c3 = c3 * u_2 + -0.41910112f;
-    c3_next = c3_next * u_2 + 0.016656233f;
-    c3 = c3 * u_2 + 0.008252202f;
-    c3_next = c3_next * u_2 + -0.010266951f;
-    c3 = c3 * u_2 + -0.0014361666f;
-    c3 = c3_next * u + c3;
-    float c4 = 0.0053770673f;
-    c4 = c4 * u + 0.002961936f;
-    c4 = c4 * u + -0.0058106286f;
-    float c5 = 0.08604854f;
-    c5 = c5 * u + 0.015922278f;
-    float c6 = -0.006641348f;
-    c6 = c6 * u + 0.017736526f;
-    float c7 = -0.21052264f;
-    c7 = c7 * u + -0.046905242f;
+    float c0 = 0.0014919352f;
+    float c0_next = -0.018148912f;
+    c0 = c0 * u_2 + -0.0033349588f;
+    c0_next = c0_next * u_2 + 0.0073994193f;
+    c0 = c0 * u_2 + 0.0008898602f;
+    c0_next = c0_next * u_2 + -0.00018375841f;
+    c0 = c0 * u_2 + 0.0005446258f;
+    c0_next = c0_next * u_2 + -0.00129213f;
+    c0 = c0 * u + c0_next;
+    float c1 = -6.3034267f;
+    float c1_next = -2.2730763f;
+    c1 = c1 * u_2 + 2.8291283f;
+    c1_next = c1_next * u_2 + 1.9043481f;
+    c1 = c1 * u_2 + 0.50779146f;
+    c1_next = c1_next * u_2 + 0.13841705f;
+    c1 = c1 * u_2 + 0.04131154f;
+    c1_next = c1_next * u_2 + 0.6711769f;
+    c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
-    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.500001f;
-  float sum = terms.c7[i];
-  sum = sum * w + terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
@@ -577,19 +546,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.0f, 1.0f}, {0.6881029f, 0.9049207f}, {1.1e-05f, 5.5e-05f}},
-      {{2499.75f, 0.9375f}, {0.01602526f, 0.62230426f}, {1.1e-05f, 5.4e-05f}},
-      {{4999.5f, 0.875f}, {0.01135082f, 0.5808162f}, {1.1e-05f, 5.4e-05f}},
-      {{7499.25f, 0.8125f}, {0.009280731f, 0.53927565f}, {1.1e-05f, 5.4e-05f}},
-      {{9999.0f, 0.75f}, {0.008047706f, 0.49770758f}, {1.1e-05f, 5.4e-05f}},
-      {{12498.75f, 0.6875f}, {0.007206706f, 0.45613015f}, {1.1e-05f, 5.4e-05f}},
-      {{14998.5f, 0.625f}, {0.006585541f, 0.41455066f}, {1.1e-05f, 5.4e-05f}},
-      {{17498.25f, 0.5625f}, {0.0061016465f, 0.37296706f}, {1.1e-05f, 5.4e-05f}},
-      {{19998.0f, 0.5f}, {0.005710055f, 0.3313752f}, {1.1e-05f, 5.4e-05f}},
-      {{0.0f, 0.5f}, {0.6882289f, 0.45205286f}, {1.1e-05f, 5.4e-05f}},
-      {{29997.0f, 0.25f}, {0.0057049626f, 0.16492872f}, {1.1e-05f, 5.4e-05f}},
-      {{9999.0f, 0.0f}, {0.008157125f, 0.0f}, {1.1e-05f, 5.4e-05f}},
-      {{9999.0f, 2.0f}, {0.00806274f, 1.3282967f}, {1.1e-05f, 0.00011f}},
+      {{0.0f, 1.0f}, {0.68813974f, 0.9053113f}, {1.1e-05f, 2.7e-05f}},
+      {{2499.75f, 0.9375f}, {0.016015368f, 0.6222017f}, {1.1e-05f, 2.7e-05f}},
+      {{4999.5f, 0.875f}, {0.011342873f, 0.58079755f}, {1.1e-05f, 2.7e-05f}},
+      {{7499.25f, 0.8125f}, {0.00927326f, 0.53929543f}, {1.1e-05f, 2.7e-05f}},
+      {{9999.0f, 0.75f}, {0.008040234f, 0.49775168f}, {1.1e-05f, 2.7e-05f}},
+      {{12498.75f, 0.6875f}, {0.007200591f, 0.4561853f}, {1.1e-05f, 2.7e-05f}},
+      {{14998.5f, 0.625f}, {0.0065815113f, 0.41460496f}, {1.1e-05f, 2.7e-05f}},
+      {{17498.25f, 0.5625f}, {0.0060995864f, 0.3730151f}, {1.1e-05f, 2.7e-05f}},
+      {{19998.0f, 0.5f}, {0.0057101864f, 0.33141842f}, {1.1e-05f, 2.7e-05f}},
+      {{0.0f, 0.5f}, {0.6881294f, 0.4522114f}, {1.1e-05f, 2.7e-05f}},
+      {{29997.0f, 0.25f}, {0.005710692f, 0.16497569f}, {1.1e-05f, 2.7e-05f}},
+      {{9999.0f, 0.0f}, {0.008035868f, 0.0f}, {1.1e-05f, 2.7e-05f}},
+      {{9999.0f, 2.0f}, {0.008041675f, 1.3283095f}, {1.1e-05f, 5.4e-05f}},
   }};
   std::array<float, kGolden.size()> exponent{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

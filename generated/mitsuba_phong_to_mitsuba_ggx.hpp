@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_ggx.csv, sha256 ea894ef4723eb21daad93f5a0b8a2fe9c779aba3beef786b7f8d7a82a59dd875;
+// Table mitsuba_phong_to_mitsuba_ggx.csv, sha256 9f170e5e18a53e88b01dfce496ed406f7fe4298b24773d36871490e9de665602;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 552 rows trained, 138 held out.
-// Error on the rows held out: alpha rms 1.8e-05, 99 % 6.8e-05, max 8.3e-05;
-// f0 rms 3.1e-05, 99 % 0.00012, max 0.00016.
-// Lowered from the fit. Target alpha: degree 4 on 32 pieces, 12 in specular, proven within 1e-05 (sampled 9.5e-06), rising with alpha.
-// Target specular: degree 8 on 4 pieces, 7 in specular, proven within 9.6e-05 (sampled 8.7e-05), rising with specular.
-// Covers alpha 0.01 to 1, specular 0 to 0.766666667.
+// Fit: series, seed 1, 735 rows trained, 184 held out.
+// Error on the rows held out: alpha rms 7e-05, 99 % 0.00027, max 0.00046;
+// f0 rms 0.00016, 99 % 0.00064, max 7e-04.
+// Lowered from the fit. Target alpha: degree 12, 11 in specular, proven within 8.8e-06 (sampled 7.2e-06), rising with alpha.
+// Target specular: degree 11, proven within 1e-04 (sampled 9.2e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 3 in alpha / (alpha + 1), 3 in specular, proven within 8.3e-05 (sampled 7.7e-05), rising with alpha.
+// All together within 0.00011 in alpha, 1e-04 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_GGX_HPP
 
@@ -37,8 +39,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.8e-05f;
-inline constexpr float kSpecularRmsError = 3.1e-05f;
+inline constexpr float kAlphaRmsError = 7e-05f;
+inline constexpr float kSpecularRmsError = 0.00016f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.42f;
@@ -56,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.0f, 0.0f};
-inline constexpr Input kDomainMax{19998.0f, 0.76666665f};
+inline constexpr Input kDomainMax{19998.0f, 1.0f};
 
 namespace detail {
 
@@ -75,86 +77,101 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-// x rounded down, held in [0, last]. Masks in place of comparisons: compilers would branch on them.
-inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
-  const std::int32_t cell = static_cast<std::int32_t>(x);
-  const std::int32_t below = (cell & ~(cell >> 31)) - last;
-  return last + (below & (below >> 31));
-}
-
-inline constexpr float kAlphaTable[32][29] = {
-    {0.011871757f, 0.014782144f, -8.6393615e-05f, 1.1408089e-05f, -6.322789e-07f, -4.0957082e-05f, -2.2218994e-05f, -0.00048250065f, 0.00013462793f, 0.007819799f, 0.0011009213f, -0.0193122f, -0.0036839026f, -0.20125292f, -0.035621077f, 0.9889714f, 0.11111493f, 1.188516f, 0.58853257f, -11.98103f, -1.9098791f, 6.026417f, -3.5932126f, 45.665104f, 12.769538f, -50.890125f, 5.990708f, -14.208032f, -25.83778f},
-    {0.026576737f, 0.014637731f, -5.6721394e-05f, 8.1245535e-06f, -9.3797354e-07f, -6.313733e-05f, -2.2141503e-05f, -0.00037506767f, 8.023805e-05f, 0.00895923f, 0.0011779425f, -0.022849428f, -0.0033905553f, -0.23973776f, -0.0413486f, 1.106285f, 0.123512104f, 1.8133883f, 0.6612121f, -13.985791f, -2.0996423f, 2.1619284f, -4.1357646f, 59.16737f, 14.234997f, -44.26646f, 7.2566204f, -41.854794f, -29.455748f},
-    {0.041163363f, 0.014541764f, -3.7969323e-05f, 4.4478234e-06f, -8.5257875e-07f, -8.649216e-05f, -2.4568157e-05f, -0.00031029814f, 4.9300987e-05f, 0.010172341f, 0.0012482789f, -0.026160363f, -0.003231314f, -0.2838305f, -0.046836857f, 1.2352914f, 0.1345008f, 2.5160444f, 0.74409986f, -16.182537f, -2.2938483f, -2.297159f, -4.7824097f, 74.21363f, 15.857526f, -36.24445f, 8.787399f, -73.37444f, -33.583553f},
-    {0.055669054f, 0.014472497f, -2.9260025e-05f, 1.6109074e-06f, -5.447446e-07f, -0.00011203525f, -2.651803e-05f, -0.0002651033f, 4.1088682e-05f, 0.011453298f, 0.0013136342f, -0.029368335f, -0.0031846326f, -0.33327174f, -0.05204565f, 1.3745195f, 0.1439553f, 3.305527f, 0.83486557f, -18.572859f, -2.4867985f, -7.4469137f, -5.5171f, 90.93779f, 17.590792f, -26.573193f, 10.555118f, -109.227516f, -38.122593f},
-    {0.07011148f, 0.014413079f, -2.7034032e-05f, 1.7935176e-07f, -1.7065433e-07f, -0.00013919086f, -2.7793174e-05f, -0.00021952768f, 5.0062583e-05f, 0.0127973575f, 0.0013744861f, -0.03256273f, -0.003204155f, -0.38780576f, -0.057022355f, 1.5224952f, 0.15199609f, 4.1884203f, 0.93092096f, -21.153547f, -2.6745758f, -13.364012f, -6.317097f, 109.42624f, 19.3861f, -15.039642f, 12.511982f, -149.7641f, -42.950554f},
-    {0.08449551f, 0.014354984f, -2.6892883e-05f, 1.8778945e-07f, 1.6324819e-07f, -0.00016778051f, -2.9386129e-05f, -0.0001601121f, 6.8768575e-05f, 0.014199656f, 0.0014301116f, -0.03578333f, -0.003237052f, -0.4472464f, -0.06185895f, 1.6779239f, 0.15886135f, 5.1689177f, 1.0300741f, -23.918434f, -2.8551986f, -20.102585f, -7.16005f, 129.72084f, 21.203104f, -1.4801053f, 14.607094f, -195.21658f, -47.954437f},
-    {0.0988218f, 0.014298256f, -2.487305e-05f, 1.3564211e-06f, 4.0521073e-07f, -0.00019858767f, -3.2228192e-05f, -8.067301e-05f, 9.0109614e-05f, 0.015654236f, 0.0014790456f, -0.039020184f, -0.0032366521f, -0.51150346f, -0.06665517f, 1.8397539f, 0.16479862f, 6.2493677f, 1.1308264f, -26.860123f, -3.0281801f, -27.69678f, -8.028337f, 151.82948f, 23.014198f, 14.222397f, 16.797913f, -245.7182f, -53.048794f},
-    {0.11309473f, 0.014249866f, -1.8078035e-05f, 3.2883308e-06f, 5.458608e-07f, -0.00023298872f, -3.6573918e-05f, 1.8734028e-05f, 0.000108704466f, 0.017153574f, 0.0015196324f, -0.042223033f, -0.0031690428f, -0.58057684f, -0.07149159f, 2.0071466f, 0.1699871f, 7.430971f, 1.2323798f, -29.971106f, -3.1937852f, -36.166317f, -8.910741f, 175.73856f, 24.803928f, 32.149273f, 19.055838f, -301.33286f, -58.180504f},
-    {0.12732813f, 0.014221355f, -4.805987e-06f, 5.6043887e-06f, 6.008095e-07f, -0.0002722483f, -4.194525e-05f, 0.00013378405f, 0.00012139559f, 0.018688621f, 0.0015504613f, -0.045314994f, -0.0030148805f, -0.654529f, -0.076412655f, 2.179386f, 0.17449133f, 8.714391f, 1.334459f, -33.244114f, -3.3522313f, -45.52274f, -9.802103f, 201.42316f, 26.565292f, 52.360626f, 21.36687f, -362.08502f, -63.32383f},
-    {0.1415487f, 0.014226579f, 1.562451e-05f, 8.011327e-06f, 5.953764e-07f, -0.00031692378f, -4.7405716e-05f, 0.00025805514f, 0.00012714656f, 0.020249162f, 0.001570619f, -0.04820651f, -0.0027681459f, -0.7334442f, -0.08141783f, 2.3557518f, 0.17824052f, 10.100144f, 1.4370482f, -36.671726f, -3.5029929f, -55.774643f, -10.70171f, 228.85316f, 28.294703f, 74.90851f, 23.72889f, -427.98193f, -68.47003f},
-    {0.15579736f, 0.014279951f, 4.3169566e-05f, 1.0318393e-05f, 5.543376e-07f, -0.00036659575f, -5.193822e-05f, 0.0003849303f, 0.00012660374f, 0.021824362f, 0.0015797825f, -0.050807282f, -0.0024334008f, -0.8173825f, -0.08645877f, 2.5353856f, 0.18102711f, 11.588725f, 1.5401139f, -40.245365f, -3.6442873f, -66.93106f, -11.611129f, 257.99396f, 29.986904f, 99.8465f, 26.14709f, -499.0244f, -73.61494f},
-    {0.1701293f, 0.014395309f, 7.7353005e-05f, 1.2423491e-05f, 4.9679824e-07f, -0.00041995183f, -5.4773944e-05f, 0.0005090039f, 0.0001215435f, 0.02340336f, 0.0015782123f, -0.053035308f, -0.00202265f, -0.90633214f, -0.09144047f, 2.7171583f, 0.18251829f, 13.180462f, 1.6433594f, -43.95389f, -3.7727633f, -79.00261f, -12.53196f, 288.80273f, 31.63062f, 127.23443f, 28.628777f, -575.2054f, -78.74699f},
-    {0.18461291f, 0.014585299f, 0.00011749468f, 1.42871e-05f, 4.349858e-07f, -0.0004751392f, -5.5600838e-05f, 0.00062694616f, 0.000114341f, 0.024975818f, 0.001566704f, -0.054822832f, -0.0015523995f, -1.000165f, -0.09622526f, 2.8995557f, 0.18227652f, 14.875157f, 1.7460325f, -47.781967f, -3.8833866f, -92.00048f, -13.463792f, 321.22067f, 33.205273f, 157.13794f, 31.178236f, -656.4974f, -83.83699f},
-    {0.19932857f, 0.014861145f, 0.00016285834f, 1.590677e-05f, 3.755381e-07f, -0.00053025887f, -5.463846e-05f, 0.00073787564f, 0.000107517975f, 0.026532438f, 0.0015465373f, -0.05611957f, -0.0010410757f, -1.0985974f, -0.10063953f, 3.0805879f, 0.17978784f, 16.671572f, 1.846797f, -51.70842f, -3.9695215f, -105.93363f, -14.402503f, 355.1628f, 34.679012f, 189.6231f, 33.792072f, -742.831f, -88.83023f},
-    {0.21436714f, 0.015232626f, 0.00021273362f, 1.729979e-05f, 3.2216042e-07f, -0.00058387604f, -5.259588e-05f, 0.0008433204f, 0.00010337146f, 0.028065423f, 0.0015194301f, -0.05689345f, -0.00050668465f, -1.201159f, -0.10448382f, 3.2577314f, 0.17449932f, 18.566809f, 1.9436743f, -55.704792f, -4.0232253f, -120.80436f, -15.338956f, 390.50638f, 36.008106f, 224.74672f, 36.45519f, -834.06683f, -93.641464f},
-    {0.2298286f, 0.01570819f, 0.0002664832f, 1.8497843e-05f, 2.7885187e-07f, -0.00063544273f, -5.053752e-05f, 0.00094683503f, 0.000103657905f, 0.029568877f, 0.0014874811f, -0.05712901f, 3.556557e-05f, -1.3071749f, -0.107547894f, 3.4279153f, 0.16586824f, 20.55568f, 2.0340695f, -59.734306f, -4.035797f, -136.6029f, -16.25814f, 427.0794f, 37.137997f, 262.54306f, 39.137497f, -929.9641f, -98.15313f},
-    {0.24582073f, 0.016295139f, 0.00032359347f, 1.9554338e-05f, 2.5284103e-07f, -0.00068555074f, -4.9678478e-05f, 0.001053314f, 0.00010929995f, 0.031039149f, 0.0014530601f, -0.05682322f, 0.00057601405f, -1.4157649f, -0.10963226f, 3.5875626f, 0.15342604f, 22.630161f, 2.1148946f, -63.75152f, -3.9986286f, -153.3014f, -17.138859f, 464.65155f, 38.006252f, 303.0076f, 41.791565f, -1030.1494f, -102.21743f},
-    {0.26245826f, 0.016999954f, 0.0003837622f, 2.0560306e-05f, 2.555893e-07f, -0.00073595095f, -5.1121937e-05f, 0.0011680088f, 0.00012008961f, 0.03247496f, 0.0014185695f, -0.055978213f, 0.0011140022f, -1.5258698f, -0.11057742f, 3.7327042f, 0.13685735f, 24.779013f, 2.182808f, -67.703026f, -3.9043841f, -170.84785f, -17.954035f, 502.9285f, 38.54764f, 346.07907f, 44.35143f, -1134.0896f, -105.662964f},
-    {0.2798621f, 0.017828843f, 0.0004470328f, 2.1655176e-05f, 2.9853035e-07f, -0.0007892835f, -5.5543194e-05f, 0.0012952413f, 0.00013437554f, 0.033877227f, 0.0013859622f, -0.05459004f, 0.0016623464f, -1.6363088f, -0.11030064f, 3.8591785f, 0.116091296f, 26.987703f, 2.2345726f, -71.529465f, -3.7484984f, -189.16074f, -18.671736f, 541.55304f, 38.701412f, 391.62122f, 46.732815f, -1241.0741f, -108.30613f},
-    {0.29815966f, 0.01878854f, 0.0005139191f, 2.3000932e-05f, 3.7804304e-07f, -0.00084846636f, -6.282251e-05f, 0.0014368007f, 0.00014874333f, 0.035248138f, 0.0013558568f, -0.052632347f, 0.002253037f, -1.745878f, -0.108837746f, 3.9629216f, 0.09139501f, 29.238749f, 2.2675178f, -75.16915f, -3.5308678f, -208.12503f, -19.256853f, 580.1138f, 38.420124f, 439.405f, 48.834805f, -1350.2104f, -109.966415f},
-    {0.31748563f, 0.01988723f, 0.000585335f, 2.4664507e-05f, 4.4401162e-07f, -0.0009157027f, -7.165022e-05f, 0.0015900444f, 0.00015774382f, 0.036589112f, 0.0013260904f, -0.0500339f, 0.0029438566f, -1.853488f, -0.10638209f, 4.040343f, 0.06344763f, 31.51252f, 2.2800248f, -78.5633f, -3.2574317f, -227.59004f, -19.673187f, 618.16315f, 37.678616f, 489.09375f, 50.542652f, -1460.435f, -110.483f},
-    {0.33798388f, 0.021134816f, 0.00066195417f, 2.6344793e-05f, 3.5585612e-07f, -0.0009911347f, -7.921373e-05f, 0.0017458431f, 0.0001538537f, 0.037897035f, 0.0012897541f, -0.04665017f, 0.0038236014f, -1.9583294f, -0.10330094f, 4.0887403f, 0.033347186f, 33.78847f, 2.271876f, -81.66248f, -2.9409354f, -247.36938f, -19.885477f, 655.2423f, 36.479717f, 540.2308f, 51.731445f, -1570.5402f, -109.72703f},
-    {0.35980833f, 0.022540955f, 0.0007425023f, 2.69544e-05f, -1.3590088e-07f, -0.0010713927f, -8.1302234e-05f, 0.0018868574f, 0.0001281749f, 0.03915866f, 0.0012334968f, -0.042234454f, 0.005007838f, -2.0600212f, -0.10008266f, 4.106639f, 0.0024496047f, 36.046455f, 2.2440965f, -84.432594f, -2.5992825f, -267.24252f, -19.860815f, 690.9072f, 34.85006f, 592.23224f, 52.271442f, -1679.2037f, -107.600266f},
-    {0.38311994f, 0.024108447f, 0.0008208472f, 2.4338313e-05f, -1.2834643e-06f, -0.0011488284f, -7.356932e-05f, 0.001987425f, 7.296002e-05f, 0.040344756f, 0.0011386949f, -0.036427815f, 0.0066054445f, -2.1586242f, -0.097123146f, 4.0937943f, -0.02813903f, 38.26732f, 2.1976242f, -86.85646f, -2.2484562f, -286.9576f, -19.569376f, 724.73956f, 32.814674f, 644.3878f, 52.0397f, -1785.0078f, -104.00771f},
-    {0.40807402f, 0.025820652f, 0.0008832395f, 1.580952e-05f, -3.0512965e-06f, -0.0012130822f, -5.493823e-05f, 0.0020175984f, -1.2613131e-05f, 0.041409433f, 0.0009906631f, -0.028812245f, 0.008625698f, -2.2543108f, -0.09424999f, 4.05044f, -0.05856981f, 40.43117f, 2.130082f, -88.92406f, -1.8867282f, -306.2351f, -18.985605f, 756.31683f, 30.339819f, 695.8817f, 50.948105f, -1886.4115f, -98.79977f},
-    {0.43479308f, 0.027626177f, 0.0009087757f, -5.2531396e-07f, -5.191547e-06f, -0.001256907f, -3.2711334e-05f, 0.001954156f, -0.00011427196f, 0.042304724f, 0.000799917f, -0.019084873f, 0.010829046f, -2.3465009f, -0.09013011f, 3.9754984f, -0.09131284f, 42.51207f, 2.031717f, -90.60508f, -1.4753251f, -324.7747f, -18.09356f, 785.1209f, 27.268372f, 745.8529f, 48.99428f, -1981.6764f, -91.73006f},
-    {0.46332574f, 0.029426703f, 0.00087061076f, -2.8221208e-05f, -9.289009e-06f, -0.0012848831f, -2.3240815e-05f, 0.0017959651f, -0.00020210996f, 0.043015383f, 0.00062140264f, -0.007323259f, 0.012694185f, -2.4328623f, -0.082592994f, 3.864838f, -0.13000834f, 44.472015f, 1.8881704f, -91.8181f, -0.9507171f, -342.27267f, -16.902388f, 810.4484f, 23.386671f, 793.50037f, 46.300644f, -2068.8447f, -82.60665f},
-    {0.49358928f, 0.031049376f, 0.0007151645f, -8.36753e-05f, -1.9320953e-05f, -0.0013142467f, -3.5486304e-05f, 0.0015656822f, -0.00025845575f, 0.043585088f, 0.00051800325f, 0.005984605f, 0.013921546f, -2.5100484f, -0.07177919f, 3.7135394f, -0.1725889f, 46.268467f, 1.7047325f, -92.45987f, -0.33282194f, -358.46033f, -15.472893f, 831.5731f, 18.862617f, 838.16516f, 43.02889f, -2146.0864f, -71.876335f},
-    {0.525254f, 0.032153055f, 0.00033418022f, -0.00016921452f, -1.7209752e-05f, -0.0013535086f, -4.3037413e-05f, 0.0012746204f, -0.00032366815f, 0.04406216f, 0.00043614072f, 0.020642525f, 0.015394297f, -2.5781116f, -0.0643473f, 3.5252903f, -0.20390923f, 47.89027f, 1.5388782f, -92.55835f, 0.13587183f, -373.1574f, -13.921312f, 848.38696f, 14.765134f, 879.247f, 39.134842f, -2212.594f, -61.13879f},
-    {0.55756336f, 0.0322883f, -0.00017724608f, -9.995316e-05f, 7.087232e-05f, -0.001378241f, -6.427571e-06f, 0.00088946364f, -0.00044664563f, 0.044372577f, 0.00018469445f, 0.037566416f, 0.018453486f, -2.6433735f, -0.0661762f, 3.3161955f, -0.21428068f, 49.37986f, 1.4403015f, -92.35915f, 0.2625141f, -386.2723f, -12.308442f, 861.7147f, 11.890371f, 916.02747f, 34.426018f, -2268.8513f, -51.375862f},
-    {0.589667f, 0.032043684f, 0.00023288815f, 0.0004922215f, 0.00021218945f, -0.0013634568f, 3.5996152e-05f, 0.0004173017f, -0.0004976783f, 0.0443316f, -0.00026665296f, 0.05743161f, 0.021276904f, -2.7067173f, -0.060511496f, 3.0867255f, -0.24465896f, 50.733315f, 1.266609f, -91.88293f, 0.6899406f, -397.64508f, -10.437137f, 871.433f, 7.5460644f, 947.9099f, 29.338978f, -2313.9905f, -38.902596f},
-    {0.6226454f, 0.034808088f, 0.0028628483f, 0.0010659131f, -3.051137e-05f, -0.0013548316f, -1.8746025e-05f, 5.3562308e-05f, -0.00022979993f, 0.043840896f, -0.0007147508f, 0.0778154f, 0.01949067f, -2.7451625f, -0.016378628f, 2.7835248f, -0.36174273f, 51.73741f, 0.74158007f, -90.24597f, 2.5839796f, -406.82996f, -7.9325924f, 873.6242f, -3.1635976f, 975.01215f, 24.865442f, -2342.122f, -17.36058f},
-};
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float x = alpha * 32.323162f - 0.32323048f;
-  const std::int32_t cell = cell_of(x, 31);
-  const float u = x - (static_cast<float>(cell) + 0.5f);
-  const float* row = kAlphaTable[cell];
+  const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = row[4];
-  float c0_next = row[3];
-  c0 = c0 * u_2 + row[2];
-  c0_next = c0_next * u_2 + row[1];
-  c0 = c0 * u_2 + row[0];
+  float c0 = 343.9929f;
+  float c0_next = 330.49643f;
+  c0 = c0 * u_2 + -122.69854f;
+  c0_next = c0_next * u_2 + -179.71985f;
+  c0 = c0 * u_2 + -3.3535573f;
+  c0_next = c0_next * u_2 + 30.484703f;
+  c0 = c0 * u_2 + 3.375966f;
+  c0_next = c0_next * u_2 + -2.3360026f;
+  c0 = c0 * u_2 + 0.08203131f;
+  c0_next = c0_next * u_2 + 0.7116084f;
+  c0 = c0 * u_2 + 0.31148356f;
+  c0_next = c0_next * u_2 + 0.5160774f;
+  c0 = c0 * u_2 + 0.23769255f;
   c0 = c0_next * u + c0;
-  float c1 = row[6];
-  c1 = c1 * u + row[5];
-  float c2 = row[8];
-  c2 = c2 * u + row[7];
-  float c3 = row[10];
-  c3 = c3 * u + row[9];
-  float c4 = row[12];
-  c4 = c4 * u + row[11];
-  float c5 = row[14];
-  c5 = c5 * u + row[13];
-  float c6 = row[16];
-  c6 = c6 * u + row[15];
-  float c7 = row[18];
-  c7 = c7 * u + row[17];
-  float c8 = row[20];
-  c8 = c8 * u + row[19];
-  float c9 = row[22];
-  c9 = c9 * u + row[21];
-  float c10 = row[24];
-  c10 = c10 * u + row[23];
-  float c11 = row[26];
-  c11 = c11 * u + row[25];
-  float c12 = row[28];
-  c12 = c12 * u + row[27];
-  const float w = specular - 0.3833341f;
-  float sum = c12;
-  sum = sum * w + c11;
+  float c1 = 14.969174f;
+  float c1_next = 4.352929f;
+  c1 = c1 * u_2 + -8.980866f;
+  c1_next = c1_next * u_2 + -1.4159889f;
+  c1 = c1 * u_2 + 2.077368f;
+  c1_next = c1_next * u_2 + 0.05328036f;
+  c1 = c1 * u_2 + -0.23208632f;
+  c1_next = c1_next * u_2 + 0.014417947f;
+  c1 = c1 * u_2 + 0.013064603f;
+  c1_next = c1_next * u_2 + -0.0018312342f;
+  c1 = c1 * u_2 + -0.0013134652f;
+  c1_next = c1_next * u_2 + -0.00021927983f;
+  c1 = c1 * u + c1_next;
+  float c2 = -12.427785f;
+  float c2_next = -7.5511184f;
+  c2 = c2 * u_2 + 5.258435f;
+  c2_next = c2_next * u_2 + 3.5312839f;
+  c2 = c2 * u_2 + -0.44971773f;
+  c2_next = c2_next * u_2 + -0.5079273f;
+  c2 = c2 * u_2 + -0.04110949f;
+  c2_next = c2_next * u_2 + 0.0297678f;
+  c2 = c2 * u_2 + 0.007927882f;
+  c2_next = c2_next * u_2 + 0.0030100038f;
+  c2 = c2 * u_2 + 0.0013731065f;
+  c2 = c2_next * u + c2;
+  float c3 = -5.3207808f;
+  float c3_next = -0.92644376f;
+  c3 = c3 * u_2 + 1.0868883f;
+  c3_next = c3_next * u_2 + 0.09759239f;
+  c3 = c3 * u_2 + 0.07610806f;
+  c3_next = c3_next * u_2 + 0.029531248f;
+  c3 = c3 * u_2 + 0.010774298f;
+  c3_next = c3_next * u_2 + 0.0032356388f;
+  c3 = c3 * u_2 + -0.0028161309f;
+  c3 = c3_next * u + c3;
+  float c4 = -1.0100824f;
+  float c4_next = -0.054213956f;
+  c4 = c4 * u_2 + 0.4776496f;
+  c4_next = c4_next * u_2 + -0.1822708f;
+  c4 = c4 * u_2 + -0.16175438f;
+  c4_next = c4_next * u_2 + -0.10446346f;
+  c4 = c4 * u_2 + -0.045529284f;
+  c4 = c4_next * u + c4;
+  float c5 = 5.965942f;
+  float c5_next = 1.3240974f;
+  c5 = c5 * u_2 + -2.199993f;
+  c5_next = c5_next * u_2 + -0.22964588f;
+  c5 = c5 * u_2 + -0.43218058f;
+  c5_next = c5_next * u_2 + -0.13928382f;
+  c5 = c5 * u_2 + 0.0789365f;
+  c5 = c5_next * u + c5;
+  float c6 = -1.1650752f;
+  float c6_next = 1.9342549f;
+  c6 = c6 * u_2 + 2.2544737f;
+  c6_next = c6_next * u_2 + 2.286123f;
+  c6 = c6 * u_2 + 0.8336985f;
+  c6 = c6_next * u + c6;
+  float c7 = 2.8911335f;
+  float c7_next = -1.9367787f;
+  c7 = c7 * u_2 + 4.3459897f;
+  c7_next = c7_next * u_2 + -0.27442133f;
+  c7 = c7 * u_2 + -1.4227104f;
+  c7 = c7_next * u + c7;
+  float c8 = -7.8026853f;
+  c8 = c8 * u + -13.782603f;
+  c8 = c8 * u + -16.88459f;
+  c8 = c8 * u + -5.7105937f;
+  float c9 = 11.770587f;
+  c9 = c9 * u + -12.584062f;
+  c9 = c9 * u + 12.4915285f;
+  c9 = c9 * u + 9.807808f;
+  float c10 = 32.042538f;
+  c10 = c10 * u + 45.12016f;
+  c10 = c10 * u + 14.156126f;
+  float c11 = -53.24254f;
+  c11 = c11 * u + -24.884706f;
+  const float w = specular - 0.500001f;
+  float sum = c11;
   sum = sum * w + c10;
   sum = sum * w + c9;
   sum = sum * w + c8;
@@ -172,15 +189,11 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
-inline constexpr float kSpecularTable[4][55] = {
-    {0.27081996f, -0.0018936176f, -0.0005157497f, 0.005771005f, -0.035901237f, 0.052260052f, 0.14962146f, -0.5016111f, 0.3958187f, 0.7104962f, -0.0063267066f, -0.0054498594f, 0.06119538f, -0.13750607f, -0.27522376f, 1.0656534f, -0.33448616f, -0.77180856f, 0.0009005192f, -0.0041145952f, -0.00322139f, 0.08157596f, -0.11653035f, -0.54706657f, 1.0297544f, 1.1472915f, -2.3080823f, -0.007641256f, 0.0073285867f, 0.030605381f, -0.048826486f, 0.07018748f, 0.06561366f, -0.53405267f, 0.48337853f, 0.052406255f, -0.012748266f, 0.02067734f, 0.037333135f, -0.11632861f, 0.0075695347f, 0.34786677f, 0.06558373f, -0.74020785f, 0.09411506f, -0.09295914f, -0.16027033f, 0.016380759f, 0.15086064f, 0.040636744f, -0.026713412f, -0.045320895f, -0.38720685f, 0.3762295f, 0.27914053f},
-    {0.26998642f, 0.0038121203f, 0.009783987f, 0.0060379677f, 0.0010290976f, 0.00066160306f, 0.00010060745f, -0.00034228613f, 0.00014307548f, 0.7076721f, 0.009286905f, 0.025200559f, 0.016876975f, 0.0036280088f, 8.309683e-06f, -0.000109946806f, -0.00031953852f, 0.00033120767f, 5.0521696e-05f, 6.278479e-05f, -0.00082131696f, 0.0001600191f, 0.0014305146f, -0.0007781474f, -0.0009864311f, 7.07707e-05f, 0.00038829673f, 0.0034246813f, 0.0009975757f, -0.009188466f, 0.007371556f, -0.0024907333f, -0.0013763598f, 0.003840902f, 0.0009950775f, -0.000553726f, -0.0015719833f, -0.000820623f, 0.0071825525f, 0.011086649f, -0.007152318f, -0.0026280298f, 0.0049186163f, -0.0010650423f, -0.037684947f, -0.049332418f, 0.11313678f, -0.041432913f, -0.022404412f, 0.012262665f, -0.02645937f, -0.03817015f, 0.117419355f, 0.3388185f, -0.30926833f},
-    {0.29120404f, 0.04818972f, 0.0387099f, 0.014161946f, 0.0029931008f, 0.0012635635f, 0.0007731763f, -0.0007348048f, -0.0010640799f, 0.7626912f, 0.12520897f, 0.09945784f, 0.036244206f, 0.010849773f, 0.005419346f, -1.5360101e-05f, -0.004085531f, -0.0029937478f, -0.00031463566f, -0.00057641236f, -0.0005113078f, 0.00076144823f, 0.00513044f, 0.0022832009f, -0.0064715967f, -0.0059125293f, 0.00086939114f, -0.0004716115f, -0.0055926973f, 0.006417529f, 0.01621177f, 0.0026242698f, -0.020079788f, -0.018794749f, 0.0033350266f, 0.010318074f, 0.008260055f, 0.009515992f, -0.011771721f, -0.0022878968f, -0.004459384f, -0.0067565516f, 0.0026812332f, 0.010352669f, -0.01834719f, 0.058332466f, 0.023729602f, -0.00085735164f, 0.01324004f, -0.04640968f, -0.037259545f, 0.06908141f, 0.13663538f, -0.30623123f, -0.3209579f},
-    {0.39520475f, 0.1745676f, 0.066188365f, -0.06232488f, -0.113045074f, 0.028998801f, 0.35254446f, 0.43670762f, 0.1514224f, 1.0332375f, 0.45670405f, 0.18051295f, -0.19605598f, -0.43452647f, 0.2900686f, 1.7460667f, 0.69536245f, -1.191332f, -0.0007202507f, 0.0059827324f, 0.0454764f, -0.1419378f, -0.7356452f, 1.1078557f, 4.4658766f, -2.5249846f, -8.881807f, -0.008370881f, -0.041381657f, -0.056269716f, -0.15582632f, -0.04051058f, 3.2340896f, 4.7547913f, -8.770154f, -14.6616125f, 0.0051625464f, -0.01002184f, -0.18934795f, -0.4818016f, 1.432868f, 3.9845495f, -2.8443797f, -8.418142f, 0.13532628f, 0.47759426f, 0.47263935f, -0.6618181f, -1.2791119f, 5.0299226e-05f, 0.121238954f, 0.051200297f, -0.6107724f, -1.6286205f, -1.2010304f},
-};
 template <class Count>
 inline void specular_terms(Count count, Terms& terms) noexcept {
   const std::size_t size = count;
@@ -193,93 +206,62 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float x = alpha * 4.0403953f - 0.04040381f;
-    const std::int32_t cell = cell_of(x, 3);
-    const float u = x - (static_cast<float>(cell) + 0.5f);
-    const float* row = kSpecularTable[cell];
+    const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = row[8];
-    float c0_next = row[7];
-    c0 = c0 * u_2 + row[6];
-    c0_next = c0_next * u_2 + row[5];
-    c0 = c0 * u_2 + row[4];
-    c0_next = c0_next * u_2 + row[3];
-    c0 = c0 * u_2 + row[2];
-    c0_next = c0_next * u_2 + row[1];
-    c0 = c0 * u_2 + row[0];
-    c0 = c0_next * u + c0;
-    float c1 = row[17];
-    float c1_next = row[16];
-    c1 = c1 * u_2 + row[15];
-    c1_next = c1_next * u_2 + row[14];
-    c1 = c1 * u_2 + row[13];
-    c1_next = c1_next * u_2 + row[12];
-    c1 = c1 * u_2 + row[11];
-    c1_next = c1_next * u_2 + row[10];
-    c1 = c1 * u_2 + row[9];
+    float c0 = 142.61661f;
+    float c0_next = 11.375963f;
+    c0 = c0 * u_2 + -95.110565f;
+    c0_next = c0_next * u_2 + -6.7905145f;
+    c0 = c0 * u_2 + 23.012428f;
+    c0_next = c0_next * u_2 + 1.3908641f;
+    c0 = c0 * u_2 + -2.4284527f;
+    c0_next = c0_next * u_2 + -0.11268865f;
+    c0 = c0 * u_2 + 0.10411888f;
+    c0_next = c0_next * u_2 + 0.0036826672f;
+    c0 = c0 * u_2 + -0.00043981534f;
+    c0_next = c0_next * u_2 + -0.0012431509f;
+    c0 = c0 * u + c0_next;
+    float c1 = 518.7634f;
+    float c1_next = 18.996412f;
+    c1 = c1 * u_2 + -284.8303f;
+    c1_next = c1_next * u_2 + -23.043543f;
+    c1 = c1 * u_2 + 49.44536f;
+    c1_next = c1_next * u_2 + 5.112643f;
+    c1 = c1 * u_2 + -1.8638272f;
+    c1_next = c1_next * u_2 + 1.3900738f;
+    c1 = c1 * u_2 + 0.9729409f;
+    c1_next = c1_next * u_2 + 0.19954133f;
+    c1 = c1 * u_2 + 0.72080547f;
     c1 = c1_next * u + c1;
-    float c2 = row[26];
-    float c2_next = row[25];
-    c2 = c2 * u_2 + row[24];
-    c2_next = c2_next * u_2 + row[23];
-    c2 = c2 * u_2 + row[22];
-    c2_next = c2_next * u_2 + row[21];
-    c2 = c2 * u_2 + row[20];
-    c2_next = c2_next * u_2 + row[19];
-    c2 = c2 * u_2 + row[18];
-    c2 = c2_next * u + c2;
-    float c3 = row[35];
-    float c3_next = row[34];
-    c3 = c3 * u_2 + row[33];
-    c3_next = c3_next * u_2 + row[32];
-    c3 = c3 * u_2 + row[31];
-    c3_next = c3_next * u_2 + row[30];
-    c3 = c3 * u_2 + row[29];
-    c3_next = c3_next * u_2 + row[28];
-    c3 = c3 * u_2 + row[27];
-    c3 = c3_next * u + c3;
-    float c4 = row[43];
-    float c4_next = row[42];
-    c4 = c4 * u_2 + row[41];
-    c4_next = c4_next * u_2 + row[40];
-    c4 = c4 * u_2 + row[39];
-    c4_next = c4_next * u_2 + row[38];
-    c4 = c4 * u_2 + row[37];
-    c4_next = c4_next * u_2 + row[36];
-    c4 = c4 * u + c4_next;
-    float c5 = row[48];
-    float c5_next = row[47];
-    c5 = c5 * u_2 + row[46];
-    c5_next = c5_next * u_2 + row[45];
-    c5 = c5 * u_2 + row[44];
-    c5 = c5_next * u + c5;
-    float c6 = row[51];
-    c6 = c6 * u + row[50];
-    c6 = c6 * u + row[49];
-    float c7 = row[54];
-    c7 = c7 * u + row[53];
-    c7 = c7 * u + row[52];
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
-    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.3833341f;
-  float sum = terms.c7[i];
-  sum = sum * w + terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.47667295f;
+  float c0 = 128.26503f;
+  c0 = c0 * u + -9.10103f;
+  c0 = c0 * u + 2.2807434f;
+  c0 = c0 * u + 0.55101216f;
+  float c1 = -1.2237988f;
+  c1 = c1 * u + -0.2751609f;
+  float c2 = -1.5092651f;
+  c2 = c2 * u + 0.4066672f;
+  const float c3 = -0.4400807f;
+  const float w = specular - 0.8873335f;
+  float sum = c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -349,10 +331,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.exponent, kDomainMax.exponent, kDomainMin.specular,
-                                 kDomainMax.specular, 1.3043479f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return std::sqrt(2.0f / (own + 2.0f)); }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -366,6 +364,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.82931036f), held_above(specular, 0.7746666f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -473,8 +485,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -484,13 +501,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -502,15 +608,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -518,16 +631,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -598,19 +714,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.0f, 0.76666665f}, {0.6406658f, 0.9898242f}, {1.1e-05f, 9.7e-05f}},
-      {{2499.75f, 0.71875f}, {0.013208153f, 0.51101446f}, {1.1e-05f, 9.7e-05f}},
-      {{4999.5f, 0.67083335f}, {0.009249514f, 0.47852528f}, {1.1e-05f, 9.7e-05f}},
-      {{7499.25f, 0.62291664f}, {0.0074908673f, 0.44521755f}, {1.1e-05f, 9.7e-05f}},
-      {{9999.0f, 0.575f}, {0.006441383f, 0.41150033f}, {1.1e-05f, 9.7e-05f}},
-      {{12498.75f, 0.52708334f}, {0.0057253395f, 0.37754083f}, {1.1e-05f, 9.7e-05f}},
-      {{14998.5f, 0.47916666f}, {0.005197569f, 0.34341696f}, {1.1e-05f, 9.7e-05f}},
-      {{17498.25f, 0.43124998f}, {0.0047881138f, 0.3091732f}, {1.1e-05f, 9.7e-05f}},
-      {{19998.0f, 0.38333333f}, {0.004457638f, 0.2748407f}, {1.1e-05f, 9.7e-05f}},
-      {{0.0f, 0.38333333f}, {0.6408938f, 0.4945944f}, {1.1e-05f, 9.7e-05f}},
-      {{29997.0f, 0.19166666f}, {0.004434132f, 0.13669065f}, {1.1e-05f, 9.6e-05f}},
-      {{9999.0f, 0.0f}, {0.006540043f, 0.0f}, {1.1e-05f, 9.6e-05f}},
-      {{9999.0f, 1.5333333f}, {0.006439954f, 1.0984743f}, {1.1e-05f, 2e-04f}},
+      {{0.0f, 1.0f}, {0.5707467f, 1.0f}, {0.00011f, 0.00011f}},
+      {{2499.75f, 0.9375f}, {0.013251437f, 0.66785485f}, {0.00011f, 0.00011f}},
+      {{4999.5f, 0.875f}, {0.009279521f, 0.6253404f}, {0.00011f, 0.00011f}},
+      {{7499.25f, 0.8125f}, {0.007508574f, 0.5816937f}, {0.00011f, 0.00011f}},
+      {{9999.0f, 0.75f}, {0.006450041f, 0.53753626f}, {0.00011f, 0.00011f}},
+      {{12498.75f, 0.6875f}, {0.0057250494f, 0.49309364f}, {0.00011f, 0.00011f}},
+      {{14998.5f, 0.625f}, {0.0051885922f, 0.44847056f}, {0.00011f, 0.00011f}},
+      {{17498.25f, 0.5625f}, {0.004772164f, 0.40372378f}, {0.00011f, 0.00011f}},
+      {{19998.0f, 0.5f}, {0.0044365907f, 0.35888714f}, {0.00011f, 0.00011f}},
+      {{0.0f, 0.5f}, {0.64073867f, 0.6452185f}, {0.00011f, 0.00011f}},
+      {{29997.0f, 0.25f}, {0.004436455f, 0.17872016f}, {0.00011f, 1e-04f}},
+      {{9999.0f, 0.0f}, {0.006423627f, 0.0f}, {0.00011f, 1e-04f}},
+      {{9999.0f, 2.0f}, {0.0064500426f, 1.4344206f}, {0.00011f, 0.00021f}},
   }};
   std::array<float, kGolden.size()> exponent{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_ward.csv, sha256 2a9c765ce738286a17de61282f5097e0f8d6a753002ec8b1f23c6259770206c4;
+// Table mitsuba_phong_to_mitsuba_ward.csv, sha256 19f8b67fef5617696e0d7817fc27ad960a4daf3f1166373ccf18b403c0881fa8;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 209 rows trained, 52 held out.
-// Error on the rows held out: alpha rms 4.6e-06, 99 % 2.1e-05, max 2.1e-05;
-// specular rms 0.00019, 99 % 0.0014, max 0.0014.
-// Lowered from the fit. Target alpha: degree 13, proven within 9.4e-06 (sampled 7.9e-06), rising with alpha.
-// Target specular: degree 12, 7 in specular, proven within 6.5e-05 (sampled 5.8e-05), rising with specular.
-// Covers alpha 0.01 to 0.965862069, specular 0 to 0.3.
+// Fit: series, seed 1, 785 rows trained, 196 held out.
+// Error on the rows held out: alpha rms 3e-04, 99 % 0.0011, max 0.0038;
+// specular rms 0.00015, 99 % 0.00043, max 0.0019.
+// Lowered from the fit. Target alpha: degree 9, proven within 6.6e-06 (sampled 5.5e-06), rising with alpha.
+// Target specular: degree 9, proven within 2.7e-05 (sampled 5.7e-06), rising with specular.
+// Where alpha is at its limit, target specular: degree 1, proven within 4.3e-07 (sampled 2.9e-08), rising with alpha, rising with specular.
+// Where specular is at its limit, target alpha: degree 6, 6 in specular, proven within 8.3e-07 (sampled 2.1e-08), rising with alpha.
+// All together within 7.4e-05 in alpha, 3.3e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_HPP
 
@@ -37,11 +40,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 4.6e-06f;
-inline constexpr float kSpecularRmsError = 0.00019f;
+inline constexpr float kAlphaRmsError = 3e-04f;
+inline constexpr float kSpecularRmsError = 0.00015f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.3f;
+inline constexpr float kImageRmsError = 0.33f;
 
 struct Input {
   float exponent;  // Phong exponent, 2 / alpha^2 - 2 of the microfacet width, from 0
@@ -55,8 +58,8 @@ struct Output {
 // What the measured table covers. Beyond it exponent is held at the edge, and specular is extrapolated in
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
-inline constexpr Input kDomainMin{0.14387655f, 0.0f};
-inline constexpr Input kDomainMax{19998.0f, 0.3f};
+inline constexpr Input kDomainMin{0.0f, 0.0f};
+inline constexpr Input kDomainMax{19998.0f, 1.0f};
 
 namespace detail {
 
@@ -76,22 +79,18 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float) noexcept {
-  const float u = alpha - 0.48793206f;
+  const float u = alpha - 0.49888688f;
   const float u_2 = u * u;
-  float c0 = 643.6725f;
-  float c0_next = 325.2201f;
-  c0 = c0 * u_2 + -391.9667f;
-  c0_next = c0_next * u_2 + -225.40837f;
-  c0 = c0 * u_2 + 59.2678f;
-  c0_next = c0_next * u_2 + 42.058716f;
-  c0 = c0 * u_2 + -2.6373744f;
-  c0_next = c0_next * u_2 + -2.0908267f;
-  c0 = c0 * u_2 + 1.1160208f;
-  c0_next = c0_next * u_2 + 0.86160946f;
-  c0 = c0 * u_2 + 0.7092527f;
-  c0_next = c0_next * u_2 + 0.57015157f;
-  c0 = c0 * u_2 + 0.7997276f;
-  c0_next = c0_next * u_2 + 0.31168255f;
+  float c0 = -13.476149f;
+  float c0_next = -14.556199f;
+  c0 = c0 * u_2 + -1.5993181f;
+  c0_next = c0_next * u_2 + 3.5320737f;
+  c0 = c0 * u_2 + 1.8800796f;
+  c0_next = c0_next * u_2 + 0.7365839f;
+  c0 = c0 * u_2 + 0.7008753f;
+  c0_next = c0_next * u_2 + 0.5944352f;
+  c0 = c0 * u_2 + 0.8130083f;
+  c0_next = c0_next * u_2 + 0.32052398f;
   c0 = c0 * u + c0_next;
   return c0;
 }
@@ -99,7 +98,9 @@ inline float target_alpha(float alpha, float) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -114,106 +115,95 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.48793206f;
+    const float u = alpha - 0.49888688f;
     const float u_2 = u * u;
-    float c0 = 123.016556f;
-    float c0_next = -19.254263f;
-    c0 = c0 * u_2 + -119.00409f;
-    c0_next = c0_next * u_2 + -16.683935f;
-    c0 = c0 * u_2 + 27.401773f;
-    c0_next = c0_next * u_2 + 6.849063f;
-    c0 = c0 * u_2 + -0.74287194f;
-    c0_next = c0_next * u_2 + 0.57473975f;
-    c0 = c0 * u_2 + 0.75942296f;
-    c0_next = c0_next * u_2 + 0.47065285f;
-    c0 = c0 * u_2 + 0.3423706f;
-    c0_next = c0_next * u_2 + 0.17786683f;
-    c0 = c0 * u_2 + 0.17202848f;
-    c0 = c0_next * u + c0;
-    float c1 = -85.01305f;
-    float c1_next = -142.34933f;
-    c1 = c1 * u_2 + -51.96992f;
-    c1_next = c1_next * u_2 + 36.674473f;
-    c1 = c1 * u_2 + 31.323618f;
-    c1_next = c1_next * u_2 + 6.859873f;
-    c1 = c1 * u_2 + 2.4980333f;
-    c1_next = c1_next * u_2 + 2.9105945f;
-    c1 = c1 * u_2 + 2.3525069f;
-    c1_next = c1_next * u_2 + 1.1902752f;
-    c1 = c1 * u_2 + 1.1465362f;
-    c1 = c1_next * u + c1;
-    float c2 = -848.3774f;
-    float c2_next = 366.2632f;
-    c2 = c2 * u_2 + 535.86597f;
-    c2_next = c2_next * u_2 + -201.05605f;
-    c2 = c2 * u_2 + -120.31298f;
-    c2_next = c2_next * u_2 + 37.139057f;
-    c2 = c2 * u_2 + 11.406952f;
-    c2_next = c2_next * u_2 + -2.4498584f;
-    c2 = c2 * u_2 + -0.44997397f;
-    c2_next = c2_next * u_2 + 0.024500242f;
-    c2 = c2 * u_2 + 0.0036383409f;
-    c2 = c2_next * u + c2;
-    float c3 = -12178.936f;
-    float c3_next = -4415.289f;
-    c3 = c3 * u_2 + 8749.448f;
-    c3_next = c3_next * u_2 + 2961.9739f;
-    c3 = c3 * u_2 + -2026.6406f;
-    c3_next = c3_next * u_2 + -591.03345f;
-    c3 = c3 * u_2 + 181.83636f;
-    c3_next = c3_next * u_2 + 38.500618f;
-    c3 = c3 * u_2 + -6.484787f;
-    c3_next = c3_next * u_2 + -0.85843086f;
-    c3 = c3 * u_2 + 0.03364062f;
-    c3 = c3_next * u + c3;
-    float c4 = -25978.297f;
-    float c4_next = -4593.565f;
-    c4 = c4 * u_2 + 13752.323f;
-    c4_next = c4_next * u_2 + 2194.8435f;
-    c4 = c4 * u_2 + -2459.9202f;
-    c4_next = c4_next * u_2 + -331.50473f;
-    c4 = c4 * u_2 + 155.70958f;
-    c4_next = c4_next * u_2 + 21.408436f;
-    c4 = c4 * u_2 + -0.6947901f;
-    c4_next = c4_next * u_2 + 0.0014505303f;
-    c4 = c4 * u + c4_next;
-    float c5 = -106521.56f;
-    float c5_next = -39327.926f;
-    c5 = c5 * u_2 + 37054.715f;
-    c5_next = c5_next * u_2 + 11971.675f;
-    c5 = c5 * u_2 + -3808.3503f;
-    c5_next = c5_next * u_2 + -878.7777f;
-    c5 = c5 * u_2 + 210.53618f;
-    c5_next = c5_next * u_2 + 38.43362f;
-    c5 = c5 * u_2 + -2.9771283f;
-    c5 = c5_next * u + c5;
-    float c6 = -112.2604f;
-    c6 = c6 * u + -40.794014f;
-    c6 = c6 * u + -15.702901f;
-    float c7 = -2872.462f;
-    c7 = c7 * u + -765.783f;
-    c7 = c7 * u + 157.15692f;
+    float c0 = -0.35270628f;
+    float c0_next = -0.056760985f;
+    c0 = c0 * u_2 + 0.19728336f;
+    c0_next = c0_next * u_2 + 0.036133222f;
+    c0 = c0 * u_2 + -0.03496179f;
+    c0_next = c0_next * u_2 + -0.0065651205f;
+    c0 = c0 * u_2 + 0.0020625656f;
+    c0_next = c0_next * u_2 + 0.00031429325f;
+    c0 = c0 * u_2 + -3.4920977e-05f;
+    c0_next = c0_next * u_2 + -2.4316655e-06f;
+    c0 = c0 * u + c0_next;
+    float c1 = -148.0989f;
+    float c1_next = -92.37206f;
+    c1 = c1 * u_2 + 36.57527f;
+    c1_next = c1_next * u_2 + 34.834766f;
+    c1 = c1 * u_2 + 7.1453586f;
+    c1_next = c1_next * u_2 + 3.2074203f;
+    c1 = c1 * u_2 + 3.1920984f;
+    c1_next = c1_next * u_2 + 2.4287298f;
+    c1 = c1 * u_2 + 1.2388365f;
+    c1_next = c1_next * u_2 + 1.160032f;
+    c1 = c1 * u + c1_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
-    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.1500003f;
-  float sum = terms.c7[i];
-  sum = sum * w + terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9926416f;
+  float c0 = 0.07019037f;
+  c0 = c0 * u + 4.3735954e-06f;
+  const float c1 = 3.2679434f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.65862143f;
+  const float u_2 = u * u;
+  float c0 = -6.254873f;
+  float c0_next = 2.6769717f;
+  c0 = c0 * u_2 + 2.211132f;
+  c0_next = c0_next * u_2 + -1.5457737f;
+  c0 = c0 * u_2 + -0.5713681f;
+  c0_next = c0_next * u_2 + 0.9588747f;
+  c0 = c0 * u_2 + 0.47540227f;
+  c0 = c0_next * u + c0;
+  float c1 = -4.971316f;
+  float c1_next = -2.1744864f;
+  c1 = c1 * u_2 + 0.7544927f;
+  c1_next = c1_next * u_2 + 1.618687f;
+  c1 = c1 * u_2 + -1.2424986f;
+  c1_next = c1_next * u_2 + -0.1694433f;
+  c1 = c1 * u + c1_next;
+  float c2 = 2.2081523f;
+  float c2_next = 7.3392076f;
+  c2 = c2 * u_2 + -6.3675075f;
+  c2_next = c2_next * u_2 + 1.8016291f;
+  c2 = c2 * u_2 + 0.36166847f;
+  c2 = c2_next * u + c2;
+  float c3 = -11.155913f;
+  c3 = c3 * u + 6.089427f;
+  c3 = c3 * u + 0.56191385f;
+  c3 = c3 * u + -1.2341238f;
+  float c4 = 3.2181923f;
+  c4 = c4 * u + -8.01293f;
+  c4 = c4 * u + 3.7709994f;
+  float c5 = 8.7630415f;
+  c5 = c5 * u + -6.617657f;
+  const float c6 = 4.691267f;
+  const float w = specular - 0.6563158f;
+  float sum = c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -283,13 +273,29 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.exponent, kDomainMax.exponent, kDomainMin.specular,
-                                 kDomainMax.specular, 3.3333333f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return std::sqrt(2.0f / (own + 2.0f)); }
   static float own_of(float alpha) noexcept { return alpha; }
-  static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
   static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
@@ -300,6 +306,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.9877717f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.9852832f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.31724137f), held_above(specular, 0.3126302f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -407,8 +427,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -418,13 +443,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -436,15 +550,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -452,16 +573,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -532,19 +656,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.14387655f, 0.3f}, {0.95923483f, 0.92146534f}, {1.1e-05f, 6.6e-05f}},
-      {{2499.876f, 0.28125f}, {0.016028324f, 0.25647548f}, {9.9e-06f, 6.5e-05f}},
-      {{4999.608f, 0.26250002f}, {0.011350252f, 0.23933439f}, {9.9e-06f, 6.5e-05f}},
-      {{7499.34f, 0.24375f}, {0.009279355f, 0.22222288f}, {9.9e-06f, 6.5e-05f}},
-      {{9999.072f, 0.22500001f}, {0.008045383f, 0.20511933f}, {9.9e-06f, 6.5e-05f}},
-      {{12498.804f, 0.20625001f}, {0.007203521f, 0.18802305f}, {9.9e-06f, 6.5e-05f}},
-      {{14998.536f, 0.1875f}, {0.006582216f, 0.17093222f}, {9.9e-06f, 6.5e-05f}},
-      {{17498.268f, 0.16875f}, {0.0060994173f, 0.15384312f}, {9.9e-06f, 6.5e-05f}},
-      {{19998.0f, 0.15f}, {0.0057102963f, 0.13675189f}, {9.9e-06f, 6.5e-05f}},
-      {{0.07193828f, 0.15f}, {0.95923483f, 0.46141016f}, {1.1e-05f, 6.6e-05f}},
-      {{29997.0f, 0.075f}, {0.0057102963f, 0.06838464f}, {9.9e-06f, 6.5e-05f}},
-      {{9999.072f, 0.0f}, {0.008045383f, 0.0005097185f}, {9.9e-06f, 6.5e-05f}},
-      {{9999.072f, 0.6f}, {0.008045383f, 0.5470138f}, {9.9e-06f, 0.00013f}},
+      {{0.0f, 1.0f}, {0.6045139f, 1.0f}, {7.5e-05f, 3.3e-05f}},
+      {{2499.75f, 0.9375f}, {0.01602333f, 0.85452056f}, {7.5e-05f, 3.3e-05f}},
+      {{4999.5f, 0.875f}, {0.011345259f, 0.79754484f}, {7.5e-05f, 3.3e-05f}},
+      {{7499.25f, 0.8125f}, {0.009275376f, 0.7406475f}, {7.5e-05f, 3.3e-05f}},
+      {{9999.0f, 0.75f}, {0.008042395f, 0.68373495f}, {7.5e-05f, 3.3e-05f}},
+      {{12498.75f, 0.6875f}, {0.0072014f, 0.6268037f}, {7.5e-05f, 3.3e-05f}},
+      {{14998.5f, 0.625f}, {0.006580843f, 0.5698572f}, {7.5e-05f, 3.3e-05f}},
+      {{17498.25f, 0.5625f}, {0.0060986932f, 0.5128987f}, {7.5e-05f, 3.3e-05f}},
+      {{19998.0f, 0.5f}, {0.00571014f, 0.45593065f}, {7.5e-05f, 3.3e-05f}},
+      {{0.0f, 0.5f}, {0.79184455f, 1.0f}, {7.5e-05f, 3.3e-05f}},
+      {{29997.0f, 0.25f}, {0.00571014f, 0.22796458f}, {7.5e-05f, 3.3e-05f}},
+      {{9999.0f, 0.0f}, {0.008042395f, 1.4392374e-06f}, {7.5e-05f, 3.3e-05f}},
+      {{9999.0f, 2.0f}, {0.008042395f, 1.8232923f}, {7.5e-05f, 6.6e-05f}},
   }};
   std::array<float, kGolden.size()> exponent{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/ward-balanced: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_ward_balanced.csv, sha256 a6d881e44cec00a98f12e906d8fd9787198bb0e1a02527d7e1d066b01dbb8bcc;
+// Table mitsuba_phong_to_mitsuba_ward_balanced.csv, sha256 ce3363b819ee588f902cf605066e12c32528cdeaa30fe20c4e1c0e29d01f5676;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 1.1e-05, 99 % 3e-05, max 3e-05;
-// specular rms 2.6e-05, 99 % 8.8e-05, max 0.00013.
-// Lowered from the fit. Target alpha: degree 6 on 8 pieces, proven within 3.2e-06 (sampled 1.8e-06), rising with alpha.
-// Target specular: degree 16, 6 in specular, proven within 6.8e-05 (sampled 5.6e-05), rising with specular.
-// Covers alpha 0.01 to 1, specular 0 to 0.666666667.
+// Fit: mlp, seed 1, 740 rows trained, 185 held out.
+// Error on the rows held out: alpha rms 3.3e-05, 99 % 0.00016, max 0.00031;
+// specular rms 4.5e-05, 99 % 0.00024, max 0.00025.
+// Lowered from the fit. Target alpha: degree 6 on 8 pieces, proven within 3.3e-06 (sampled 2.6e-06), rising with alpha.
+// Target specular: degree 16, 5 in specular, proven within 9.3e-05 (sampled 7.8e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 4, 3 in specular, proven within 9.7e-05 (sampled 8.8e-05), rising with alpha.
+// All together within 0.00013 in alpha, 9.3e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_BALANCED_HPP
 
@@ -37,8 +39,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1.1e-05f;
-inline constexpr float kSpecularRmsError = 2.6e-05f;
+inline constexpr float kAlphaRmsError = 3.3e-05f;
+inline constexpr float kSpecularRmsError = 4.5e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.28f;
@@ -56,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.0f, 0.0f};
-inline constexpr Input kDomainMax{19998.0f, 0.6666667f};
+inline constexpr Input kDomainMax{19998.0f, 1.0f};
 
 namespace detail {
 
@@ -83,14 +85,14 @@ inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
 }
 
 inline constexpr float kAlphaTable[8][7] = {
-    {0.04076237f, 0.07042137f, 0.00072873075f, 0.00024278244f, 5.943617e-05f, -8.761861e-06f, -8.5910665e-09f},
-    {0.11220603f, 0.072802015f, 0.0017292132f, 0.0003986843f, 2.1784796e-05f, -4.9274777e-06f, 1.2011415e-06f},
-    {0.18715408f, 0.07752687f, 0.003026987f, 0.0004647408f, 1.9603594e-05f, 4.995804e-06f, 2.000469e-06f},
-    {0.26819927f, 0.08509036f, 0.0046182685f, 0.00063167827f, 7.208538e-05f, 1.4097961e-05f, 3.1384127e-07f},
-    {0.3586258f, 0.09658037f, 0.007084193f, 0.0010552004f, 0.00013852281f, 1.8851542e-05f, 7.1642585e-06f},
-    {0.4635131f, 0.11462944f, 0.011453479f, 0.0020660448f, 0.00040992754f, -3.8662994e-05f, -0.00013060955f},
-    {0.5918762f, 0.14422385f, 0.017442675f, 0.0009217667f, -0.0008105402f, -0.001354496f, -0.0018951745f},
-    {0.75054705f, 0.16336954f, -0.00943623f, -0.007298876f, 0.021813825f, 0.0071734446f, -0.013654206f},
+    {0.040762812f, 0.070424065f, 0.0007306593f, 0.00023404595f, 6.7117835e-05f, -1.053373e-05f, -7.0620007e-07f},
+    {0.112207785f, 0.072801754f, 0.0017286178f, 0.00039946902f, 2.088674e-05f, -4.9784353e-06f, 1.807421e-06f},
+    {0.18715529f, 0.077526435f, 0.003028027f, 0.00046622427f, 1.9741241e-05f, 4.1727776e-06f, 1.6613562e-06f},
+    {0.2682017f, 0.08509232f, 0.004616327f, 0.00062807126f, 7.272098e-05f, 1.6143818e-05f, 5.593383e-07f},
+    {0.35862714f, 0.096578464f, 0.007087849f, 0.0010588707f, 0.00013347811f, 1.5541844e-05f, 9.179542e-06f},
+    {0.46351463f, 0.11462928f, 0.011456967f, 0.002078807f, 0.00040958042f, -6.209194e-05f, -0.00014405731f},
+    {0.5918757f, 0.14422211f, 0.017505515f, 0.0009853224f, -0.0010368201f, -0.0015515013f, -0.0017126445f},
+    {0.7505551f, 0.16344157f, -0.009627401f, -0.008583576f, 0.021672036f, 0.011096144f, -0.0103601245f},
 };
 inline float target_alpha(float alpha, float) noexcept {
   const float x = alpha * 8.0807905f - 0.08080762f;
@@ -112,7 +114,9 @@ inline float target_alpha(float alpha, float) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -129,93 +133,125 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = -21982.332f;
-    float c0_next = -5101.7905f;
-    c0 = c0 * u_2 + 21685.541f;
-    c0_next = c0_next * u_2 + 5541.3237f;
-    c0 = c0 * u_2 + -8201.58f;
-    c0_next = c0_next * u_2 + -2227.3562f;
-    c0 = c0 * u_2 + 1485.5448f;
-    c0_next = c0_next * u_2 + 405.59714f;
-    c0 = c0 * u_2 + -138.46039f;
-    c0_next = c0_next * u_2 + -35.61801f;
-    c0 = c0 * u_2 + 7.09434f;
-    c0_next = c0_next * u_2 + 2.1414309f;
-    c0 = c0 * u_2 + 0.3353851f;
-    c0_next = c0_next * u_2 + 0.28035805f;
-    c0 = c0 * u_2 + 0.27589822f;
-    c0_next = c0_next * u_2 + 0.16613403f;
-    c0 = c0 * u_2 + 0.2572725f;
+    float c0 = -25320.39f;
+    float c0_next = -2223.5583f;
+    c0 = c0 * u_2 + 26977.68f;
+    c0_next = c0_next * u_2 + 3772.972f;
+    c0 = c0 * u_2 + -10896.612f;
+    c0_next = c0_next * u_2 + -1886.5216f;
+    c0 = c0 * u_2 + 2098.2688f;
+    c0_next = c0_next * u_2 + 390.09555f;
+    c0 = c0 * u_2 + -208.4027f;
+    c0_next = c0_next * u_2 + -39.198944f;
+    c0 = c0 * u_2 + 11.263903f;
+    c0_next = c0_next * u_2 + 3.0654325f;
+    c0 = c0 * u_2 + 0.48380473f;
+    c0_next = c0_next * u_2 + 0.40378264f;
+    c0 = c0 * u_2 + 0.41427138f;
+    c0_next = c0_next * u_2 + 0.24947566f;
+    c0 = c0 * u_2 + 0.38589606f;
     c0 = c0_next * u + c0;
-    float c1 = -84393.05f;
-    float c1_next = -17599.166f;
-    c1 = c1 * u_2 + 84024.41f;
-    c1_next = c1_next * u_2 + 19232.139f;
-    c1 = c1 * u_2 + -32512.102f;
-    c1_next = c1_next * u_2 + -7896.4814f;
-    c1 = c1 * u_2 + 6155.873f;
-    c1_next = c1_next * u_2 + 1515.0168f;
-    c1 = c1 * u_2 + -612.39624f;
-    c1_next = c1_next * u_2 + -147.79471f;
-    c1 = c1 * u_2 + 32.917133f;
-    c1_next = c1_next * u_2 + 9.382785f;
-    c1 = c1 * u_2 + 0.7137522f;
-    c1_next = c1_next * u_2 + 0.75583655f;
-    c1 = c1 * u_2 + 0.83051497f;
-    c1_next = c1_next * u_2 + 0.49852026f;
-    c1 = c1 * u_2 + 0.7718088f;
-    c1 = c1_next * u + c1;
-    float c2 = -0.22020681f;
-    float c2_next = -0.055748176f;
-    c2 = c2 * u_2 + 0.110612586f;
-    c2_next = c2_next * u_2 + 0.016566869f;
-    c2 = c2 * u_2 + -0.009942005f;
-    c2_next = c2_next * u_2 + -0.0008843257f;
+    float c1 = -24043.389f;
+    float c1_next = -3344.497f;
+    c1 = c1 * u_2 + 23187.514f;
+    c1_next = c1_next * u_2 + 3743.8496f;
+    c1 = c1 * u_2 + -8653.123f;
+    c1_next = c1_next * u_2 + -1537.9478f;
+    c1 = c1 * u_2 + 1545.041f;
+    c1_next = c1_next * u_2 + 267.8603f;
+    c1 = c1 * u_2 + -143.84348f;
+    c1_next = c1_next * u_2 + -19.172094f;
+    c1 = c1 * u_2 + 9.163445f;
+    c1_next = c1_next * u_2 + 2.047595f;
+    c1 = c1 * u_2 + 0.76120657f;
+    c1_next = c1_next * u_2 + 0.8258852f;
+    c1 = c1 * u_2 + 0.49770734f;
+    c1_next = c1_next * u_2 + 0.77156216f;
+    c1 = c1 * u + c1_next;
+    float c2 = 257.90756f;
+    float c2_next = 33.561813f;
+    c2 = c2 * u_2 + -120.54943f;
+    c2_next = c2_next * u_2 + -12.355722f;
+    c2 = c2 * u_2 + 13.867018f;
+    c2_next = c2_next * u_2 + -0.17399403f;
+    c2 = c2 * u_2 + 0.47692618f;
+    c2_next = c2_next * u_2 + 0.43417165f;
+    c2 = c2 * u_2 + -0.10455979f;
+    c2_next = c2_next * u_2 + -0.037486844f;
+    c2 = c2 * u_2 + 0.00025568635f;
+    c2_next = c2_next * u_2 + 0.00023507155f;
     c2 = c2 * u + c2_next;
-    float c3 = 2.4232388f;
-    float c3_next = 0.4615449f;
-    c3 = c3 * u_2 + -0.64306486f;
-    c3_next = c3_next * u_2 + -0.0820686f;
-    c3 = c3 * u_2 + 0.03148077f;
-    c3_next = c3_next * u_2 + 0.00014271757f;
+    float c3 = -27.159636f;
+    float c3_next = -2.1000423f;
+    c3 = c3 * u_2 + 12.558741f;
+    c3_next = c3_next * u_2 + 0.3186367f;
+    c3 = c3 * u_2 + 0.10132762f;
+    c3_next = c3_next * u_2 + 0.49458015f;
+    c3 = c3 * u_2 + -0.45886263f;
+    c3_next = c3_next * u_2 + -0.10228386f;
+    c3 = c3 * u_2 + 0.031519387f;
+    c3_next = c3_next * u_2 + 0.0042511066f;
     c3 = c3 * u + c3_next;
-    float c4 = 2.917047f;
-    float c4_next = 0.7708955f;
-    c4 = c4 * u_2 + -2.1592894f;
-    c4_next = c4_next * u_2 + -0.28921086f;
-    c4 = c4 * u_2 + 0.22598259f;
-    c4_next = c4_next * u_2 + 0.01979601f;
+    float c4 = -266.96393f;
+    float c4_next = -50.691357f;
+    c4 = c4 * u_2 + 147.80797f;
+    c4_next = c4_next * u_2 + 26.852846f;
+    c4 = c4 * u_2 + -26.75934f;
+    c4_next = c4_next * u_2 + -4.517565f;
+    c4 = c4 * u_2 + 1.6756016f;
+    c4_next = c4_next * u_2 + 0.25306064f;
+    c4 = c4 * u_2 + -0.016351964f;
+    c4_next = c4_next * u_2 + -0.0011385273f;
     c4 = c4 * u + c4_next;
-    float c5 = -21.943949f;
-    float c5_next = -4.178776f;
-    c5 = c5 * u_2 + 5.6989603f;
-    c5_next = c5_next * u_2 + 0.75574297f;
-    c5 = c5 * u_2 + -0.27192786f;
-    c5_next = c5_next * u_2 + -0.0011116775f;
+    float c5 = -6.528213f;
+    float c5_next = -1.4756526f;
+    c5 = c5 * u_2 + 1.90075f;
+    c5_next = c5_next * u_2 + 0.31954044f;
+    c5 = c5 * u_2 + -0.117748156f;
+    c5_next = c5_next * u_2 + -0.014944005f;
     c5 = c5 * u + c5_next;
-    float c6 = 9.020589f;
-    c6 = c6 * u + 0.8441339f;
-    c6 = c6 * u + -1.2329494f;
-    c6 = c6 * u + -0.108555734f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
     terms.c3[i] = c3;
     terms.c4[i] = c4;
     terms.c5[i] = c5;
-    terms.c6[i] = c6;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.333334f;
-  float sum = terms.c6[i];
-  sum = sum * w + terms.c5[i];
+  const float w = specular - 0.500001f;
+  float sum = terms.c5[i];
   sum = sum * w + terms.c4[i];
   sum = sum * w + terms.c3[i];
   sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
   sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.8805175f;
+  const float u_2 = u * u;
+  float c0 = 15.159969f;
+  float c0_next = -4.71775f;
+  c0 = c0 * u_2 + -1.392336f;
+  c0_next = c0_next * u_2 + 1.0042629f;
+  c0 = c0 * u_2 + 0.6756149f;
+  c0 = c0_next * u + c0;
+  float c1 = 2.8513284f;
+  c1 = c1 * u + 0.2321329f;
+  c1 = c1 * u + -1.0038865f;
+  c1 = c1 * u + -0.2109607f;
+  float c2 = 0.6393112f;
+  c2 = c2 * u + 0.27217823f;
+  const float c3 = -0.38237363f;
+  const float w = specular - 0.84590775f;
+  float sum = c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -285,13 +321,29 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.exponent, kDomainMax.exponent, kDomainMin.specular,
-                                 kDomainMax.specular, 1.5f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return std::sqrt(2.0f / (own + 2.0f)); }
   static float own_of(float alpha) noexcept { return alpha; }
-  static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
   static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
@@ -302,6 +354,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.7610345f), held_above(specular, 0.6918149f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -409,8 +475,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -420,13 +491,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -438,15 +598,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -454,16 +621,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -534,19 +704,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.0f, 0.6666667f}, {0.8303319f, 0.96366495f}, {4.1e-06f, 6.9e-05f}},
-      {{2499.75f, 0.625f}, {0.016031735f, 0.415405f}, {3.7e-06f, 6.8e-05f}},
-      {{4999.5f, 0.5833334f}, {0.011352734f, 0.38770995f}, {3.7e-06f, 6.8e-05f}},
-      {{7499.25f, 0.5416667f}, {0.009280483f, 0.36002198f}, {3.7e-06f, 6.8e-05f}},
-      {{9999.0f, 0.5f}, {0.008045397f, 0.3323328f}, {3.7e-06f, 6.8e-05f}},
-      {{12498.75f, 0.45833334f}, {0.007202637f, 0.3046463f}, {3.7e-06f, 6.8e-05f}},
-      {{14998.5f, 0.4166667f}, {0.0065805945f, 0.27696326f}, {3.7e-06f, 6.8e-05f}},
-      {{17498.25f, 0.375f}, {0.006097178f, 0.2492813f}, {3.7e-06f, 6.8e-05f}},
-      {{19998.0f, 0.33333334f}, {0.0057075303f, 0.22159685f}, {3.7e-06f, 6.8e-05f}},
-      {{0.0f, 0.33333334f}, {0.8303319f, 0.48181197f}, {4.1e-06f, 6.8e-05f}},
-      {{29997.0f, 0.16666667f}, {0.0057075303f, 0.110802546f}, {3.7e-06f, 6.8e-05f}},
-      {{9999.0f, 0.0f}, {0.008045397f, 0.0f}, {3.7e-06f, 6.8e-05f}},
-      {{9999.0f, 1.3333334f}, {0.008045397f, 0.8863004f}, {3.7e-06f, 0.00014f}},
+      {{0.0f, 1.0f}, {0.7279719f, 1.0f}, {0.00013f, 9.3e-05f}},
+      {{2499.75f, 0.9375f}, {0.016031975f, 0.62313205f}, {0.00013f, 9.3e-05f}},
+      {{4999.5f, 0.875f}, {0.011353284f, 0.5815727f}, {0.00013f, 9.3e-05f}},
+      {{7499.25f, 0.8125f}, {0.009281231f, 0.5400492f}, {0.00013f, 9.3e-05f}},
+      {{9999.0f, 0.75f}, {0.008046283f, 0.4985199f}, {0.00013f, 9.3e-05f}},
+      {{12498.75f, 0.6875f}, {0.007203626f, 0.45698318f}, {0.00013f, 9.3e-05f}},
+      {{14998.5f, 0.625f}, {0.0065816646f, 0.41544268f}, {0.00013f, 9.3e-05f}},
+      {{17498.25f, 0.5625f}, {0.0060983147f, 0.37390196f}, {0.00013f, 9.3e-05f}},
+      {{19998.0f, 0.5f}, {0.0057087215f, 0.33236238f}, {0.00013f, 9.3e-05f}},
+      {{0.0f, 0.5f}, {0.8303327f, 0.72275454f}, {0.00013f, 9.3e-05f}},
+      {{29997.0f, 0.25f}, {0.0057087215f, 0.16617069f}, {0.00013f, 9.3e-05f}},
+      {{9999.0f, 0.0f}, {0.008046283f, 0.00011021917f}, {0.00013f, 9.3e-05f}},
+      {{9999.0f, 2.0f}, {0.008046283f, 1.3292218f}, {0.00013f, 0.00019f}},
   }};
   std::array<float, kGolden.size()> exponent{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

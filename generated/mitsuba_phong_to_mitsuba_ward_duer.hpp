@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/phong to mitsuba/ward-duer: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_phong_to_mitsuba_ward_duer.csv, sha256 1f9f566957936b19212fdb4b6275f97a32231ffa0ba5bd8a16f63f4e8e10c41f;
+// Table mitsuba_phong_to_mitsuba_ward_duer.csv, sha256 45fd7361e708813bcfb353e5d46a0cbbade27552ba7297df87cd36f656bd4f91;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 1e-05, 99 % 2.8e-05, max 2.8e-05;
-// specular rms 2.5e-05, 99 % 0.00014, max 0.00015.
-// Lowered from the fit. Target alpha: degree 6 on 8 pieces, proven within 6.9e-06 (sampled 6e-06), rising with alpha.
-// Target specular: degree 16, 7 in specular, proven within 8.8e-05 (sampled 7.8e-05), rising with specular.
-// Covers alpha 0.01 to 1, specular 0 to 0.666666667.
+// Fit: series, seed 1, 743 rows trained, 186 held out.
+// Error on the rows held out: alpha rms 0.00012, 99 % 0.00044, max 0.00054;
+// specular rms 0.00016, 99 % 0.00076, max 0.00093.
+// Lowered from the fit. Target alpha: degree 10, proven within 4.4e-07 (sampled 5.5e-09), rising with alpha.
+// Target specular: degree 9, proven within 3.4e-05 (sampled 3e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 4, 3 in specular, proven within 5.9e-05 (sampled 5.4e-05), rising with alpha.
+// All together within 6.8e-05 in alpha, 3.4e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_DUER_HPP
 #define REMAP_GENERATED_MITSUBA_PHONG_TO_MITSUBA_WARD_DUER_HPP
 
@@ -37,8 +39,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 1e-05f;
-inline constexpr float kSpecularRmsError = 2.5e-05f;
+inline constexpr float kAlphaRmsError = 0.00012f;
+inline constexpr float kSpecularRmsError = 0.00016f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.33f;
@@ -56,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.0f, 0.0f};
-inline constexpr Input kDomainMax{19998.0f, 0.6666667f};
+inline constexpr Input kDomainMax{19998.0f, 1.0f};
 
 namespace detail {
 
@@ -75,36 +77,20 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-// x rounded down, held in [0, last]. Masks in place of comparisons: compilers would branch on them.
-inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
-  const std::int32_t cell = static_cast<std::int32_t>(x);
-  const std::int32_t below = (cell & ~(cell >> 31)) - last;
-  return last + (below & (below >> 31));
-}
-
-inline constexpr float kAlphaTable[8][7] = {
-    {0.040770736f, 0.07045779f, 0.0007854481f, 0.00025287687f, 8.170583e-05f, -1.8166684e-05f, 3.646409e-08f},
-    {0.11233086f, 0.073027104f, 0.0018651811f, 0.00042005247f, 1.2780512e-05f, -6.3973566e-06f, 2.6461835e-06f},
-    {0.18765208f, 0.07805136f, 0.0031731853f, 0.00045126528f, 1.0261189e-05f, 2.3823668e-06f, 1.4281794e-07f},
-    {0.26934054f, 0.08580435f, 0.0046113348f, 0.0005137297f, 1.9752735e-05f, 1.6705775e-06f, 3.2644266e-07f},
-    {0.36029184f, 0.096658394f, 0.00629522f, 0.0006196214f, 3.394586e-05f, -1.336689e-06f, -5.094079e-06f},
-    {0.46389008f, 0.11118495f, 0.008191938f, 0.0004918277f, -0.00021948086f, -0.00014364756f, -3.827914e-05f},
-    {0.58336276f, 0.12726337f, 0.006493601f, -0.0023259753f, -0.0013605166f, -0.0005667825f, -0.00030008628f},
-    {0.7128309f, 0.12583359f, -0.0070097535f, 0.010886813f, 0.03207609f, 0.012844516f, -0.011808515f},
-};
 inline float target_alpha(float alpha, float) noexcept {
-  const float x = alpha * 8.0807905f - 0.08080762f;
-  const std::int32_t cell = cell_of(x, 7);
-  const float u = x - (static_cast<float>(cell) + 0.5f);
-  const float* row = kAlphaTable[cell];
+  const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = row[6];
-  float c0_next = row[5];
-  c0 = c0 * u_2 + row[4];
-  c0_next = c0_next * u_2 + row[3];
-  c0 = c0 * u_2 + row[2];
-  c0_next = c0_next * u_2 + row[1];
-  c0 = c0 * u_2 + row[0];
+  float c0 = 50.101112f;
+  float c0_next = 30.644573f;
+  c0 = c0 * u_2 + -20.735065f;
+  c0_next = c0_next * u_2 + -15.795522f;
+  c0 = c0 * u_2 + 0.8418305f;
+  c0_next = c0_next * u_2 + 1.8908296f;
+  c0 = c0 * u_2 + 0.17831947f;
+  c0_next = c0_next * u_2 + 0.21727091f;
+  c0 = c0 * u_2 + 0.34892124f;
+  c0_next = c0_next * u_2 + 0.7346859f;
+  c0 = c0 * u_2 + 0.31348863f;
   c0 = c0_next * u + c0;
   return c0;
 }
@@ -112,7 +98,9 @@ inline float target_alpha(float alpha, float) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -129,80 +117,62 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = -15361.449f;
-    float c0_next = -2728.7327f;
-    c0 = c0 * u_2 + 15715.741f;
-    c0_next = c0_next * u_2 + 3462.8535f;
-    c0 = c0 * u_2 + -5989.8584f;
-    c0_next = c0_next * u_2 + -1423.5442f;
-    c0 = c0 * u_2 + 1107.0249f;
-    c0_next = c0_next * u_2 + 255.39006f;
-    c0 = c0 * u_2 + -111.36631f;
-    c0_next = c0_next * u_2 + -23.793255f;
-    c0 = c0 * u_2 + 5.5382867f;
-    c0_next = c0_next * u_2 + 1.2548032f;
-    c0 = c0 * u_2 + 0.22156417f;
-    c0_next = c0_next * u_2 + 0.282746f;
-    c0 = c0 * u_2 + 0.31688306f;
-    c0_next = c0_next * u_2 + 0.1986876f;
-    c0 = c0 * u_2 + 0.26470172f;
-    c0 = c0_next * u + c0;
-    float c1 = -19183.922f;
-    float c1_next = -2126.177f;
-    c1 = c1 * u_2 + 19140.615f;
-    c1_next = c1_next * u_2 + 3145.6082f;
-    c1 = c1 * u_2 + -6999.912f;
-    c1_next = c1_next * u_2 + -1329.4462f;
-    c1 = c1 * u_2 + 1191.2114f;
-    c1_next = c1_next * u_2 + 225.4582f;
-    c1 = c1 * u_2 + -106.19617f;
-    c1_next = c1_next * u_2 + -19.22215f;
-    c1 = c1 * u_2 + 5.184491f;
-    c1_next = c1_next * u_2 + 1.7410811f;
-    c1 = c1 * u_2 + 0.8245466f;
-    c1_next = c1_next * u_2 + 0.9411339f;
-    c1 = c1 * u_2 + 0.59657514f;
-    c1_next = c1_next * u_2 + 0.79404724f;
+    float c0 = 1.582649f;
+    float c0_next = 0.357685f;
+    c0 = c0 * u_2 + -0.819503f;
+    c0_next = c0_next * u_2 + -0.17753561f;
+    c0 = c0 * u_2 + 0.13647686f;
+    c0_next = c0_next * u_2 + 0.026983013f;
+    c0 = c0 * u_2 + -0.007847175f;
+    c0_next = c0_next * u_2 + -0.0013003106f;
+    c0 = c0 * u_2 + 9.691124e-05f;
+    c0_next = c0_next * u_2 + 9.327118e-06f;
+    c0 = c0 * u + c0_next;
+    float c1 = 33.674725f;
+    float c1_next = 7.3075027f;
+    c1 = c1 * u_2 + -23.844362f;
+    c1_next = c1_next * u_2 + -7.642684f;
+    c1 = c1 * u_2 + 3.794801f;
+    c1_next = c1_next * u_2 + 2.0041182f;
+    c1 = c1 * u_2 + 0.7652735f;
+    c1_next = c1_next * u_2 + 0.9141578f;
+    c1 = c1 * u_2 + 0.59733677f;
+    c1_next = c1_next * u_2 + 0.7942486f;
     c1 = c1 * u + c1_next;
-    float c2 = 0.004718142f;
-    c2 = c2 * u + 0.0016368177f;
-    c2 = c2 * u + -0.0004920954f;
-    float c3 = -0.08660335f;
-    c3 = c3 * u + -0.019252311f;
-    c3 = c3 * u + 0.005466951f;
-    float c4 = -0.12820709f;
-    c4 = c4 * u + -0.043260813f;
-    c4 = c4 * u + 0.013371487f;
-    float c5 = 1.9034412f;
-    c5 = c5 * u + 0.42166877f;
-    c5 = c5 * u + -0.1286943f;
-    float c6 = 1.0365672f;
-    c6 = c6 * u + 0.30859143f;
-    c6 = c6 * u + -0.103264906f;
-    float c7 = -11.257723f;
-    c7 = c7 * u + -2.5893764f;
-    c7 = c7 * u + 0.8018805f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
-    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.333334f;
-  float sum = terms.c7[i];
-  sum = sum * w + terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.86344856f;
+  const float u_2 = u * u;
+  float c0 = 6.939206f;
+  float c0_next = -0.8450245f;
+  c0 = c0 * u_2 + -0.9779999f;
+  c0_next = c0_next * u_2 + 0.809151f;
+  c0 = c0 * u_2 + 0.63373834f;
+  c0 = c0_next * u + c0;
+  float c1 = -5.393319f;
+  c1 = c1 * u + 0.5919247f;
+  c1 = c1 * u + -0.6311451f;
+  c1 = c1 * u + -0.19051526f;
+  float c2 = 0.6186699f;
+  c2 = c2 * u + 0.21290094f;
+  float c3 = -0.60219157f;
+  c3 = c3 * u + -0.32774216f;
+  const float w = specular - 0.8471357f;
+  float sum = c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -272,13 +242,29 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.exponent, kDomainMax.exponent, kDomainMin.specular,
-                                 kDomainMax.specular, 1.5f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return std::sqrt(2.0f / (own + 2.0f)); }
   static float own_of(float alpha) noexcept { return alpha; }
-  static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
   static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
@@ -289,6 +275,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.7268965f), held_above(specular, 0.69427085f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -396,8 +396,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -407,13 +412,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -425,15 +519,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -441,16 +542,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -521,19 +625,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.0f, 0.6666667f}, {0.77757525f, 0.9604699f}, {7.7e-06f, 8.9e-05f}},
-      {{2499.75f, 0.625f}, {0.016034262f, 0.41542897f}, {7.4e-06f, 8.9e-05f}},
-      {{4999.5f, 0.5833334f}, {0.011355867f, 0.38771406f}, {7.4e-06f, 8.9e-05f}},
-      {{7499.25f, 0.5416667f}, {0.009284092f, 0.36003333f}, {7.4e-06f, 8.9e-05f}},
-      {{9999.0f, 0.5f}, {0.008049355f, 0.3323556f}, {7.4e-06f, 8.9e-05f}},
-      {{12498.75f, 0.45833334f}, {0.007206863f, 0.30467388f}, {7.4e-06f, 8.9e-05f}},
-      {{14998.5f, 0.4166667f}, {0.006585033f, 0.27698594f}, {7.4e-06f, 8.9e-05f}},
-      {{17498.25f, 0.375f}, {0.0061017917f, 0.2492926f}, {7.4e-06f, 8.9e-05f}},
-      {{19998.0f, 0.33333334f}, {0.0057122903f, 0.22159636f}, {7.4e-06f, 8.9e-05f}},
-      {{0.0f, 0.33333334f}, {0.77757525f, 0.48023832f}, {7.7e-06f, 8.9e-05f}},
-      {{29997.0f, 0.16666667f}, {0.0057122903f, 0.11080384f}, {7.4e-06f, 8.9e-05f}},
-      {{9999.0f, 0.0f}, {0.008049355f, 2.9026887e-06f}, {7.4e-06f, 8.8e-05f}},
-      {{9999.0f, 1.3333334f}, {0.008049355f, 0.88631845f}, {7.4e-06f, 0.00018f}},
+      {{0.0f, 1.0f}, {0.68905693f, 1.0f}, {6.9e-05f, 3.5e-05f}},
+      {{2499.75f, 0.9375f}, {0.016015144f, 0.6232074f}, {6.9e-05f, 3.4e-05f}},
+      {{4999.5f, 0.875f}, {0.011338167f, 0.5816209f}, {6.9e-05f, 3.4e-05f}},
+      {{7499.25f, 0.8125f}, {0.009269926f, 0.54007924f}, {6.9e-05f, 3.4e-05f}},
+      {{9999.0f, 0.75f}, {0.008038423f, 0.4985416f}, {6.9e-05f, 3.4e-05f}},
+      {{12498.75f, 0.6875f}, {0.007198694f, 0.45700338f}, {6.9e-05f, 3.4e-05f}},
+      {{14998.5f, 0.625f}, {0.0065792194f, 0.41546392f}, {6.9e-05f, 3.4e-05f}},
+      {{17498.25f, 0.5625f}, {0.006098005f, 0.37392324f}, {6.9e-05f, 3.4e-05f}},
+      {{19998.0f, 0.5f}, {0.005710269f, 0.3323815f}, {6.9e-05f, 3.4e-05f}},
+      {{0.0f, 0.5f}, {0.77745265f, 0.7201266f}, {6.9e-05f, 3.4e-05f}},
+      {{29997.0f, 0.25f}, {0.005710269f, 0.1661956f}, {6.9e-05f, 3.4e-05f}},
+      {{9999.0f, 0.0f}, {0.008038423f, 0.0f}, {6.9e-05f, 3.4e-05f}},
+      {{9999.0f, 2.0f}, {0.008038423f, 1.3294492f}, {6.9e-05f, 6.8e-05f}},
   }};
   std::array<float, kGolden.size()> exponent{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

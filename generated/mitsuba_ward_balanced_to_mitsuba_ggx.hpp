@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-balanced to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_balanced_to_mitsuba_ggx.csv, sha256 af7b974cd7b96a91cb9b4c6dadae1b1e6176d2607737d7d60edbe849188addae;
+// Table mitsuba_ward_balanced_to_mitsuba_ggx.csv, sha256 059f864c73989739e8ea4778f3659c0b14cf497f4c20a6b4dafba956061c5e9e;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 672 rows trained, 168 held out.
-// Error on the rows held out: alpha rms 0.00029, 99 % 9e-04, max 0.0011;
-// f0 rms 0.00015, 99 % 0.00054, max 0.00057.
-// Lowered from the fit. Target alpha: degree 6, 4 in specular, proven within 3.6e-07 (sampled 2.2e-08), rising with alpha.
-// Target specular: degree 8, proven within 7e-05 (sampled 6.4e-05), rising with specular.
-// Covers alpha 0.01 to 1, specular 0 to 0.933333333.
+// Fit: series, seed 1, 734 rows trained, 184 held out.
+// Error on the rows held out: alpha rms 3.9e-05, 99 % 0.00014, max 0.00014;
+// f0 rms 0.00014, 99 % 0.00062, max 7e-04.
+// Lowered from the fit. Target alpha: degree 10, 9 in specular, proven within 9.4e-06 (sampled 8.1e-06), rising with alpha.
+// Target specular: degree 9, proven within 9.9e-05 (sampled 9.1e-05), rising with specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_GGX_HPP
 
@@ -36,8 +36,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00029f;
-inline constexpr float kSpecularRmsError = 0.00015f;
+inline constexpr float kAlphaRmsError = 3.9e-05f;
+inline constexpr float kSpecularRmsError = 0.00014f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.35f;
@@ -55,7 +55,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{1.0f, 0.93333334f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -77,32 +77,77 @@ inline constexpr std::size_t kBlock = 128;
 inline float target_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = 0.3506532f;
-  float c0_next = -0.09637901f;
-  c0 = c0 * u_2 + -0.35105526f;
-  c0_next = c0_next * u_2 + 0.30016446f;
-  c0 = c0 * u_2 + 0.1921775f;
-  c0_next = c0_next * u_2 + 0.73331f;
-  c0 = c0 * u_2 + 0.3738202f;
+  float c0 = -31.07933f;
+  float c0_next = -3.4962077f;
+  c0 = c0 * u_2 + 23.208504f;
+  c0_next = c0_next * u_2 + 0.47984922f;
+  c0 = c0 * u_2 + -5.864217f;
+  c0_next = c0_next * u_2 + 0.19342391f;
+  c0 = c0 * u_2 + 0.3403446f;
+  c0_next = c0_next * u_2 + 0.24500234f;
+  c0 = c0 * u_2 + 0.16502847f;
+  c0_next = c0_next * u_2 + 0.7349743f;
+  c0 = c0 * u_2 + 0.37393013f;
   c0 = c0_next * u + c0;
-  float c1 = -0.0023485566f;
-  c1 = c1 * u + 0.00017919388f;
-  c1 = c1 * u + 0.0023165594f;
-  c1 = c1 * u + 0.0008216989f;
-  float c2 = 0.02089266f;
-  c2 = c2 * u + -0.0024445332f;
-  c2 = c2 * u + -0.014094296f;
-  c2 = c2 * u + -0.0038034816f;
-  float c3 = 0.055613823f;
-  c3 = c3 * u + -0.025768386f;
-  c3 = c3 * u + -0.06817943f;
-  c3 = c3 * u + -0.020696659f;
-  float c4 = -0.19732688f;
-  c4 = c4 * u + 0.064328164f;
-  c4 = c4 * u + 0.18799922f;
-  c4 = c4 * u + 0.053121023f;
-  const float w = specular - 0.4666676f;
-  float sum = c4;
+  float c1 = -0.040978875f;
+  float c1_next = -0.016530955f;
+  c1 = c1 * u_2 + 0.00871779f;
+  c1_next = c1_next * u_2 + 0.0018102032f;
+  c1 = c1 * u_2 + 6.458276e-05f;
+  c1_next = c1_next * u_2 + 0.00062287226f;
+  c1 = c1 * u_2 + -0.0010786845f;
+  c1_next = c1_next * u_2 + -0.0005700769f;
+  c1 = c1 * u + c1_next;
+  float c2 = -0.092565455f;
+  float c2_next = 0.0055192388f;
+  c2 = c2 * u_2 + 0.029162217f;
+  c2_next = c2_next * u_2 + -0.023662502f;
+  c2 = c2 * u_2 + -0.012859572f;
+  c2_next = c2_next * u_2 + -0.004143899f;
+  c2 = c2 * u_2 + -0.0020237532f;
+  c2 = c2_next * u + c2;
+  float c3 = 0.28228015f;
+  float c3_next = 0.18728346f;
+  c3 = c3 * u_2 + -0.050138235f;
+  c3_next = c3_next * u_2 + 0.008765289f;
+  c3 = c3 * u_2 + -0.055498242f;
+  c3_next = c3_next * u_2 + -0.019098246f;
+  c3 = c3 * u_2 + 0.008855424f;
+  c3 = c3_next * u + c3;
+  float c4 = -0.021753164f;
+  float c4_next = 0.092715785f;
+  c4 = c4 * u_2 + 0.33238882f;
+  c4_next = c4_next * u_2 + 0.29273322f;
+  c4 = c4 * u_2 + 0.28373733f;
+  c4_next = c4_next * u_2 + 0.10265221f;
+  c4 = c4 * u + c4_next;
+  float c5 = -0.6534296f;
+  float c5_next = -0.319678f;
+  c5 = c5 * u_2 + -0.57983327f;
+  c5_next = c5_next * u_2 + 0.6826882f;
+  c5 = c5 * u_2 + -0.07407714f;
+  c5_next = c5_next * u_2 + -0.2629032f;
+  c5 = c5 * u + c5_next;
+  float c6 = -1.4242514f;
+  c6 = c6 * u + -2.528743f;
+  c6 = c6 * u + -2.9425855f;
+  c6 = c6 * u + -1.0074025f;
+  float c7 = 3.065001f;
+  c7 = c7 * u + -2.2019963f;
+  c7 = c7 * u + 2.7847667f;
+  c7 = c7 * u + 2.229316f;
+  float c8 = 6.935478f;
+  c8 = c8 * u + 10.184119f;
+  c8 = c8 * u + 3.3377063f;
+  float c9 = -14.039756f;
+  c9 = c9 * u + -6.8467884f;
+  const float w = specular - 0.500001f;
+  float sum = c9;
+  sum = sum * w + c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -114,6 +159,8 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -130,25 +177,26 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = -0.20405929f;
-    float c0_next = -0.06184192f;
-    c0 = c0 * u_2 + 0.15926184f;
-    c0_next = c0_next * u_2 + -0.0025071017f;
-    c0 = c0 * u_2 + -0.025993288f;
-    c0_next = c0_next * u_2 + 0.002342946f;
-    c0 = c0 * u_2 + 0.00020289277f;
-    c0_next = c0_next * u_2 + 0.0011018729f;
-    c0 = c0 * u_2 + -0.0009907668f;
-    c0 = c0_next * u + c0;
-    float c1 = 7.0437946f;
-    float c1_next = -0.1081764f;
-    c1 = c1 * u_2 + -6.84285f;
-    c1_next = c1_next * u_2 + 2.9723206f;
-    c1 = c1 * u_2 + 0.32770345f;
-    c1_next = c1_next * u_2 + -0.4538465f;
-    c1 = c1 * u_2 + 0.88577485f;
-    c1_next = c1_next * u_2 + -0.119726956f;
-    c1 = c1 * u_2 + 0.8509068f;
+    float c0 = 10.209633f;
+    float c0_next = -0.18170683f;
+    c0 = c0 * u_2 + -5.6200213f;
+    c0_next = c0_next * u_2 + 0.089528866f;
+    c0 = c0 * u_2 + 1.0292974f;
+    c0_next = c0_next * u_2 + -0.01210143f;
+    c0 = c0 * u_2 + -0.069901824f;
+    c0_next = c0_next * u_2 + 0.00053445826f;
+    c0 = c0 * u_2 + 0.0023269476f;
+    c0_next = c0_next * u_2 + -0.0010340527f;
+    c0 = c0 * u + c0_next;
+    float c1 = 7.072279f;
+    float c1_next = -0.49213248f;
+    c1 = c1 * u_2 + -6.9167957f;
+    c1_next = c1_next * u_2 + 3.0676003f;
+    c1 = c1 * u_2 + 0.36413097f;
+    c1_next = c1_next * u_2 + -0.45775107f;
+    c1 = c1 * u_2 + 0.88031554f;
+    c1_next = c1_next * u_2 + -0.119612955f;
+    c1 = c1 * u_2 + 0.8510311f;
     c1 = c1_next * u + c1;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
@@ -227,10 +275,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 1.0714285f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -244,6 +308,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -351,8 +429,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -362,13 +445,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -380,15 +552,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -396,16 +575,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -476,19 +658,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.93333334f}, {0.008457414f, 0.9686143f}, {8.4e-07f, 7e-05f}},
-      {{0.13375f, 0.875f}, {0.10762509f, 0.882789f}, {8.9e-07f, 7e-05f}},
-      {{0.2575f, 0.81666666f}, {0.19834206f, 0.76520795f}, {9.4e-07f, 7e-05f}},
-      {{0.38125f, 0.7583333f}, {0.28525394f, 0.66630125f}, {9.8e-07f, 7e-05f}},
-      {{0.505f, 0.7f}, {0.3736986f, 0.59466195f}, {1.1e-06f, 7e-05f}},
-      {{0.62875f, 0.64166665f}, {0.46793285f, 0.5438441f}, {1.1e-06f, 7e-05f}},
-      {{0.7525f, 0.5833333f}, {0.57033086f, 0.5074716f}, {1.2e-06f, 7e-05f}},
-      {{0.87625f, 0.525f}, {0.6815327f, 0.48075056f}, {1.2e-06f, 7e-05f}},
-      {{1.0f, 0.46666667f}, {0.80151975f, 0.45932505f}, {1.3e-06f, 7e-05f}},
-      {{0.005f, 0.46666667f}, {0.008459154f, 0.48368764f}, {8.4e-07f, 7e-05f}},
-      {{1.5f, 0.23333333f}, {0.80173033f, 0.22937033f}, {1.3e-06f, 7e-05f}},
-      {{0.505f, 0.0f}, {0.37723044f, 0.0f}, {1.1e-06f, 7e-05f}},
-      {{0.505f, 1.8666667f}, {0.37379053f, 1.5864209f}, {1.1e-06f, 0.00014f}},
+      {{0.01f, 1.0f}, {0.008206054f, 1.0f}, {9.9e-06f, 1e-04f}},
+      {{0.13375f, 0.9375f}, {0.1078463f, 0.94570094f}, {9.9e-06f, 1e-04f}},
+      {{0.2575f, 0.875f}, {0.19840194f, 0.82008296f}, {1e-05f, 1e-04f}},
+      {{0.38125f, 0.8125f}, {0.28502944f, 0.71386415f}, {1e-05f, 9.9e-05f}},
+      {{0.505f, 0.75f}, {0.37385565f, 0.6372592f}, {1e-05f, 9.9e-05f}},
+      {{0.62875f, 0.6875f}, {0.46782902f, 0.582841f}, {1.1e-05f, 9.9e-05f}},
+      {{0.7525f, 0.625f}, {0.56995636f, 0.5435942f}, {1.1e-05f, 9.9e-05f}},
+      {{0.87625f, 0.5625f}, {0.6812987f, 0.51526636f}, {1.1e-05f, 9.9e-05f}},
+      {{1.0f, 0.5f}, {0.80127f, 0.49216062f}, {1.1e-05f, 9.9e-05f}},
+      {{0.005f, 0.5f}, {0.008203081f, 0.5181975f}, {9.9e-06f, 9.9e-05f}},
+      {{1.5f, 0.25f}, {0.8018992f, 0.24582876f}, {1.1e-05f, 9.9e-05f}},
+      {{0.505f, 0.0f}, {0.380489f, 0.0f}, {1e-05f, 9.9e-05f}},
+      {{0.505f, 2.0f}, {0.37378663f, 1.700034f}, {1e-05f, 2e-04f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-balanced to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_balanced_to_mitsuba_phong.csv, sha256 b80d86ee431e512b0df8a526b3684a8aed8b0272631f14471afe56ef47f3e095;
+// Table mitsuba_ward_balanced_to_mitsuba_phong.csv, sha256 5f9d5982eb43bdf76cfa39b415679f6deff48a624d7b872171bd4fe8d71fed0f;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 557 rows trained, 139 held out.
-// Error on the rows held out: alpha rms 7e-06, 99 % 2.4e-05, max 2.4e-05;
-// specular rms 1.4e-05, 99 % 3.3e-05, max 4.2e-05.
-// Lowered from the fit. Target alpha: degree 6, proven within 4.6e-07 (sampled 4e-08), rising with alpha.
-// Target specular: degree 10 in alpha / (alpha + 0.2), proven within 1e-04 (sampled 9.4e-05), rising with specular.
-// Covers alpha 0.01 to 0.965862069, specular 0 to 0.8.
+// Fit: parametric, seed 1, 762 rows trained, 191 held out.
+// Error on the rows held out: alpha rms 2.1e-05, 99 % 0.00016, max 0.00016;
+// specular rms 0.00035, 99 % 0.0028, max 0.0029.
+// Lowered from the fit. Target alpha: degree 6, proven within 4.6e-07 (sampled 3.1e-08), rising with alpha.
+// Target specular: degree 9 in alpha / (alpha + 0.3), proven within 5.5e-05 (sampled 4.9e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 1, proven within 1.1e-07 (sampled 2.8e-08), rising with specular.
+// Where specular is at its limit, target alpha: degree 4, 2 in specular, proven within 3e-05 (sampled 1.8e-05), rising with alpha.
+// All together within 3.4e-05 in alpha, 5.6e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_PHONG_HPP
 
@@ -36,8 +39,8 @@ inline constexpr const char* kTargetRoughness = "exponent";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 7e-06f;
-inline constexpr float kSpecularRmsError = 1.4e-05f;
+inline constexpr float kAlphaRmsError = 2.1e-05f;
+inline constexpr float kSpecularRmsError = 0.00035f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.26f;
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.9658621f, 0.8f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,38 +77,99 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
-  const float u = alpha - 0.48793206f;
+inline float target_alpha(float alpha, float) noexcept {
+  const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = 0.42844397f;
-  float c0_next = -0.2561726f;
-  c0 = c0 * u_2 + 0.18431112f;
-  c0_next = c0_next * u_2 + 0.00076092145f;
-  c0 = c0 * u_2 + -0.86181104f;
-  c0_next = c0_next * u_2 + 1.0368125f;
-  c0 = c0 * u_2 + 0.687847f;
+  float c0 = 0.42633456f;
+  float c0_next = -0.21360683f;
+  c0 = c0 * u_2 + 0.16478512f;
+  c0_next = c0_next * u_2 + 0.012956031f;
+  c0 = c0 * u_2 + -0.86148125f;
+  c0_next = c0_next * u_2 + 1.007382f;
+  c0 = c0 * u_2 + 0.70529324f;
   c0 = c0_next * u + c0;
   return c0;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float t = alpha / (alpha + 0.2f);
-  const float u = t - 0.43803614f;
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float t = alpha / (alpha + 0.3f);
+    const float u = t - 0.40074456f;
+    const float u_2 = u * u;
+    const float c0 = 0.0f;
+    float c1 = 283.9883f;
+    float c1_next = 146.26128f;
+    c1 = c1 * u_2 + -24.723799f;
+    c1_next = c1_next * u_2 + -23.748161f;
+    c1 = c1 * u_2 + -6.3152857f;
+    c1_next = c1_next * u_2 + -4.9347544f;
+    c1 = c1 * u_2 + -3.2958403f;
+    c1_next = c1_next * u_2 + -1.477263f;
+    c1 = c1 * u_2 + -0.42452946f;
+    c1_next = c1_next * u_2 + 1.1962951f;
+    c1 = c1 * u + c1_next;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.99194175f;
+  float c0 = -0.097552925f;
+  c0 = c0 * u + 1.311003e-05f;
+  const float c1 = 0.550079f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c1 = 1080.8451f;
-  float c1_next = 433.69684f;
-  c1 = c1 * u_2 + -267.67734f;
-  c1_next = c1_next * u_2 + -117.95205f;
-  c1 = c1 * u_2 + 6.020844f;
-  c1_next = c1_next * u_2 + -1.7590071f;
-  c1 = c1 * u_2 + -5.824815f;
-  c1_next = c1_next * u_2 + -2.5524151f;
-  c1 = c1 * u_2 + -0.91954654f;
-  c1_next = c1_next * u_2 + -0.25615236f;
-  c1 = c1 * u_2 + 1.2167512f;
-  c1 = c1_next * u + c1;
-  return c1;
+  float c0 = 1.3967848f;
+  float c0_next = 0.92836773f;
+  c0 = c0 * u_2 + -0.7202217f;
+  c0_next = c0_next * u_2 + 0.9585619f;
+  c0 = c0 * u_2 + 0.69646084f;
+  c0 = c0_next * u + c0;
+  float c1 = -0.34170687f;
+  c1 = c1 * u + -0.5346793f;
+  c1 = c1 * u + -0.040412895f;
+  c1 = c1 * u + 0.072118685f;
+  float c2 = 0.13875808f;
+  c2 = c2 * u + 0.023259142f;
+  c2 = c2 * u + -0.02362768f;
+  const float w = specular - 0.9011222f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -174,14 +238,53 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 1.25f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return 2.0f / (alpha * alpha) - 2.0f; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 1.0f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.9838835f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.80224407f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -192,20 +295,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, held at 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float held, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(held) & 0x7fffffffu));
+  return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -214,16 +344,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const HeldWidth held = held_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(held.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), held.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), held.nan));
-    store(block.outside + i, held.outside);
+    const HeldWidth held = held_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(held.own));
+    store(block.scale + i, with_nan(1.0f, held.nan));
+    store(block.outside + i, held.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -233,18 +384,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, held_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -315,19 +621,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.8f}, {7349.037f, 0.9972026f}, {0.41f, 1e-04f}},
-      {{0.12948276f, 0.75f}, {42.96347f, 0.920026f}, {0.00022f, 1e-04f}},
-      {{0.24896552f, 0.7f}, {11.032701f, 0.8184702f}, {3.6e-05f, 1e-04f}},
-      {{0.3684483f, 0.65000004f}, {4.5707684f, 0.7049231f}, {1.4e-05f, 1e-04f}},
-      {{0.48793104f, 0.6f}, {2.227149f, 0.5892475f}, {7.1e-06f, 1e-04f}},
-      {{0.6074138f, 0.55f}, {1.1292387f, 0.47950462f}, {4.6e-06f, 1e-04f}},
-      {{0.7268966f, 0.5f}, {0.54268926f, 0.3810923f}, {3.4e-06f, 1e-04f}},
-      {{0.84637934f, 0.45000002f}, {0.21033472f, 0.29674307f}, {2.7e-06f, 1e-04f}},
-      {{0.9658621f, 0.4f}, {0.020410748f, 0.22703981f}, {2.4e-06f, 1e-04f}},
-      {{0.005f, 0.4f}, {7349.037f, 0.4986013f}, {0.41f, 1e-04f}},
-      {{1.4487932f, 0.2f}, {0.020410748f, 0.11351991f}, {2.4e-06f, 1e-04f}},
-      {{0.48793104f, 0.0f}, {2.227149f, 0.0f}, {7.1e-06f, 1e-04f}},
-      {{0.48793104f, 1.6f}, {2.227149f, 1.5713266f}, {7.1e-06f, 2e-04f}},
+      {{0.01f, 1.0f}, {6918.1284f, 1.0f}, {28.0f, 5.6e-05f}},
+      {{0.13375f, 0.9375f}, {38.776695f, 1.0f}, {0.013f, 5.6e-05f}},
+      {{0.2575f, 0.875f}, {10.20403f, 1.0f}, {0.0021f, 5.6e-05f}},
+      {{0.38125f, 0.8125f}, {4.2110267f, 0.8727834f}, {0.00075f, 5.6e-05f}},
+      {{0.505f, 0.75f}, {2.0206096f, 0.7249395f}, {0.00039f, 5.6e-05f}},
+      {{0.62875f, 0.6875f}, {0.9976125f, 0.58573633f}, {0.00025f, 5.6e-05f}},
+      {{0.7525f, 0.625f}, {0.45513308f, 0.46213984f}, {0.00019f, 5.6e-05f}},
+      {{0.87625f, 0.5625f}, {0.15238388f, 0.35738012f}, {0.00016f, 5.6e-05f}},
+      {{1.0f, 0.5f}, {0.0f, 0.27389434f}, {0.00014f, 5.6e-05f}},
+      {{0.005f, 0.5f}, {7349.091f, 0.62325174f}, {31.0f, 5.6e-05f}},
+      {{1.5f, 0.25f}, {0.0f, 0.13661858f}, {0.00014f, 5.6e-05f}},
+      {{0.505f, 0.0f}, {2.0206096f, 0.0f}, {0.00039f, 5.6e-05f}},
+      {{0.505f, 2.0f}, {2.0206096f, 1.9331721f}, {0.00039f, 0.00012f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

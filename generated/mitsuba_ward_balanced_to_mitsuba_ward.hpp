@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-balanced to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_balanced_to_mitsuba_ward.csv, sha256 faf1dee4be53fafe8b3c941957403cb38c5417a68db1420069125272ad76f73e;
+// Table mitsuba_ward_balanced_to_mitsuba_ward.csv, sha256 b46fdbe70c1ed47c4306133670a03914d0f0302d317418382103ac8f7076e7aa;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 221 rows trained, 55 held out.
-// Error on the rows held out: alpha rms 7.2e-06, 99 % 1.9e-05, max 1.9e-05;
-// specular rms 0.00018, 99 % 0.00055, max 0.00055.
-// Lowered from the fit. Target alpha: degree 6, proven within 3.9e-07 (sampled 3e-08), rising with alpha.
-// Target specular: degree 6, proven within 1.7e-05 (sampled 1.5e-05), rising with alpha, rising with specular.
-// Covers alpha 0.01 to 0.761034483, specular 0 to 0.4.
+// Fit: series, seed 1, 828 rows trained, 207 held out.
+// Error on the rows held out: alpha rms 9.3e-05, 99 % 0.00047, max 0.00069;
+// specular rms 6.3e-05, 99 % 0.00018, max 2e-04.
+// Lowered from the fit. Target alpha: degree 6, proven within 4e-07 (sampled 3.2e-08), rising with alpha.
+// Target specular: degree 5, proven within 3.1e-05 (sampled 2.2e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 3, proven within 7.6e-05 (sampled 6.9e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 14 in alpha / (alpha + 1), 8 in specular, proven within 9.6e-05 (sampled 8.1e-05).
+// All together within 2e-04 in alpha, 7.6e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_WARD_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 7.2e-06f;
-inline constexpr float kSpecularRmsError = 0.00018f;
+inline constexpr float kAlphaRmsError = 9.3e-05f;
+inline constexpr float kSpecularRmsError = 6.3e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.051f;
+inline constexpr float kImageRmsError = 0.21f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.7610345f, 0.4f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,33 +77,189 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
-  const float u = alpha - 0.38551804f;
+inline float target_alpha(float alpha, float) noexcept {
+  const float u = alpha - 0.3917743f;
   const float u_2 = u * u;
-  float c0 = 0.79280454f;
-  float c0_next = 0.81069815f;
-  c0 = c0 * u_2 + 0.0733408f;
-  c0_next = c0_next * u_2 + 0.341064f;
-  c0 = c0 * u_2 + 0.5359644f;
-  c0_next = c0_next * u_2 + 1.2288376f;
-  c0 = c0 * u_2 + 0.41630477f;
+  float c0 = 0.6378509f;
+  float c0_next = 0.77129287f;
+  c0 = c0 * u_2 + 0.119494304f;
+  c0_next = c0_next * u_2 + 0.35379887f;
+  c0 = c0 * u_2 + 0.5422393f;
+  c0_next = c0_next * u_2 + 1.2353089f;
+  c0 = c0 * u_2 + 0.42400616f;
   c0 = c0_next * u + c0;
   return c0;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float u = alpha - 0.38551804f;
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float u = alpha - 0.3917743f;
+    const float u_2 = u * u;
+    float c0 = -0.02090449f;
+    float c0_next = -0.005123007f;
+    c0 = c0 * u_2 + 0.0028279992f;
+    c0_next = c0_next * u_2 + 0.0005575319f;
+    c0 = c0 * u_2 + -6.0843366e-05f;
+    c0_next = c0_next * u_2 + -9.152503e-06f;
+    c0 = c0 * u + c0_next;
+    float c1 = 2.955227f;
+    float c1_next = 1.5769489f;
+    c1 = c1 * u_2 + 0.33120602f;
+    c1_next = c1_next * u_2 + 1.8037572f;
+    c1 = c1 * u_2 + 1.332492f;
+    c1_next = c1_next * u_2 + 1.6260403f;
+    c1 = c1 * u + c1_next;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.8854587f;
+  float c0 = 0.048779678f;
+  c0 = c0 * u + 0.0007599861f;
+  c0 = c0 * u + -0.00047157676f;
+  c0 = c0 * u + 6.1062738e-06f;
+  float c1 = 10.805417f;
+  c1 = c1 * u + -1.0019475f;
+  c1 = c1 * u + -2.8407397f;
+  c1 = c1 * u + 2.1683574f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c1 = -4.2437305f;
-  float c1_next = 2.904163f;
-  c1 = c1 * u_2 + 2.2179008f;
-  c1_next = c1_next * u_2 + 0.29720384f;
-  c1 = c1 * u_2 + 1.7702396f;
-  c1_next = c1_next * u_2 + 1.3102485f;
-  c1 = c1 * u_2 + 1.6178908f;
+  float c0 = -49843612.0f;
+  float c0_next = -9006885.0f;
+  c0 = c0 * u_2 + 9426761.0f;
+  c0_next = c0_next * u_2 + 1935216.9f;
+  c0 = c0 * u_2 + -621051.44f;
+  c0_next = c0_next * u_2 + -160792.7f;
+  c0 = c0 * u_2 + 11089.861f;
+  c0_next = c0_next * u_2 + 6019.627f;
+  c0 = c0 * u_2 + 666.9889f;
+  c0_next = c0_next * u_2 + -19.402937f;
+  c0 = c0 * u_2 + -38.07022f;
+  c0_next = c0_next * u_2 + -5.8548813f;
+  c0 = c0 * u_2 + 2.405811f;
+  c0_next = c0_next * u_2 + 2.0161977f;
+  c0 = c0 * u_2 + 0.36199236f;
+  c0 = c0_next * u + c0;
+  float c1 = -159504992.0f;
+  float c1_next = -40302100.0f;
+  c1 = c1 * u_2 + 25590936.0f;
+  c1_next = c1_next * u_2 + 7017161.0f;
+  c1 = c1 * u_2 + -1332586.6f;
+  c1_next = c1_next * u_2 + -395142.22f;
+  c1 = c1 * u_2 + 26127.92f;
+  c1_next = c1_next * u_2 + 3976.6711f;
+  c1 = c1 * u_2 + -1309.9519f;
+  c1_next = c1_next * u_2 + 351.43954f;
+  c1 = c1 * u_2 + 138.77785f;
+  c1_next = c1_next * u_2 + -10.789034f;
+  c1 = c1 * u_2 + -9.184708f;
+  c1_next = c1_next * u_2 + -1.2242522f;
+  c1 = c1 * u_2 + -0.028987328f;
   c1 = c1_next * u + c1;
-  return c1;
+  float c2 = -4686297.5f;
+  float c2_next = -1312695.0f;
+  c2 = c2 * u_2 + 477750.25f;
+  c2_next = c2_next * u_2 + 166644.98f;
+  c2 = c2 * u_2 + -4598.936f;
+  c2_next = c2_next * u_2 + -5151.8613f;
+  c2 = c2 * u_2 + -798.0675f;
+  c2_next = c2_next * u_2 + -128.68427f;
+  c2 = c2 * u_2 + 20.837856f;
+  c2_next = c2_next * u_2 + 13.270713f;
+  c2 = c2 * u_2 + 1.6629468f;
+  c2_next = c2_next * u_2 + 0.032801624f;
+  c2 = c2 * u + c2_next;
+  float c3 = 1951925.0f;
+  float c3_next = 491808.06f;
+  c3 = c3 * u_2 + -199006.92f;
+  c3_next = c3_next * u_2 + -55664.688f;
+  c3 = c3 * u_2 + 2048.9673f;
+  c3_next = c3_next * u_2 + 1381.1951f;
+  c3 = c3 * u_2 + 401.28552f;
+  c3_next = c3_next * u_2 + 59.37835f;
+  c3 = c3 * u_2 + -24.12698f;
+  c3_next = c3_next * u_2 + -4.540666f;
+  c3 = c3 * u_2 + -0.025915558f;
+  c3 = c3_next * u + c3;
+  float c4 = -164444.22f;
+  float c4_next = -36600.457f;
+  c4 = c4 * u_2 + 11261.217f;
+  c4_next = c4_next * u_2 + 3847.47f;
+  c4 = c4 * u_2 + -859.9827f;
+  c4_next = c4_next * u_2 + -442.94543f;
+  c4 = c4 * u_2 + 105.025215f;
+  c4_next = c4_next * u_2 + 12.402153f;
+  c4 = c4 * u_2 + -1.176254f;
+  c4 = c4_next * u + c4;
+  float c5 = 26136.377f;
+  float c5_next = 13002.167f;
+  c5 = c5 * u_2 + 2498.782f;
+  c5_next = c5_next * u_2 + 490.6426f;
+  c5 = c5 * u_2 + -721.8227f;
+  c5_next = c5_next * u_2 + 48.97162f;
+  c5 = c5 * u_2 + 3.8134081f;
+  c5 = c5_next * u + c5;
+  float c6 = -29054.287f;
+  float c6_next = -8068.6484f;
+  c6 = c6 * u_2 + 857.2598f;
+  c6_next = c6_next * u_2 + 2729.6494f;
+  c6 = c6 * u_2 + -732.0291f;
+  c6_next = c6_next * u_2 + 51.640526f;
+  c6 = c6 * u + c6_next;
+  float c7 = -8789.695f;
+  c7 = c7 * u + -5140.2324f;
+  c7 = c7 * u + 2901.2617f;
+  c7 = c7 * u + -312.7052f;
+  float c8 = 18269.295f;
+  c8 = c8 * u + 4530.1284f;
+  c8 = c8 * u + -3845.1174f;
+  c8 = c8 * u + 469.3746f;
+  const float w = specular - 0.70574635f;
+  float sum = c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -169,14 +328,53 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 2.5f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.77354693f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.77091694f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.41149157f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -187,20 +385,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, held at 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float held, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(held) & 0x7fffffffu));
+  return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -209,16 +434,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const HeldWidth held = held_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(held.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), held.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), held.nan));
-    store(block.outside + i, held.outside);
+    const HeldWidth held = held_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(held.own));
+    store(block.scale + i, with_nan(1.0f, held.nan));
+    store(block.outside + i, held.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -228,18 +474,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, held_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -310,19 +711,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.4f}, {0.0099998545f, 0.5481247f}, {8.7e-07f, 1.8e-05f}},
-      {{0.10387931f, 0.375f}, {0.10453068f, 0.5210104f}, {9.2e-07f, 1.8e-05f}},
-      {{0.19775862f, 0.35f}, {0.20215273f, 0.50197524f}, {9.6e-07f, 1.8e-05f}},
-      {{0.29163793f, 0.32500002f}, {0.30538318f, 0.4908677f}, {1.1e-06f, 1.8e-05f}},
-      {{0.38551724f, 0.3f}, {0.41630375f, 0.48537147f}, {1.1e-06f, 1.8e-05f}},
-      {{0.47939655f, 0.275f}, {0.5366841f, 0.48316017f}, {1.2e-06f, 1.8e-05f}},
-      {{0.57327586f, 0.25f}, {0.66849554f, 0.48287615f}, {1.2e-06f, 1.8e-05f}},
-      {{0.6671552f, 0.22500001f}, {0.81481624f, 0.48396307f}, {1.3e-06f, 1.8e-05f}},
-      {{0.7610345f, 0.2f}, {0.98112625f, 0.48583117f}, {1.4e-06f, 1.8e-05f}},
-      {{0.005f, 0.2f}, {0.0099998545f, 0.27406234f}, {8.7e-07f, 1.7e-05f}},
-      {{1.1415517f, 0.1f}, {0.98112625f, 0.24291559f}, {1.4e-06f, 1.7e-05f}},
-      {{0.38551724f, 0.0f}, {0.41630375f, 0.0f}, {1.1e-06f, 1.7e-05f}},
-      {{0.38551724f, 0.8f}, {0.41630375f, 1.2943239f}, {1.1e-06f, 3.5e-05f}},
+      {{0.01f, 1.0f}, {0.010404279f, 1.0f}, {0.00021f, 7.7e-05f}},
+      {{0.13375f, 0.9375f}, {0.1387116f, 1.0f}, {0.00021f, 7.7e-05f}},
+      {{0.2575f, 0.875f}, {0.26893568f, 1.0f}, {0.00021f, 7.7e-05f}},
+      {{0.38125f, 0.8125f}, {0.39984587f, 1.0f}, {0.00021f, 7.7e-05f}},
+      {{0.505f, 0.75f}, {0.5278618f, 1.0f}, {0.00021f, 7.7e-05f}},
+      {{0.62875f, 0.6875f}, {0.65470415f, 1.0f}, {0.00021f, 7.7e-05f}},
+      {{0.7525f, 0.625f}, {0.7887348f, 1.0f}, {0.00021f, 7.7e-05f}},
+      {{0.87625f, 0.5625f}, {0.93962574f, 1.0f}, {0.00021f, 7.7e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.9230425f}, {0.00021f, 7.7e-05f}},
+      {{0.005f, 0.5f}, {0.010000454f, 0.6856862f}, {0.00021f, 7.7e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.4615187f}, {0.00021f, 7.7e-05f}},
+      {{0.505f, 0.0f}, {0.5713753f, 0.0f}, {0.00021f, 7.6e-05f}},
+      {{0.505f, 2.0f}, {0.495413f, 2.0f}, {0.00021f, 0.00016f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

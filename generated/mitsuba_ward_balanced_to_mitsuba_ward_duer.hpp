@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-balanced to mitsuba/ward-duer: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_balanced_to_mitsuba_ward_duer.csv, sha256 b7b1701336b1748b04cd405bccd17c0c4bdc7309f2cdde6e83142f96716ab49a;
+// Table mitsuba_ward_balanced_to_mitsuba_ward_duer.csv, sha256 d47707f8478f7014fef33a7ff6a1328f46afcd6278c880dbbd7fdb96ccfeb82d;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 603 rows trained, 151 held out.
-// Error on the rows held out: alpha rms 0.00016, 99 % 0.00024, max 0.00024;
-// specular rms 0.00017, 99 % 0.00044, max 0.00057.
-// Lowered from the fit. Target alpha: degree 6, proven within 3.5e-07 (sampled 3.3e-08), rising with alpha.
-// Target specular: degree 6, proven within 6.2e-05 (sampled 5.6e-05), rising with specular.
-// Covers alpha 0.01 to 0.965862069, specular 0 to 0.866666667.
+// Fit: series, seed 1, 812 rows trained, 203 held out.
+// Error on the rows held out: alpha rms 6e-05, 99 % 0.00019, max 0.00036;
+// specular rms 3.6e-05, 99 % 8.6e-05, max 9.7e-05.
+// Lowered from the fit. Target alpha: degree 8, proven within 4.1e-07 (sampled 5.1e-08), rising with alpha.
+// Target specular: degree 7, proven within 2.7e-05 (sampled 4.9e-06), rising with specular.
+// Where specular is at its limit, target alpha: degree 10 in alpha / (alpha + 1), 6 in specular, proven within 9.7e-05 (sampled 8.9e-05), rising with alpha.
+// All together within 0.00011 in alpha, 2.7e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_WARD_DUER_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_BALANCED_TO_MITSUBA_WARD_DUER_HPP
 
@@ -36,8 +38,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00016f;
-inline constexpr float kSpecularRmsError = 0.00017f;
+inline constexpr float kAlphaRmsError = 6e-05f;
+inline constexpr float kSpecularRmsError = 3.6e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.14f;
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.9658621f, 0.8666667f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,33 +76,134 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
-  const float u = alpha - 0.48793206f;
+inline float target_alpha(float alpha, float) noexcept {
+  const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = 0.15396729f;
-  float c0_next = 0.81403375f;
-  c0 = c0 * u_2 + 0.06053438f;
-  c0_next = c0_next * u_2 + -0.4636186f;
-  c0 = c0 * u_2 + -0.09898768f;
-  c0_next = c0_next * u_2 + 1.0672611f;
-  c0 = c0 * u_2 + 0.50746554f;
+  float c0 = -2.0156198f;
+  float c0_next = -2.1331625f;
+  c0 = c0 * u_2 + 0.7961272f;
+  c0_next = c0_next * u_2 + 1.6663468f;
+  c0 = c0 * u_2 + 0.08002782f;
+  c0_next = c0_next * u_2 + -0.54988784f;
+  c0 = c0 * u_2 + -0.12226568f;
+  c0_next = c0_next * u_2 + 1.0659875f;
+  c0 = c0 * u_2 + 0.52566606f;
   c0 = c0_next * u + c0;
   return c0;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float u = alpha - 0.48793206f;
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float u = alpha - 0.50500107f;
+    const float u_2 = u * u;
+    float c0 = -0.008603226f;
+    float c0_next = -0.0030419836f;
+    c0 = c0 * u_2 + 0.0034177706f;
+    c0_next = c0_next * u_2 + 0.0011376989f;
+    c0 = c0 * u_2 + -0.00034428318f;
+    c0_next = c0_next * u_2 + -9.4614894e-05f;
+    c0 = c0 * u_2 + 8.841618e-06f;
+    c0_next = c0_next * u_2 + 1.1661924e-06f;
+    c0 = c0 * u + c0_next;
+    float c1 = -3.9828887f;
+    float c1_next = -0.7245432f;
+    c1 = c1 * u_2 + 3.070782f;
+    c1_next = c1_next * u_2 + 1.0069057f;
+    c1 = c1 * u_2 + -1.145887f;
+    c1_next = c1_next * u_2 + -0.4500733f;
+    c1 = c1 * u_2 + 0.24216871f;
+    c1_next = c1_next * u_2 + 1.1037915f;
+    c1 = c1 * u + c1_next;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c1 = -1.0925674f;
-  float c1_next = 1.5609f;
-  c1 = c1 * u_2 + 1.0136873f;
-  c1_next = c1_next * u_2 + -1.0343881f;
-  c1 = c1 * u_2 + -0.41057503f;
-  c1_next = c1_next * u_2 + 0.25198874f;
-  c1 = c1 * u_2 + 1.0997506f;
+  float c0 = -22401.92f;
+  float c0_next = -5725.8374f;
+  c0 = c0 * u_2 + 2540.425f;
+  c0_next = c0_next * u_2 + 940.4497f;
+  c0 = c0 * u_2 + 74.42151f;
+  c0_next = c0_next * u_2 + -4.991776f;
+  c0 = c0 * u_2 + -9.604047f;
+  c0_next = c0_next * u_2 + -1.7552558f;
+  c0 = c0 * u_2 + 2.8076837f;
+  c0_next = c0_next * u_2 + 1.9114368f;
+  c0 = c0 * u_2 + 0.35119483f;
+  c0 = c0_next * u + c0;
+  float c1 = 8489.65f;
+  float c1_next = 1604.6265f;
+  c1 = c1 * u_2 + -1061.1683f;
+  c1_next = c1_next * u_2 + -279.60373f;
+  c1 = c1 * u_2 + 31.07544f;
+  c1_next = c1_next * u_2 + 28.479208f;
+  c1 = c1 * u_2 + -10.878139f;
+  c1_next = c1_next * u_2 + -0.72155845f;
+  c1 = c1 * u_2 + -0.013291834f;
   c1 = c1_next * u + c1;
-  return c1;
+  float c2 = 4886.8315f;
+  float c2_next = 1238.6125f;
+  c2 = c2 * u_2 + -820.6445f;
+  c2_next = c2_next * u_2 + -320.3626f;
+  c2 = c2 * u_2 + 8.708621f;
+  c2_next = c2_next * u_2 + 30.871359f;
+  c2 = c2 * u_2 + -1.3451406f;
+  c2 = c2_next * u + c2;
+  float c3 = -15886.913f;
+  float c3_next = -6906.6895f;
+  c3 = c3 * u_2 + -1263.3673f;
+  c3_next = c3_next * u_2 + 113.478676f;
+  c3 = c3 * u_2 + 386.45844f;
+  c3_next = c3_next * u_2 + 63.35921f;
+  c3 = c3 * u + c3_next;
+  float c4 = 174283.33f;
+  float c4_next = 78688.65f;
+  c4 = c4 * u_2 + 12089.716f;
+  c4_next = c4_next * u_2 + -12152.753f;
+  c4 = c4 * u_2 + 1326.333f;
+  c4 = c4_next * u + c4;
+  float c5 = -50345.863f;
+  c5 = c5 * u + -36466.676f;
+  c5 = c5 * u + -22706.17f;
+  const float c6 = -204483.16f;
+  const float w = specular - 0.9433736f;
+  float sum = c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -169,14 +272,53 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 1.1538461f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.886747f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -187,20 +329,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, held at 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float held, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(held) & 0x7fffffffu));
+  return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -209,16 +378,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const HeldWidth held = held_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(held.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), held.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), held.nan));
-    store(block.outside + i, held.outside);
+    const HeldWidth held = held_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(held.own));
+    store(block.scale + i, with_nan(1.0f, held.nan));
+    store(block.outside + i, held.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -228,18 +418,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, held_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -310,19 +655,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.8666667f}, {0.010083644f, 0.8662041f}, {8.3e-07f, 6.2e-05f}},
-      {{0.12948276f, 0.8125f}, {0.13004915f, 0.8202362f}, {8.9e-07f, 6.2e-05f}},
-      {{0.24896552f, 0.7583333f}, {0.25269148f, 0.78268164f}, {9.5e-07f, 6.2e-05f}},
-      {{0.3684483f, 0.70416665f}, {0.37931576f, 0.75039816f}, {1.1e-06f, 6.2e-05f}},
-      {{0.48793104f, 0.65f}, {0.50746447f, 0.71484745f}, {1.1e-06f, 6.2e-05f}},
-      {{0.6074138f, 0.59583336f}, {0.63281244f, 0.6688334f}, {1.2e-06f, 6.2e-05f}},
-      {{0.7268966f, 0.5416667f}, {0.75138444f, 0.6102916f}, {1.2e-06f, 6.2e-05f}},
-      {{0.84637934f, 0.4875f}, {0.86209494f, 0.54275006f}, {1.3e-06f, 6.2e-05f}},
-      {{0.9658621f, 0.43333334f}, {0.9696109f, 0.47330153f}, {1.3e-06f, 6.2e-05f}},
-      {{0.005f, 0.43333334f}, {0.010083644f, 0.43310204f}, {8.3e-07f, 6.2e-05f}},
-      {{1.4487932f, 0.21666667f}, {0.9696109f, 0.23665076f}, {1.3e-06f, 6.2e-05f}},
-      {{0.48793104f, 0.0f}, {0.50746447f, 0.0f}, {1.1e-06f, 6.2e-05f}},
-      {{0.48793104f, 1.7333333f}, {0.50746447f, 1.90626f}, {1.1e-06f, 0.00013f}},
+      {{0.01f, 1.0f}, {0.009987609f, 1.0f}, {0.00012f, 2.7e-05f}},
+      {{0.13375f, 0.9375f}, {0.1344015f, 0.94680804f}, {0.00012f, 2.7e-05f}},
+      {{0.2575f, 0.875f}, {0.26170903f, 0.90531504f}, {0.00012f, 2.7e-05f}},
+      {{0.38125f, 0.8125f}, {0.3928928f, 0.86876565f}, {0.00012f, 2.7e-05f}},
+      {{0.505f, 0.75f}, {0.5256649f, 0.82783985f}, {0.00012f, 2.7e-05f}},
+      {{0.62875f, 0.6875f}, {0.65473545f, 0.7734515f}, {0.00012f, 2.7e-05f}},
+      {{0.7525f, 0.625f}, {0.77555174f, 0.70314026f}, {0.00012f, 2.7e-05f}},
+      {{0.87625f, 0.5625f}, {0.8889803f, 0.62327546f}, {0.00012f, 2.7e-05f}},
+      {{1.0f, 0.5f}, {0.99991536f, 0.5432254f}, {0.00012f, 2.7e-05f}},
+      {{0.005f, 0.5f}, {0.010000392f, 0.5000739f}, {0.00012f, 2.7e-05f}},
+      {{1.5f, 0.25f}, {0.99991536f, 0.27161187f}, {0.00012f, 2.7e-05f}},
+      {{0.505f, 0.0f}, {0.5256649f, 0.0f}, {0.00012f, 2.7e-05f}},
+      {{0.505f, 2.0f}, {0.5183521f, 2.0f}, {0.00012f, 5.4e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

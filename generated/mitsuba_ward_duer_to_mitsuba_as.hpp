@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/as: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_as.csv, sha256 481da08da257e5d8be4db7ea0b36eadcca70a21ccd6e29eaf08da1e89e575cdc;
+// Table mitsuba_ward_duer_to_mitsuba_as.csv, sha256 118f8afc929c418de24796521527ec913374a4112ced6f8f1d75f6399fb5a28a;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: svr, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 0.00063, 99 % 0.0018, max 0.002;
-// f0 rms 0.00039, 99 % 7e-04, max 0.00071.
-// Lowered from the fit. Target alpha: degree 11, 6 in specular, proven within 9.6e-06 (sampled 8.2e-06), rising with alpha.
-// Target specular: degree 7, 3 in specular, proven within 6.2e-05 (sampled 5.7e-05), rising with specular.
+// Fit: series, seed 1, 720 rows trained, 180 held out.
+// Error on the rows held out: alpha rms 0.00038, 99 % 0.0012, max 0.0012;
+// f0 rms 9.2e-05, 99 % 0.00028, max 0.00028.
+// Lowered from the fit. Target alpha: degree 10, 4 in specular, proven within 6.8e-06 (sampled 5.4e-06), rising with alpha.
+// Target specular: degree 7, proven within 3e-05 (sampled 5.4e-06), rising with specular.
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_AS_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_AS_HPP
@@ -36,8 +36,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00063f;
-inline constexpr float kSpecularRmsError = 0.00039f;
+inline constexpr float kAlphaRmsError = 0.00038f;
+inline constexpr float kSpecularRmsError = 9.2e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.078f;
@@ -77,64 +77,55 @@ inline constexpr std::size_t kBlock = 128;
 inline float target_alpha(float alpha, float specular) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = 30.843452f;
-  float c0_next = -3.1457813f;
-  c0 = c0 * u_2 + -42.1704f;
-  c0_next = c0_next * u_2 + 1.4035083f;
-  c0 = c0 * u_2 + 24.687796f;
-  c0_next = c0_next * u_2 + 1.4204259f;
-  c0 = c0 * u_2 + -7.2087684f;
-  c0_next = c0_next * u_2 + -0.8459341f;
-  c0 = c0 * u_2 + 1.1343482f;
-  c0_next = c0_next * u_2 + -0.16505116f;
-  c0 = c0 * u_2 + 0.5782244f;
-  c0_next = c0_next * u_2 + 0.4058465f;
-  c0 = c0 * u + c0_next;
-  float c1 = 0.2758951f;
-  float c1_next = 0.7514211f;
-  c1 = c1 * u_2 + -0.098314404f;
-  c1_next = c1_next * u_2 + -0.5971706f;
-  c1 = c1 * u_2 + -0.15691005f;
-  c1_next = c1_next * u_2 + 0.10411084f;
-  c1 = c1 * u_2 + 0.058498435f;
-  c1_next = c1_next * u_2 + 0.0006046679f;
-  c1 = c1 * u_2 + -0.0017181643f;
-  c1_next = c1_next * u_2 + 0.00023528983f;
-  c1 = c1 * u + c1_next;
-  float c2 = 6.696129f;
-  float c2_next = -0.38192117f;
-  c2 = c2 * u_2 + -5.5837493f;
-  c2_next = c2_next * u_2 + 0.05131059f;
-  c2 = c2 * u_2 + 1.1684368f;
-  c2_next = c2_next * u_2 + 0.07484237f;
-  c2 = c2 * u_2 + -0.008901714f;
-  c2_next = c2_next * u_2 + 0.006373423f;
-  c2 = c2 * u_2 + -0.002163249f;
-  c2_next = c2_next * u_2 + -0.0027397498f;
-  c2 = c2 * u + c2_next;
-  float c3 = 0.37873453f;
-  float c3_next = 0.10033658f;
-  c3 = c3 * u_2 + -0.17156722f;
-  c3_next = c3_next * u_2 + -0.08304281f;
-  c3 = c3 * u_2 + -0.031579964f;
-  c3_next = c3_next * u_2 + -0.0071838535f;
-  c3 = c3 * u + c3_next;
-  float c4 = 0.36316276f;
-  float c4_next = -0.06328337f;
-  c4 = c4 * u_2 + -0.30718213f;
-  c4_next = c4_next * u_2 + 0.016980624f;
-  c4 = c4 * u_2 + 0.080830894f;
-  c4_next = c4_next * u_2 + 0.028350556f;
+  float c0 = -161.09549f;
+  float c0_next = -46.613663f;
+  c0 = c0 * u_2 + 103.14345f;
+  c0_next = c0_next * u_2 + 31.423199f;
+  c0 = c0 * u_2 + -21.547764f;
+  c0_next = c0_next * u_2 + -8.151534f;
+  c0 = c0 * u_2 + 1.2630213f;
+  c0_next = c0_next * u_2 + 1.1269435f;
+  c0 = c0 * u_2 + -0.23108116f;
+  c0_next = c0_next * u_2 + 0.5815088f;
+  c0 = c0 * u_2 + 0.40620208f;
+  c0 = c0_next * u + c0;
+  float c1 = -0.2020625f;
+  float c1_next = -0.007114497f;
+  c1 = c1 * u_2 + 0.0066557177f;
+  c1_next = c1_next * u_2 + 0.001935943f;
+  c1 = c1 * u_2 + 0.024781208f;
+  c1_next = c1_next * u_2 + 0.001829368f;
+  c1 = c1 * u_2 + -0.00091401825f;
+  c1_next = c1_next * u_2 + 0.0018083826f;
+  c1 = c1 * u_2 + 0.0004784738f;
+  c1 = c1_next * u + c1;
+  float c2 = 2.139592f;
+  float c2_next = 0.8287744f;
+  c2 = c2 * u_2 + -1.3420798f;
+  c2_next = c2_next * u_2 + -0.75503236f;
+  c2 = c2 * u_2 + 0.12256814f;
+  c2_next = c2_next * u_2 + 0.14217104f;
+  c2 = c2 * u_2 + 0.0025151179f;
+  c2_next = c2_next * u_2 + -0.0159349f;
+  c2 = c2 * u_2 + -0.0030702527f;
+  c2 = c2_next * u + c2;
+  float c3 = 0.7649043f;
+  float c3_next = 0.0357671f;
+  c3 = c3 * u_2 + -0.3400217f;
+  c3_next = c3_next * u_2 + -0.051178757f;
+  c3 = c3 * u_2 + -0.027481599f;
+  c3_next = c3_next * u_2 + -0.041355804f;
+  c3 = c3 * u_2 + -0.009687393f;
+  c3 = c3_next * u + c3;
+  float c4 = 1.413317f;
+  float c4_next = 0.69754946f;
+  c4 = c4 * u_2 + -0.26330724f;
+  c4_next = c4_next * u_2 + 0.0034473678f;
+  c4 = c4 * u_2 + 0.123060614f;
+  c4_next = c4_next * u_2 + 0.028567463f;
   c4 = c4 * u + c4_next;
-  float c5 = 0.026055474f;
-  c5 = c5 * u + 0.013014804f;
-  c5 = c5 * u + -0.0016998283f;
-  float c6 = -0.016353823f;
-  c6 = c6 * u + -0.008818771f;
   const float w = specular - 0.500001f;
-  float sum = c6;
-  sum = sum * w + c5;
-  sum = sum * w + c4;
+  float sum = c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
   sum = sum * w + c1;
@@ -145,7 +136,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -162,41 +155,32 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     const float alpha = terms.alpha[i];
     const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = -0.90390587f;
-    float c0_next = 1.0836798f;
-    c0 = c0 * u_2 + 0.6152213f;
-    c0_next = c0_next * u_2 + -1.028891f;
-    c0 = c0 * u_2 + 0.20534848f;
-    c0_next = c0_next * u_2 + 0.23765577f;
-    c0 = c0 * u_2 + -0.3396991f;
-    c0_next = c0_next * u_2 + 0.35540178f;
+    float c0 = -0.031958908f;
+    float c0_next = 0.00398721f;
+    c0 = c0 * u_2 + 0.012212817f;
+    c0_next = c0_next * u_2 + -0.0009605276f;
+    c0 = c0 * u_2 + -0.0014685339f;
+    c0_next = c0_next * u_2 + 9.085349e-05f;
+    c0 = c0 * u_2 + 0.0007455176f;
+    c0_next = c0_next * u_2 + -0.0011662083f;
     c0 = c0 * u + c0_next;
-    float c1 = -1.1911732f;
-    float c1_next = 0.68001986f;
-    c1 = c1 * u_2 + 0.79843724f;
-    c1_next = c1_next * u_2 + -1.534735f;
-    c1 = c1 * u_2 + 0.5098376f;
-    c1_next = c1_next * u_2 + 0.42889807f;
-    c1 = c1 * u_2 + -0.68924916f;
-    c1_next = c1_next * u_2 + 0.7157596f;
+    float c1 = -3.0270462f;
+    float c1_next = 1.889081f;
+    c1 = c1 * u_2 + 1.6900198f;
+    c1_next = c1_next * u_2 + -1.9504355f;
+    c1 = c1 * u_2 + 0.3848379f;
+    c1_next = c1_next * u_2 + 0.46302304f;
+    c1 = c1 * u_2 + -0.68385345f;
+    c1_next = c1_next * u_2 + 0.7136016f;
     c1 = c1 * u + c1_next;
-    float c2 = 0.0007353913f;
-    c2 = c2 * u + 0.0007667393f;
-    float c3 = 0.0061389552f;
-    c3 = c3 * u + -0.007868629f;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.500001f;
-  float sum = terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
@@ -266,6 +250,22 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
@@ -283,6 +283,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -390,8 +404,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -401,13 +420,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -419,15 +527,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -435,16 +550,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -515,19 +633,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.010860101f, 0.9995515f}, {1e-05f, 6.3e-05f}},
-      {{0.13375f, 0.9375f}, {0.13016118f, 0.9084246f}, {1.1e-05f, 6.3e-05f}},
-      {{0.2575f, 0.875f}, {0.2379341f, 0.7833816f}, {1.1e-05f, 6.3e-05f}},
-      {{0.38125f, 0.8125f}, {0.32954347f, 0.65218854f}, {1.1e-05f, 6.3e-05f}},
-      {{0.505f, 0.75f}, {0.40573126f, 0.5342351f}, {1.1e-05f, 6.3e-05f}},
-      {{0.62875f, 0.6875f}, {0.47651795f, 0.4367146f}, {1.1e-05f, 6.3e-05f}},
-      {{0.7525f, 0.625f}, {0.5478254f, 0.35768372f}, {1.1e-05f, 6.3e-05f}},
-      {{0.87625f, 0.5625f}, {0.6120215f, 0.29194328f}, {1.1e-05f, 6.3e-05f}},
-      {{1.0f, 0.5f}, {0.66537577f, 0.23625498f}, {1.1e-05f, 6.3e-05f}},
-      {{0.005f, 0.5f}, {0.010210326f, 0.4993334f}, {1e-05f, 6.3e-05f}},
-      {{1.5f, 0.25f}, {0.66618687f, 0.11777577f}, {1.1e-05f, 6.3e-05f}},
-      {{0.505f, 0.0f}, {0.40762994f, 0.0f}, {1.1e-05f, 6.2e-05f}},
-      {{0.505f, 2.0f}, {0.40596065f, 1.4250283f}, {1.1e-05f, 0.00013f}},
+      {{0.01f, 1.0f}, {0.009997993f, 0.9999348f}, {7.3e-06f, 3e-05f}},
+      {{0.13375f, 0.9375f}, {0.13076706f, 0.9084555f}, {7.4e-06f, 3e-05f}},
+      {{0.2575f, 0.875f}, {0.23804869f, 0.7836272f}, {7.4e-06f, 3e-05f}},
+      {{0.38125f, 0.8125f}, {0.32894528f, 0.6520679f}, {7.5e-06f, 3e-05f}},
+      {{0.505f, 0.75f}, {0.40608814f, 0.53404087f}, {7.5e-06f, 3e-05f}},
+      {{0.62875f, 0.6875f}, {0.4766783f, 0.43644226f}, {7.5e-06f, 3e-05f}},
+      {{0.7525f, 0.625f}, {0.54822046f, 0.35716748f}, {7.6e-06f, 3e-05f}},
+      {{0.87625f, 0.5625f}, {0.6115615f, 0.29165676f}, {7.6e-06f, 3e-05f}},
+      {{1.0f, 0.5f}, {0.66585356f, 0.23623152f}, {7.6e-06f, 3e-05f}},
+      {{0.005f, 0.5f}, {0.009997915f, 0.499238f}, {7.3e-06f, 3e-05f}},
+      {{1.5f, 0.25f}, {0.6657706f, 0.11770752f}, {7.6e-06f, 3e-05f}},
+      {{0.505f, 0.0f}, {0.40819356f, 0.0f}, {7.5e-06f, 3e-05f}},
+      {{0.505f, 2.0f}, {0.40625018f, 1.4248829f}, {7.5e-06f, 5.9e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

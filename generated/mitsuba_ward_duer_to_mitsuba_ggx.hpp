@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_ggx.csv, sha256 0019a615ca8a96bbe26a096a90a85dfa283111023579be9ef5704c8014a1e683;
+// Table mitsuba_ward_duer_to_mitsuba_ggx.csv, sha256 8a1758a2719e24beed0630a03815e0ee6e7ce2b6b3a41ba503dc0ac4a9ad49a1;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: svr, seed 1, 672 rows trained, 168 held out.
-// Error on the rows held out: alpha rms 7e-04, 99 % 0.0018, max 0.0032;
-// f0 rms 0.00044, 99 % 0.0011, max 0.0012.
-// Lowered from the fit. Target alpha: degree 5 on 16 pieces, 4 in specular, proven within 8e-06 (sampled 7e-06), rising with alpha.
-// Target specular: degree 6 on 8 pieces, 3 in specular, proven within 6e-05 (sampled 5.5e-05), rising with specular.
-// Covers alpha 0.01 to 1, specular 0 to 0.933333333.
+// Fit: series, seed 1, 732 rows trained, 183 held out.
+// Error on the rows held out: alpha rms 0.0019, 99 % 0.0069, max 0.0083;
+// f0 rms 0.0021, 99 % 0.0079, max 0.0092.
+// Lowered from the fit. Target alpha: degree 8 on 4 pieces, proven within 7.1e-06 (sampled 6.3e-06), rising with alpha.
+// Target specular: degree 12, proven within 2e-05 (sampled 3.7e-07), rising with specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_GGX_HPP
 
@@ -36,8 +36,8 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 7e-04f;
-inline constexpr float kSpecularRmsError = 0.00044f;
+inline constexpr float kAlphaRmsError = 0.0019f;
+inline constexpr float kSpecularRmsError = 0.0021f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.33f;
@@ -55,7 +55,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{1.0f, 0.93333334f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -81,73 +81,49 @@ inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
   return last + (below & (below >> 31));
 }
 
-inline constexpr float kAlphaTable[16][17] = {
-    {0.033013854f, 0.053817887f, -5.446612e-05f, -0.009660418f, 0.006311447f, -4.7336234e-05f, -0.00012258091f, -8.772534e-05f, -0.00010760056f, -0.000109780565f, 0.0053089564f, -0.0037501832f, 0.0032950202f, -4.740756e-06f, -1.536597e-06f, 0.00051953684f, 0.00013550225f},
-    {0.08288942f, 0.04639143f, -0.00078509096f, 0.0029653604f, -0.0011019841f, -0.0011751294f, -0.00040396722f, -0.0004926015f, -0.00011370607f, 0.00016778611f, 0.0046997066f, 0.0015463054f, 0.0013242646f, 4.967257e-06f, 2.0952626e-05f, 0.00047586107f, -0.0002228538f},
-    {0.12966713f, 0.046556205f, -0.0020470694f, -0.0020619896f, 0.00074355776f, 0.00088149554f, -0.0007977326f, -5.4619282e-05f, 0.0004755272f, 4.9440303e-05f, 0.006865517f, 0.0017345336f, -0.0007772982f, 1.0120284e-05f, -1.0646576e-05f, 0.00024767587f, -0.00023351662f},
-    {0.17350021f, 0.041881382f, -0.00017746227f, 0.0020475015f, -0.000577102f, -0.0008507992f, -0.00046009244f, 0.00042775084f, -0.00031710914f, -0.00042611785f, 0.0076884897f, -0.00021678918f, -0.0010337004f, -2.1184447e-05f, -5.1962896e-05f, 8.679303e-05f, -8.824902e-05f},
-    {0.21601444f, 0.042545024f, -0.0015913304f, -0.0019133806f, 0.0005732271f, 0.0009367664f, -0.0006609816f, -0.0008850151f, -0.0004126374f, 0.00045700528f, 0.0065856404f, -0.0015174716f, -9.082497e-05f, -6.332922e-05f, -3.2326643e-05f, 4.428126e-05f, 3.2255152e-06f},
-    {0.25633156f, 0.038980182f, 0.0007928193f, 0.0025570446f, -0.0006498962f, -0.0011398377f, -0.0014303107f, -0.00016176091f, 0.00077976193f, -3.9735667e-05f, 0.005251103f, -0.00078616245f, 0.00064005546f, -0.00019715405f, -0.00023532308f, 2.567832e-05f, -4.0431405e-05f},
-    {0.2970957f, 0.041642196f, -0.0015803474f, -0.0030733878f, 0.0007093979f, 0.0014327144f, -0.0010545077f, 0.00034035777f, -0.0006195025f, -0.00046675676f, 0.0051362915f, 0.00055707357f, 0.0006411248f, -0.0006043756f, -0.00057912024f, -6.228017e-05f, -0.00013548562f},
-    {0.3359792f, 0.037309777f, 0.0015001848f, 0.0037646533f, -0.0009491017f, -0.0018305705f, -0.0015244033f, -0.0010544874f, -7.677182e-05f, 0.00064957194f, 0.006103966f, 0.00076516165f, -0.00058510393f, -0.0013131499f, -0.0008384284f, -0.00020049188f, -0.00014093779f},
-    {0.37613326f, 0.041314323f, -0.0029124015f, -0.0047452035f, 0.0016704218f, 0.0026359386f, -0.0021114098f, 0.00012646071f, 0.0005314284f, -0.00041711683f, 0.006228027f, -8.107796e-05f, 0.00028682113f, -0.0021986065f, -0.0009324851f, -0.00031433965f, -8.67577e-05f},
-    {0.4136264f, 0.037736442f, 0.008913557f, 0.011289578f, -0.00052529515f, -0.003628987f, -0.001975378f, -0.00032635804f, -0.0005869087f, 6.828746e-05f, 0.0068984344f, 0.0017341882f, 0.00091141113f, -0.002919142f, -0.00050858536f, -0.0004652173f, -0.00021499775f},
-    {0.46776968f, 0.07189801f, 0.012102716f, -0.011599745f, -0.0032152114f, 0.003436964f, -0.0026843362f, -0.0006476999f, 0.00043416853f, 0.00019843403f, 0.009152459f, 0.0022892894f, -5.773109e-05f, -0.0031617046f, 2.3460503e-05f, -0.0007361649f, -0.00032689757f},
-    {0.5403406f, 0.064965844f, -0.010869662f, 0.0019992127f, 0.003944236f, -0.0020469031f, -0.0029057506f, -5.5555312e-05f, -0.0001304118f, -0.00028589094f, 0.011489374f, 0.0023226505f, -0.00018151257f, -0.0030403698f, 0.0002192089f, -0.001060521f, -0.00032181444f},
-    {0.5982409f, 0.05426794f, -0.002118397f, -0.0008182486f, -0.0016903752f, 0.001133146f, -0.0032382763f, -0.0005481347f, -5.017322e-05f, 0.00020092256f, 0.013324272f, 0.0011183254f, -0.00063915126f, -0.0028665592f, 0.00012841272f, -0.0013270347f, -0.00021121281f},
-    {0.6490375f, 0.046581436f, -0.0036077544f, 0.0018995318f, 0.0005590378f, -0.0009744906f, -0.0036906665f, -0.00034484654f, 2.6848504e-05f, -9.407467e-05f, 0.014201822f, 0.0013041273f, 0.0006955537f, -0.0028089136f, -1.312188e-05f, -0.0015360051f, -0.00020672794f},
-    {0.6935768f, 0.043148503f, -0.0018660461f, -0.0012274429f, 0.00012836931f, 0.00093859754f, -0.004084678f, -0.0004282488f, 2.5020378e-05f, 3.070988e-05f, 0.016047014f, 0.0016046605f, -0.0008676437f, -0.002694903f, 0.00024114366f, -0.0017488962f, -0.00021905442f},
-    {0.73459095f, 0.03969146f, -0.00023698685f, 8.3557294e-05f, -0.0026727046f, -0.0019198192f, -0.004566246f, -0.0006791814f, -0.00033270806f, -0.0001689946f, 0.015737515f, -0.004116686f, -0.0046536927f, -0.0021854618f, 0.0007777389f, -0.0017659708f, 0.00018490561f},
+inline constexpr float kAlphaTable[4][16] = {
+    {0.107150465f, 0.18867496f, -0.00966539f, -0.018449422f, -0.099685036f, 0.20063059f, 0.10817895f, -0.5764991f, 0.46305418f, -3.0668198e-05f, 0.00036058534f, -0.0013200893f, -0.0070969593f, 0.00934451f, 0.01604966f, -0.027458536f},
+    {0.27793524f, 0.16666217f, -0.0052103964f, -0.042859666f, -0.018175723f, 0.08009426f, 0.030937294f, -0.043554153f, -0.011195597f, -0.0009788375f, -0.00066059164f, 0.00063740107f, -0.0012059327f, -0.00035192285f, 0.0013562635f, -0.0005212999f},
+    {0.44187617f, 0.22127636f, 0.1262159f, -0.014570217f, -0.17730485f, -0.036403447f, 0.11501783f, 0.034822725f, -0.031176072f, -0.0018761726f, -0.0016955755f, -0.0013009346f, -0.00027460273f, 0.0010931928f, 0.0011938951f, -2.648068e-07f},
+    {0.6741072f, 0.1668359f, 0.0034959007f, 0.17068957f, -0.19574422f, -0.5833028f, -0.06056157f, 0.7095424f, 0.57437736f, -0.0035604264f, -0.00011628646f, -8.878696e-06f, -0.008858834f, -0.0024240422f, 0.03549479f, 0.04351832f},
 };
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float x = alpha * 16.161581f - 0.16161524f;
-  const std::int32_t cell = cell_of(x, 15);
+  const float x = alpha * 4.0403953f - 0.04040381f;
+  const std::int32_t cell = cell_of(x, 3);
   const float u = x - (static_cast<float>(cell) + 0.5f);
   const float* row = kAlphaTable[cell];
   const float u_2 = u * u;
-  float c0 = row[5];
-  float c0_next = row[4];
-  c0 = c0 * u_2 + row[3];
-  c0_next = c0_next * u_2 + row[2];
-  c0 = c0 * u_2 + row[1];
-  c0_next = c0_next * u_2 + row[0];
-  c0 = c0 * u + c0_next;
-  float c1 = row[9];
-  c1 = c1 * u + row[8];
-  c1 = c1 * u + row[7];
-  c1 = c1 * u + row[6];
-  float c2 = row[12];
-  c2 = c2 * u + row[11];
-  c2 = c2 * u + row[10];
-  float c3 = row[14];
-  c3 = c3 * u + row[13];
-  float c4 = row[16];
-  c4 = c4 * u + row[15];
-  const float w = specular - 0.4666676f;
-  float sum = c4;
-  sum = sum * w + c3;
-  sum = sum * w + c2;
-  sum = sum * w + c1;
-  sum = sum * w + c0;
+  float c0 = row[8];
+  float c0_next = row[7];
+  c0 = c0 * u_2 + row[6];
+  c0_next = c0_next * u_2 + row[5];
+  c0 = c0 * u_2 + row[4];
+  c0_next = c0_next * u_2 + row[3];
+  c0 = c0 * u_2 + row[2];
+  c0_next = c0_next * u_2 + row[1];
+  c0 = c0 * u_2 + row[0];
+  c0 = c0_next * u + c0;
+  float c1 = row[15];
+  float c1_next = row[14];
+  c1 = c1 * u_2 + row[13];
+  c1_next = c1_next * u_2 + row[12];
+  c1 = c1 * u_2 + row[11];
+  c1_next = c1_next * u_2 + row[10];
+  c1 = c1 * u_2 + row[9];
+  c1 = c1_next * u + c1;
+  float sum = c1;
+  sum = sum * specular + c0;
   return sum;
 }
 
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
-inline constexpr float kSpecularTable[8][18] = {
-    {0.48031995f, -0.022720005f, -0.014353382f, 0.017346062f, -0.039000228f, 0.005375078f, 0.030260181f, 1.0348198f, -0.051580884f, -0.026091948f, 0.043924645f, -0.09273831f, 0.04820873f, 0.0013167546f, 0.0023826926f, -0.005274771f, -0.021726048f, 0.0013977461f},
-    {0.44539702f, -0.041925203f, 0.00084750564f, -0.0018805678f, -0.017186666f, 0.009330021f, 0.01934518f, 0.9601522f, -0.09389608f, -0.0027052478f, 0.018833421f, -0.010280039f, -0.008964029f, 0.00030460497f, -0.0005701421f, 0.0023989282f, -0.020009063f, 0.002036224f},
-    {0.40330842f, -0.03630108f, 0.008214796f, -0.011104787f, -0.008017089f, 0.0193921f, 0.008782123f, 0.87026733f, -0.083186135f, 0.0138300415f, 0.012185864f, -0.003481029f, -0.012232908f, 0.00084007025f, 0.000110866f, -0.000661485f, -0.018175263f, 0.0016313749f},
-    {0.3720461f, -0.024899786f, -0.001236108f, -0.011680581f, 0.023306208f, 0.020762052f, -0.024912644f, 0.80197126f, -0.05925306f, 0.01060651f, 0.017413115f, 0.0031266403f, -0.02518286f, 0.0012367085f, 4.0950727e-05f, -0.0019444056f, -0.016857056f, 0.00100504f},
-    {0.3506593f, -0.020999556f, -0.01426501f, 0.017004259f, 0.08996671f, 0.006466116f, -0.086069494f, 0.7534751f, -0.051637903f, 0.006888521f, 0.07523297f, 0.05711217f, -0.04479462f, -0.0009494573f, -0.0011246327f, 0.004632896f, -0.015955674f, 0.00079772447f},
-    {0.3605931f, 0.04138112f, -0.028726242f, -0.0565624f, 0.09582954f, 0.03634792f, -0.09253108f, 0.7759167f, 0.087145895f, -0.028423611f, -0.11272689f, 0.060827576f, 0.06970537f, 0.0014936693f, 0.0018695495f, -0.0036497782f, -0.016206244f, -0.0012988669f},
-    {0.3768184f, 0.0019769517f, -0.015501481f, 0.0041976427f, 0.02735565f, -0.004697811f, -0.03680958f, 0.81022394f, 0.0063995635f, -0.009647864f, -0.014369742f, -0.018999869f, 0.030336581f, 0.00076602586f, -0.00026352267f, 0.0024728503f, -0.016889233f, -6.711057e-05f},
-    {0.37156877f, -0.0094526885f, 0.0035458787f, 0.013383053f, -0.021887373f, -0.042091947f, -0.0007768125f, 0.79975533f, -0.016529461f, 0.011853766f, -0.0045428225f, -0.061061677f, -0.03971276f, 0.0015520133f, -0.00022400143f, -0.0016461469f, -0.016913254f, 1.9071314e-05f},
-};
 template <class Count>
 inline void specular_terms(Count count, Terms& terms) noexcept {
   const std::size_t size = count;
@@ -160,44 +136,43 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float x = alpha * 8.0807905f - 0.08080762f;
-    const std::int32_t cell = cell_of(x, 7);
-    const float u = x - (static_cast<float>(cell) + 0.5f);
-    const float* row = kSpecularTable[cell];
+    const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = row[6];
-    float c0_next = row[5];
-    c0 = c0 * u_2 + row[4];
-    c0_next = c0_next * u_2 + row[3];
-    c0 = c0 * u_2 + row[2];
-    c0_next = c0_next * u_2 + row[1];
-    c0 = c0 * u_2 + row[0];
+    float c0 = 2685.3474f;
+    float c0_next = -23.097363f;
+    c0 = c0 * u_2 + -1896.34f;
+    c0_next = c0_next * u_2 + 17.676815f;
+    c0 = c0 * u_2 + 495.76965f;
+    c0_next = c0_next * u_2 + -5.1955667f;
+    c0 = c0 * u_2 + -58.662823f;
+    c0_next = c0_next * u_2 + 0.70819235f;
+    c0 = c0 * u_2 + 3.050696f;
+    c0_next = c0_next * u_2 + -0.041183725f;
+    c0 = c0 * u_2 + -0.05505738f;
+    c0_next = c0_next * u_2 + 0.0016353525f;
+    c0 = c0 * u_2 + -0.0009007286f;
     c0 = c0_next * u + c0;
-    float c1 = row[12];
-    float c1_next = row[11];
-    c1 = c1 * u_2 + row[10];
-    c1_next = c1_next * u_2 + row[9];
-    c1 = c1 * u_2 + row[8];
-    c1_next = c1_next * u_2 + row[7];
+    float c1 = 4656.7144f;
+    float c1_next = -2172.5647f;
+    c1 = c1 * u_2 + -3735.0925f;
+    c1_next = c1_next * u_2 + 1352.6748f;
+    c1 = c1 * u_2 + 1159.7458f;
+    c1_next = c1_next * u_2 + -287.54208f;
+    c1 = c1 * u_2 + -169.5984f;
+    c1_next = c1_next * u_2 + 19.69133f;
+    c1 = c1 * u_2 + 10.999624f;
+    c1_next = c1_next * u_2 + 0.9452146f;
+    c1 = c1 * u_2 + -0.47827813f;
+    c1_next = c1_next * u_2 + 0.77132416f;
     c1 = c1 * u + c1_next;
-    float c2 = row[15];
-    c2 = c2 * u + row[14];
-    c2 = c2 * u + row[13];
-    float c3 = row[17];
-    c3 = c3 * u + row[16];
     terms.c0[i] = c0;
     terms.c1[i] = c1;
-    terms.c2[i] = c2;
-    terms.c3[i] = c3;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.4666676f;
-  float sum = terms.c3[i];
-  sum = sum * w + terms.c2[i];
-  sum = sum * w + terms.c1[i];
-  sum = sum * w + terms.c0[i];
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
   return sum;
 }
 
@@ -267,10 +242,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 1.0714285f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -284,6 +275,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -391,8 +396,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -402,13 +412,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -420,15 +519,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -436,16 +542,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -516,19 +625,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.93333334f}, {0.009416862f, 0.9671884f}, {8.5e-06f, 6.1e-05f}},
-      {{0.13375f, 0.875f}, {0.10686411f, 0.8743561f}, {8.5e-06f, 6.1e-05f}},
-      {{0.2575f, 0.81666666f}, {0.19535242f, 0.74307764f}, {8.6e-06f, 6e-05f}},
-      {{0.38125f, 0.7583333f}, {0.27629647f, 0.628671f}, {8.6e-06f, 6e-05f}},
-      {{0.505f, 0.7f}, {0.3552207f, 0.54057956f}, {8.7e-06f, 6e-05f}},
-      {{0.62875f, 0.64166665f}, {0.435816f, 0.47277078f}, {8.7e-06f, 6e-05f}},
-      {{0.7525f, 0.5833333f}, {0.57035387f, 0.46653613f}, {8.8e-06f, 6e-05f}},
-      {{0.87625f, 0.525f}, {0.6714919f, 0.42263448f}, {8.8e-06f, 6e-05f}},
-      {{1.0f, 0.46666667f}, {0.75415957f, 0.36670583f}, {8.8e-06f, 6e-05f}},
-      {{0.005f, 0.46666667f}, {0.007694827f, 0.48378974f}, {8.5e-06f, 6e-05f}},
-      {{1.5f, 0.23333333f}, {0.7560278f, 0.18291631f}, {8.8e-06f, 6e-05f}},
-      {{0.505f, 0.0f}, {0.3578348f, 0.0f}, {8.7e-06f, 6e-05f}},
-      {{0.505f, 1.8666667f}, {0.35562602f, 1.4409074f}, {8.7e-06f, 0.00012f}},
+      {{0.01f, 1.0f}, {0.008205395f, 1.0f}, {7.6e-06f, 2.1e-05f}},
+      {{0.13375f, 0.9375f}, {0.107121535f, 0.93673956f}, {7.7e-06f, 2.1e-05f}},
+      {{0.2575f, 0.875f}, {0.19544007f, 0.79466236f}, {7.7e-06f, 2.1e-05f}},
+      {{0.38125f, 0.8125f}, {0.2771394f, 0.6748313f}, {7.7e-06f, 2.1e-05f}},
+      {{0.505f, 0.75f}, {0.3551058f, 0.5775928f}, {7.8e-06f, 2.1e-05f}},
+      {{0.62875f, 0.6875f}, {0.44058517f, 0.51227456f}, {7.8e-06f, 2.1e-05f}},
+      {{0.7525f, 0.625f}, {0.57011247f, 0.49877f}, {7.9e-06f, 2.1e-05f}},
+      {{0.87625f, 0.5625f}, {0.6721032f, 0.45204678f}, {7.9e-06f, 2.1e-05f}},
+      {{1.0f, 0.5f}, {0.7545675f, 0.39249033f}, {8e-06f, 2.1e-05f}},
+      {{0.005f, 0.5f}, {0.008205606f, 0.5177851f}, {7.6e-06f, 2.1e-05f}},
+      {{1.5f, 0.25f}, {0.7553401f, 0.1960202f}, {8e-06f, 2.1e-05f}},
+      {{0.505f, 0.0f}, {0.356072f, 0.0f}, {7.8e-06f, 2e-05f}},
+      {{0.505f, 2.0f}, {0.35478374f, 1.5408479f}, {7.8e-06f, 4.1e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_phong.csv, sha256 e30dbcedae6b89b5831789112d7188168521e7b4795668b2afa66c58001cc5c0;
+// Table mitsuba_ward_duer_to_mitsuba_phong.csv, sha256 480b6d23d76a18582d1164377933f7911676ab6afe41528b1e9389de19647bb5;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: mlp, seed 1, 576 rows trained, 144 held out.
-// Error on the rows held out: alpha rms 9e-06, 99 % 2.4e-05, max 2.4e-05;
-// specular rms 5.7e-05, 99 % 0.00019, max 0.00031.
-// Lowered from the fit. Target alpha: degree 5 on 16 pieces in alpha / (alpha + 1), proven within 8.9e-06 (sampled 8.1e-06), rising with alpha.
-// Target specular: degree 6 on 4 pieces, 7 in specular, proven within 1e-04 (sampled 9.8e-05), rising with specular.
-// Covers alpha 0.01 to 1, specular 0 to 0.8.
+// Fit: mlp, seed 1, 752 rows trained, 188 held out.
+// Error on the rows held out: alpha rms 1.2e-05, 99 % 2.7e-05, max 4.5e-05;
+// specular rms 4.8e-05, 99 % 2e-04, max 0.00025.
+// Lowered from the fit. Target alpha: degree 5 on 16 pieces in alpha / (alpha + 1), proven within 9.2e-06 (sampled 8.2e-06), rising with alpha.
+// Target specular: degree 6 on 4 pieces, 3 in specular, proven within 8.4e-05 (sampled 7.6e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 4, 2 in specular, proven within 3e-05 (sampled 1.4e-05), rising with alpha.
+// All together within 3.5e-05 in alpha, 8.4e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_PHONG_HPP
 
@@ -36,8 +38,8 @@ inline constexpr const char* kTargetRoughness = "exponent";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 9e-06f;
-inline constexpr float kSpecularRmsError = 5.7e-05f;
+inline constexpr float kAlphaRmsError = 1.2e-05f;
+inline constexpr float kSpecularRmsError = 4.8e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.3f;
@@ -55,7 +57,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{1.0f, 0.8f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -82,22 +84,22 @@ inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
 }
 
 inline constexpr float kAlphaTable[16][6] = {
-    {0.042668186f, 0.053104732f, 0.0015248077f, -3.0480245e-05f, -3.851821e-06f, -1.7947796e-08f},
-    {0.09726339f, 0.056047466f, 0.0014102273f, -4.5842666e-05f, -3.7541827e-06f, 5.8650322e-08f},
-    {0.15467155f, 0.058715723f, 0.0012509236f, -6.0034363e-05f, -3.2688185e-06f, 1.3264642e-07f},
-    {0.21457504f, 0.061025098f, 0.0010526439f, -7.1629605e-05f, -2.494342e-06f, 1.6733826e-07f},
-    {0.2765788f, 0.06290635f, 0.00082442746f, -7.999916e-05f, -1.7351645e-06f, 1.2167447e-07f},
-    {0.34022796f, 0.06430879f, 0.0005750241f, -8.6039996e-05f, -1.3896527e-06f, 1.761896e-08f},
-    {0.40502435f, 0.065195225f, 0.0003086787f, -9.146177e-05f, -1.2259401e-06f, 1.2206952e-07f},
-    {0.47043577f, 0.065534286f, 2.929928e-05f, -9.33436e-05f, 1.027179e-06f, 8.629357e-07f},
-    {0.5359079f, 0.06532157f, -0.00023530817f, -8.046963e-05f, 3.664007e-06f, -1.1214642e-06f},
-    {0.6009152f, 0.064610675f, -0.00048969f, -0.0001136786f, -3.1016352e-05f, -1.0320499e-05f},
-    {0.664887f, 0.06316183f, -0.00095952215f, -5.417953e-05f, 0.00017794385f, 7.9721955e-05f},
-    {0.72717303f, 0.06125543f, -0.0022253825f, -0.002309389f, 0.001269412f, 0.0039056987f},
-    {0.7883701f, 0.06672337f, 0.0066621685f, -0.010254607f, -0.0074958927f, 0.010564925f},
-    {0.85290736f, 0.058815427f, -0.0053582736f, 0.0012990289f, -0.0005906587f, -0.0005234704f},
-    {0.9069085f, 0.049313128f, -0.004637002f, 9.115846e-05f, 2.2362641e-05f, -6.0380647e-05f},
-    {0.9516457f, 0.040164307f, -0.0046223905f, -6.6323926e-05f, 3.9930197e-05f, 6.410934e-05f},
+    {0.042667188f, 0.053107582f, 0.0015304976f, -3.5197725e-05f, -3.0408687e-06f, 2.2918947e-08f},
+    {0.09726705f, 0.056050934f, 0.0014068848f, -4.713943e-05f, -2.9354978e-06f, 1.7500438e-08f},
+    {0.15467481f, 0.058711626f, 0.0012480115f, -5.8729947e-05f, -2.8640447e-06f, 1.3440449e-08f},
+    {0.21457286f, 0.061020076f, 0.0010547967f, -7.0009206e-05f, -2.7517801e-06f, 3.7969688e-08f},
+    {0.27657503f, 0.062908866f, 0.00082875416f, -8.0457576e-05f, -2.4013852e-06f, 1.1053838e-07f},
+    {0.3402299f, 0.06431603f, 0.0005743037f, -8.861762e-05f, -1.5559763e-06f, 2.3572673e-07f},
+    {0.4050303f, 0.06519385f, 0.00030179555f, -9.2004586e-05f, 1.7403407e-08f, 3.919971e-07f},
+    {0.47043437f, 0.06552352f, 2.996885e-05f, -8.785058e-05f, 1.94239e-06f, 2.5272954e-07f},
+    {0.5359021f, 0.0653281f, -0.00022198033f, -8.19403e-05f, -1.5023073e-06f, -2.3690884e-06f},
+    {0.6009218f, 0.06461633f, -0.00051231246f, -0.0001278205f, -2.1682372e-05f, -1.2934892e-06f},
+    {0.66488034f, 0.06315555f, -0.00090911373f, -1.6461985e-05f, 0.00012958107f, 2.830041e-05f},
+    {0.7271742f, 0.061218493f, -0.002219926f, -0.0020904108f, 0.001242957f, 0.0035604597f},
+    {0.7883713f, 0.06672048f, 0.0066165873f, -0.01034688f, -0.007412995f, 0.010851531f},
+    {0.8529103f, 0.0588236f, -0.0054289717f, 0.00129662f, -0.00046131853f, -0.00056937285f},
+    {0.9069058f, 0.049327455f, -0.004637896f, 3.876164e-05f, 3.20449e-05f, -1.8555216e-05f},
+    {0.95164126f, 0.040166583f, -0.004589939f, -6.957907e-05f, -3.845083e-05f, 1.6309075e-05f},
 };
 inline float target_alpha(float alpha, float) noexcept {
   const float t = alpha / (alpha + 1.0f);
@@ -119,14 +121,16 @@ inline float target_alpha(float alpha, float) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
-inline constexpr float kSpecularTable[4][26] = {
-    {0.48339507f, -0.05839112f, -0.044428367f, 0.017543023f, -0.007792529f, 0.0062533673f, -0.0010630052f, 1.2086006f, -0.14591901f, -0.111996554f, 0.04523254f, -0.017625045f, 0.010784174f, -5.7579673e-06f, -0.0004228673f, 0.0009244369f, -0.0065090675f, 0.00416874f, 0.005461387f, -0.012473164f, 0.12681368f, -0.14258303f, -0.010598296f, 0.02787964f, -0.60282934f, 0.76675695f},
-    {0.3950382f, -0.104512334f, -0.0030163887f, 0.010482056f, -0.0053062313f, -0.0014508116f, 0.0021358065f, 0.9876292f, -0.26150498f, -0.0077512986f, 0.026748376f, -0.01240088f, -0.004375122f, 0.004446176f, -2.2440314e-05f, -0.00012358304f, -0.0013078502f, 0.006233694f, -0.0005808804f, 0.0003886299f, 0.020570861f, -0.06990261f, 0.0074434998f, 0.008203952f, -0.103468396f, 0.23196492f},
-    {0.29412857f, -0.08953299f, 0.0227739f, -0.0042844038f, -0.05090089f, 0.0028356798f, 0.0729874f, 0.73524654f, -0.22401528f, 0.056477085f, -0.011012837f, -0.1262577f, 0.009600916f, 0.18439496f, -0.00046033747f, -0.0007522114f, 0.0018593407f, 0.00010068708f, 0.0033486527f, 0.0074704373f, -0.00855157f, 0.011657756f, -0.001800686f, -0.026692327f, -0.004209752f, -0.03344767f},
-    {0.21461667f, -0.070853844f, 0.012184812f, 0.001927482f, -0.012568888f, -0.0020543141f, 0.028174127f, 0.5364002f, -0.17672835f, 0.027054828f, 0.0018064055f, 0.0033007457f, 0.001161787f, -0.012838053f, -0.00020269598f, 0.0012674948f, 0.0017557126f, -0.0003079434f, 0.001898791f, -0.010370165f, -0.003256311f, -0.0010672418f, -0.008173589f, 0.013946531f, -0.008424647f, 0.025017891f},
+inline constexpr float kSpecularTable[4][20] = {
+    {0.60422695f, -0.07254306f, -0.054567296f, 0.01685515f, -0.012368959f, 0.021122186f, -0.0066354834f, 1.2085825f, -0.14570913f, -0.10980729f, 0.037989296f, -0.026215266f, 0.031385146f, 0.0007227812f, 1.6590202e-05f, -0.001122688f, 0.00010396259f, 0.0038478218f, -0.0006269742f, 0.001316772f},
+    {0.49385598f, -0.1304406f, -0.005455049f, 0.010843075f, 0.00029220208f, 0.0033424806f, -0.0042958967f, 0.9877109f, -0.2611663f, -0.010836805f, 0.024763307f, 0.0018728746f, 0.00046179382f, -0.013669414f, 0.00017166721f, 0.00015545824f, -0.00055902905f, -6.427073e-05f, -5.4985572e-05f, -0.00017279472f},
+    {0.3676038f, -0.112193935f, 0.03110537f, -0.0037548554f, -0.08412902f, 0.0029269115f, 0.13350046f, 0.73516417f, -0.22405392f, 0.059384685f, -0.011784727f, -0.1438246f, 0.015959827f, 0.21819216f, -0.00014637422f, 0.0007771924f, 0.0010804228f, -0.0029317609f, 5.016318e-05f, 0.00038309232f},
+    {0.26830468f, -0.08834548f, 0.012850826f, -0.00039551925f, 0.0052534444f, 0.005820039f, -0.00978276f, 0.53642505f, -0.17669949f, 0.027523803f, -0.00085962727f, 0.0014262104f, 0.009068674f, -0.008941263f, 4.9379858e-05f, 0.0012189441f, -0.0008419471f, -0.007331495f, 0.00054251554f, 0.00060161244f},
 };
 template <class Count>
 inline void specular_terms(Count count, Terms& terms) noexcept {
@@ -161,39 +165,49 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
     c1_next = c1_next * u_2 + row[8];
     c1 = c1 * u_2 + row[7];
     c1 = c1_next * u + c1;
-    float c2 = row[15];
+    float c2 = row[17];
+    c2 = c2 * u + row[16];
+    c2 = c2 * u + row[15];
     c2 = c2 * u + row[14];
-    float c3 = row[17];
-    c3 = c3 * u + row[16];
-    float c4 = row[19];
-    c4 = c4 * u + row[18];
-    float c5 = row[21];
-    c5 = c5 * u + row[20];
-    float c6 = row[23];
-    c6 = c6 * u + row[22];
-    float c7 = row[25];
-    c7 = c7 * u + row[24];
+    float c3 = row[19];
+    c3 = c3 * u + row[18];
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
     terms.c3[i] = c3;
-    terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
-    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.4000008f;
-  float sum = terms.c7[i];
-  sum = sum * w + terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
-  sum = sum * w + terms.c3[i];
+  const float w = specular - 0.500001f;
+  float sum = terms.c3[i];
   sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
   sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = 2.789202f;
+  float c0_next = 2.7393825f;
+  c0 = c0 * u_2 + -0.09268294f;
+  c0_next = c0_next * u_2 + 0.9237332f;
+  c0 = c0 * u_2 + 0.66151315f;
+  c0 = c0_next * u + c0;
+  float c1 = -0.42777503f;
+  c1 = c1 * u + -0.6558936f;
+  c1 = c1 * u + -0.09781896f;
+  c1 = c1 * u + 0.06295408f;
+  float c2 = 0.1716948f;
+  c2 = c2 * u + 0.05165702f;
+  c2 = c2 * u + -0.017463254f;
+  const float w = specular - 0.90113795f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -263,13 +277,29 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 1.25f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return 2.0f / (alpha * alpha) - 2.0f; }
-  static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
   static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
     return detail::target_alpha(terms.alpha[i], top);
   }
@@ -280,6 +310,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.80227554f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -387,8 +431,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -398,13 +447,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -416,15 +554,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -432,16 +577,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -512,19 +660,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.8f}, {7343.612f, 0.99709284f}, {7.9f, 1e-04f}},
-      {{0.13375f, 0.75f}, {40.75152f, 0.90639627f}, {0.0036f, 1e-04f}},
-      {{0.2575f, 0.7f}, {10.752384f, 0.7787024f}, {0.00058f, 1e-04f}},
-      {{0.38125f, 0.65000004f}, {4.6559143f, 0.6419526f}, {0.00022f, 1e-04f}},
-      {{0.505f, 0.6f}, {2.4136248f, 0.5144894f}, {0.00012f, 1e-04f}},
-      {{0.62875f, 0.55f}, {1.3379246f, 0.40443373f}, {7.8e-05f, 1e-04f}},
-      {{0.7525f, 0.5f}, {0.6781609f, 0.3156893f}, {5.6e-05f, 1e-04f}},
-      {{0.87625f, 0.45000002f}, {0.32758906f, 0.24143584f}, {4.5e-05f, 1e-04f}},
-      {{1.0f, 0.4f}, {0.12313787f, 0.1820675f}, {4e-05f, 1e-04f}},
-      {{0.005f, 0.4f}, {7343.612f, 0.49858308f}, {7.9f, 1e-04f}},
-      {{1.5f, 0.2f}, {0.12313787f, 0.09105397f}, {4e-05f, 1e-04f}},
-      {{0.505f, 0.0f}, {2.4136248f, 5.2727708e-05f}, {0.00012f, 1e-04f}},
-      {{0.505f, 1.6f}, {2.4136248f, 1.3719674f}, {0.00012f, 2e-04f}},
+      {{0.01f, 1.0f}, {6918.77f, 1.0f}, {29.0f, 8.5e-05f}},
+      {{0.13375f, 0.9375f}, {39.428947f, 1.0f}, {0.013f, 8.5e-05f}},
+      {{0.2575f, 0.875f}, {10.751997f, 0.9733492f}, {0.0023f, 8.5e-05f}},
+      {{0.38125f, 0.8125f}, {4.6560154f, 0.80251575f}, {0.00084f, 8.5e-05f}},
+      {{0.505f, 0.75f}, {2.4137115f, 0.64302856f}, {0.00046f, 8.4e-05f}},
+      {{0.62875f, 0.6875f}, {1.3379188f, 0.505442f}, {3e-04f, 8.4e-05f}},
+      {{0.7525f, 0.625f}, {0.6781487f, 0.3946711f}, {0.00022f, 8.4e-05f}},
+      {{0.87625f, 0.5625f}, {0.32758874f, 0.30184314f}, {0.00018f, 8.4e-05f}},
+      {{1.0f, 0.5f}, {0.1231465f, 0.2276302f}, {0.00016f, 8.4e-05f}},
+      {{0.005f, 0.5f}, {7343.934f, 0.6232248f}, {31.0f, 8.4e-05f}},
+      {{1.5f, 0.25f}, {0.1231465f, 0.11385141f}, {0.00016f, 8.4e-05f}},
+      {{0.505f, 0.0f}, {2.4137115f, 4.5110337e-05f}, {0.00046f, 8.4e-05f}},
+      {{0.505f, 2.0f}, {2.4137115f, 1.7148014f}, {0.00046f, 0.00017f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_ward.csv, sha256 f374774750bede8b8b277328d2cf1f0ba0eaeed4ff87dc04b6ff994e3fd89bbe;
+// Table mitsuba_ward_duer_to_mitsuba_ward.csv, sha256 4ffe6d2a5e43b9d7f9cc11dee4779c28bc0138417be2d086903d5cbc03a9ace4;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 280 rows trained, 70 held out.
-// Error on the rows held out: alpha rms 7.6e-05, 99 % 0.00014, max 0.00014;
-// specular rms 0.00015, 99 % 0.00056, max 0.00056.
-// Lowered from the fit. Target alpha: degree 4, proven within 3.7e-07 (sampled 3.3e-08), rising with alpha.
-// Target specular: degree 6, proven within 8.8e-05 (sampled 8.1e-05), rising with specular.
-// Covers alpha 0.01 to 0.829310345, specular 0 to 0.466666667.
+// Fit: series, seed 1, 827 rows trained, 207 held out.
+// Error on the rows held out: alpha rms 0.0014, 99 % 0.0052, max 0.006;
+// specular rms 0.00011, 99 % 0.00045, max 7e-04.
+// Lowered from the fit. Target alpha: degree 6, proven within 3.8e-07 (sampled 3.3e-08), rising with alpha.
+// Target specular: degree 6, proven within 3.6e-05 (sampled 3.4e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 3 in alpha / (alpha + 1), proven within 8.8e-05 (sampled 8.2e-05), rising with specular.
+// Where specular is at its limit, target alpha: degree 14 in alpha / (alpha + 1), 8 in specular, proven within 1e-04 (sampled 8.9e-05), rising with alpha.
+// All together within 0.00015 in alpha, 8.8e-05 in specular.
+// Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_WARD_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_WARD_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 7.6e-05f;
-inline constexpr float kSpecularRmsError = 0.00015f;
+inline constexpr float kAlphaRmsError = 0.0014f;
+inline constexpr float kSpecularRmsError = 0.00011f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.042f;
+inline constexpr float kImageRmsError = 0.14f;
 
 struct Input {
   float alpha;  // microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. specular is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.01f, 0.0f};
-inline constexpr Input kDomainMax{0.82931036f, 0.46666667f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -74,31 +77,179 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
-  const float u = alpha - 0.41965604f;
+inline float target_alpha(float alpha, float) noexcept {
+  const float u = alpha - 0.42335886f;
   const float u_2 = u * u;
-  float c0 = 0.11948961f;
-  float c0_next = 0.33324423f;
-  c0 = c0 * u_2 + 0.3445847f;
-  c0_next = c0_next * u_2 + 1.1440103f;
-  c0 = c0 * u_2 + 0.44032842f;
+  float c0 = -0.2347847f;
+  float c0_next = 0.040674023f;
+  c0 = c0 * u_2 + 0.17954487f;
+  c0_next = c0_next * u_2 + 0.32397413f;
+  c0 = c0 * u_2 + 0.34458074f;
+  c0_next = c0_next * u_2 + 1.1471356f;
+  c0 = c0 * u_2 + 0.44460386f;
   c0 = c0_next * u + c0;
   return c0;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float u = alpha - 0.41965604f;
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float u = alpha - 0.42335886f;
+    const float u_2 = u * u;
+    float c0 = 0.07175995f;
+    float c0_next = 0.016151672f;
+    c0 = c0 * u_2 + -0.015965572f;
+    c0_next = c0_next * u_2 + -0.0034676248f;
+    c0 = c0 * u_2 + 0.0007745123f;
+    c0_next = c0_next * u_2 + 0.00013474547f;
+    c0 = c0 * u_2 + -2.422384e-06f;
+    c0 = c0_next * u + c0;
+    float c1 = 2.3673177f;
+    float c1_next = 0.5002267f;
+    c1 = c1 * u_2 + -0.34664798f;
+    c1_next = c1_next * u_2 + 0.17401047f;
+    c1 = c1 * u_2 + 1.0024989f;
+    c1_next = c1_next * u_2 + 0.7407824f;
+    c1 = c1 * u_2 + 1.5232482f;
+    c1 = c1_next * u + c1;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.4773119f;
+  float c0 = 15.125186f;
+  c0 = c0 * u + 0.014172413f;
+  c0 = c0 * u + -0.008383349f;
+  c0 = c0 * u + 2.9633526e-05f;
+  float c1 = 58.297523f;
+  c1 = c1 * u + 5.6615667f;
+  c1 = c1 * u + -10.018868f;
+  c1 = c1 * u + 1.7856948f;
+  float sum = c1;
+  sum = sum * specular + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float t = alpha / (alpha + 1.0f);
+  const float u = t - 0.25495073f;
   const float u_2 = u * u;
-  float c1 = 2.900729f;
-  float c1_next = 0.53507495f;
-  c1 = c1 * u_2 + -0.47190168f;
-  c1_next = c1_next * u_2 + 0.16162585f;
-  c1 = c1 * u_2 + 1.0052872f;
-  c1_next = c1_next * u_2 + 0.7339033f;
-  c1 = c1 * u_2 + 1.5205252f;
+  float c0 = -78613672.0f;
+  float c0_next = -27501176.0f;
+  c0 = c0 * u_2 + 7708780.0f;
+  c0_next = c0_next * u_2 + 2844496.8f;
+  c0 = c0 * u_2 + -396059.25f;
+  c0_next = c0_next * u_2 + -111066.42f;
+  c0 = c0 * u_2 + 24810.482f;
+  c0_next = c0_next * u_2 + 5759.209f;
+  c0 = c0 * u_2 + -379.8146f;
+  c0_next = c0_next * u_2 + -207.61891f;
+  c0 = c0 * u_2 + -27.484486f;
+  c0_next = c0_next * u_2 + 0.1823277f;
+  c0 = c0 * u_2 + 2.4838178f;
+  c0_next = c0_next * u_2 + 1.8930445f;
+  c0 = c0 * u_2 + 0.35188404f;
+  c0 = c0_next * u + c0;
+  float c1 = -4856726.5f;
+  float c1_next = -1642701.9f;
+  c1 = c1 * u_2 + 384465.75f;
+  c1_next = c1_next * u_2 + 149929.69f;
+  c1 = c1 * u_2 + -10997.636f;
+  c1_next = c1_next * u_2 + -2321.4014f;
+  c1 = c1 * u_2 + 1497.071f;
+  c1_next = c1_next * u_2 + 218.31313f;
+  c1 = c1 * u_2 + -40.649178f;
+  c1_next = c1_next * u_2 + -23.399578f;
+  c1 = c1 * u_2 + -7.0231113f;
+  c1_next = c1_next * u_2 + -0.9261933f;
+  c1 = c1 * u_2 + -0.022181693f;
   c1 = c1_next * u + c1;
-  return c1;
+  float c2 = 97982.02f;
+  float c2_next = 16079.567f;
+  c2 = c2 * u_2 + -15304.417f;
+  c2_next = c2_next * u_2 + -3985.5378f;
+  c2 = c2 * u_2 + -176.88899f;
+  c2_next = c2_next * u_2 + 25.170744f;
+  c2 = c2 * u_2 + 55.764706f;
+  c2_next = c2_next * u_2 + 14.680933f;
+  c2 = c2 * u_2 + 0.73737025f;
+  c2_next = c2_next * u_2 + -0.013979954f;
+  c2 = c2 * u + c2_next;
+  float c3 = 92602.914f;
+  float c3_next = 35477.652f;
+  c3 = c3 * u_2 + 4815.62f;
+  c3_next = c3_next * u_2 + 300.08743f;
+  c3 = c3 * u_2 + -609.63684f;
+  c3_next = c3_next * u_2 + -327.98245f;
+  c3 = c3 * u_2 + 16.196999f;
+  c3_next = c3_next * u_2 + 7.0490184f;
+  c3 = c3 * u_2 + -0.19115926f;
+  c3 = c3_next * u + c3;
+  float c4 = -11363.453f;
+  float c4_next = -464.38455f;
+  c4 = c4 * u_2 + 3933.3577f;
+  c4_next = c4_next * u_2 + 753.5125f;
+  c4 = c4 * u_2 + -579.296f;
+  c4_next = c4_next * u_2 + 7.6068745f;
+  c4 = c4 * u_2 + 6.8006124f;
+  c4 = c4_next * u + c4;
+  float c5 = -59979.504f;
+  float c5_next = -20195.186f;
+  c5 = c5 * u_2 + 2136.7974f;
+  c5_next = c5_next * u_2 + 3412.3235f;
+  c5 = c5 * u_2 + 2113.0469f;
+  c5_next = c5_next * u_2 + -558.9851f;
+  c5 = c5 * u_2 + -8.0835f;
+  c5 = c5_next * u + c5;
+  float c6 = -22573.2f;
+  float c6_next = -9640.3955f;
+  c6 = c6 * u_2 + -767.1219f;
+  c6_next = c6_next * u_2 + 2417.0127f;
+  c6 = c6 * u_2 + -236.76778f;
+  c6 = c6_next * u + c6;
+  float c7 = -4101.1904f;
+  c7 = c7 * u + -2970.5874f;
+  c7 = c7 * u + 915.4564f;
+  const float c8 = -796.28406f;
+  const float w = specular - 0.749061f;
+  float sum = c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -167,14 +318,53 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
-                                 kDomainMax.specular, 2.142857f};
+                                 kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return alpha; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.83671594f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.8335968f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.49812102f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -185,20 +375,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, held at 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float held, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(held) & 0x7fffffffu));
+  return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -207,16 +424,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const HeldWidth held = held_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(held.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), held.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), held.nan));
-    store(block.outside + i, held.outside);
+    const HeldWidth held = held_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(held.own));
+    store(block.scale + i, with_nan(1.0f, held.nan));
+    store(block.outside + i, held.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -226,18 +464,173 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, held_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
   }
+}
+
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
+template <class Count>
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
+  }
+}
+
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
+  }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
+  mapping.find_terms(count, block.terms);
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -308,19 +701,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 0.46666667f}, {0.009960627f, 0.64019895f}, {8.5e-07f, 8.8e-05f}},
-      {{0.112413794f, 0.4375f}, {0.112767845f, 0.60464764f}, {9e-07f, 8.8e-05f}},
-      {{0.21482758f, 0.40833333f}, {0.21780609f, 0.5758631f}, {9.5e-07f, 8.8e-05f}},
-      {{0.31724137f, 0.37916666f}, {0.32643443f, 0.5518826f}, {1e-06f, 8.8e-05f}},
-      {{0.41965517f, 0.35f}, {0.44032744f, 0.53218144f}, {1.1e-06f, 8.8e-05f}},
-      {{0.522069f, 0.32083333f}, {0.56147516f, 0.51542825f}, {1.2e-06f, 8.8e-05f}},
-      {{0.62448275f, 0.29166666f}, {0.692183f, 0.4998878f}, {1.2e-06f, 8.8e-05f}},
-      {{0.7268966f, 0.2625f}, {0.83507216f, 0.48437667f}, {1.3e-06f, 8.8e-05f}},
-      {{0.82931036f, 0.23333333f}, {0.9930789f, 0.46839896f}, {1.4e-06f, 8.8e-05f}},
-      {{0.005f, 0.23333333f}, {0.009960627f, 0.32009947f}, {8.5e-07f, 8.8e-05f}},
-      {{1.2439655f, 0.11666667f}, {0.9930789f, 0.23419948f}, {1.4e-06f, 8.8e-05f}},
-      {{0.41965517f, 0.0f}, {0.44032744f, 0.0f}, {1.1e-06f, 8.8e-05f}},
-      {{0.41965517f, 0.93333334f}, {0.44032744f, 1.4191506f}, {1.1e-06f, 0.00018f}},
+      {{0.01f, 1.0f}, {0.010475228f, 1.0f}, {0.00015f, 8.9e-05f}},
+      {{0.13375f, 0.9375f}, {0.13808379f, 1.0f}, {0.00015f, 8.9e-05f}},
+      {{0.2575f, 0.875f}, {0.2639953f, 1.0f}, {0.00015f, 8.9e-05f}},
+      {{0.38125f, 0.8125f}, {0.3901297f, 1.0f}, {0.00015f, 8.9e-05f}},
+      {{0.505f, 0.75f}, {0.51873845f, 1.0f}, {0.00015f, 8.9e-05f}},
+      {{0.62875f, 0.6875f}, {0.65078545f, 1.0f}, {0.00015f, 8.9e-05f}},
+      {{0.7525f, 0.625f}, {0.79641354f, 1.0f}, {0.00015f, 8.9e-05f}},
+      {{0.87625f, 0.5625f}, {0.97312695f, 1.0f}, {0.00016f, 8.9e-05f}},
+      {{1.0f, 0.5f}, {1.0f, 0.7810137f}, {0.00016f, 8.9e-05f}},
+      {{0.005f, 0.5f}, {0.009999993f, 0.68583786f}, {0.00015f, 8.9e-05f}},
+      {{1.5f, 0.25f}, {1.0f, 0.39052004f}, {0.00016f, 8.9e-05f}},
+      {{0.505f, 0.0f}, {0.5407384f, 0.0f}, {0.00015f, 8.8e-05f}},
+      {{0.505f, 2.0f}, {0.48933828f, 2.0f}, {0.00015f, 0.00018f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward-duer to mitsuba/ward-balanced: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_duer_to_mitsuba_ward_balanced.csv, sha256 381bd518077a2aab2575c826d93dcc1484b3754179840220cdc2792b1480b3c0;
+// Table mitsuba_ward_duer_to_mitsuba_ward_balanced.csv, sha256 7592c41b0a483cfe94641a39d843b1b3bf74dfd4e8f00332abc97f8ab97f0562;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
 // Fit: mlp, seed 1, 720 rows trained, 180 held out.
 // Error on the rows held out: alpha rms 1.6e-05, 99 % 4.2e-05, max 4.2e-05;
-// specular rms 2.1e-05, 99 % 7.1e-05, max 8.8e-05.
+// specular rms 2.1e-05, 99 % 7e-05, max 8.3e-05.
 // Lowered from the fit. Target alpha: degree 5 on 8 pieces, proven within 1e-05 (sampled 9.1e-06), rising with alpha.
-// Target specular: degree 8 on 4 pieces in alpha / (alpha + 1), 4 in specular, proven within 9.5e-05 (sampled 8.6e-05), rising with specular.
+// Target specular: degree 8 on 4 pieces in alpha / (alpha + 1), 4 in specular, proven within 9.8e-05 (sampled 8.9e-05), rising with specular.
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_WARD_BALANCED_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_DUER_TO_MITSUBA_WARD_BALANCED_HPP
@@ -89,7 +89,7 @@ inline constexpr float kAlphaTable[8][6] = {
     {0.5325306f, 0.10525954f, -0.0015583287f, 0.0009996883f, -0.005338405f, -0.007064266f},
     {0.631427f, 0.09006594f, -0.00491055f, 0.0056770053f, -0.003267599f, -0.00284159f},
     {0.7182699f, 0.083441146f, -0.003553664f, 0.00030025363f, 0.00021814309f, -0.0003811999f},
-    {0.7983795f, 0.07679645f, -0.0035028325f, -0.00035277792f, -0.00010235405f, 6.1684215e-05f},
+    {0.7983795f, 0.07679645f, -0.0035028325f, -0.00035277792f, -0.000102354046f, 6.1684215e-05f},
 };
 inline float target_alpha(float alpha, float) noexcept {
   const float x = alpha * 8.0807905f - 0.08080762f;
@@ -111,13 +111,15 @@ inline float target_alpha(float alpha, float) noexcept {
 // channels: one row of a block for each power.
 struct Terms {
   float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 inline constexpr float kSpecularTable[4][24] = {
-    {0.49838552f, -0.0060145766f, -0.006167038f, -0.0012284205f, 3.430182e-05f, 5.7503465e-05f, 4.8700135e-06f, -4.5477104e-06f, -2.0337395e-06f, 0.99682367f, -0.012014287f, -0.012145231f, -0.0023550165f, -0.00015958282f, 5.8110836e-05f, 3.945664e-05f, 1.543351e-05f, 3.04835e-06f, -0.0007464856f, 0.0015769382f, -0.00079236564f, 0.00034340593f, 0.0038223711f, -0.0072667757f},
-    {0.48508516f, -0.021589547f, -0.009153386f, -0.0006917032f, 0.00011164981f, -6.812907e-05f, 1.43811185e-05f, 0.000100946076f, 7.0377086e-05f, 0.97024775f, -0.043395206f, -0.018654982f, -0.0011258568f, 0.00104321f, 0.00017167351f, -0.0003793739f, -0.00031779933f, -7.3502444e-05f, -0.00013404313f, -0.00035205332f, -0.00035975894f, 0.0005218074f, 0.00085853686f, 0.0013391076f},
-    {0.45384246f, -0.040824864f, -0.009294549f, -0.0069100633f, -0.01868113f, 0.03829632f, 0.11401186f, -0.06567097f, -0.2056845f, 0.90770435f, -0.08228587f, -0.020366138f, -0.0032342435f, -0.007646977f, 0.03068786f, 0.078268245f, -0.07332502f, -0.18211274f, -6.25888e-05f, 0.00049496203f, -5.1487325e-05f, 9.4735784e-05f, 0.00026927816f, -0.0025176252f},
-    {0.39176005f, -0.08856695f, -0.013384478f, -0.025631513f, 0.08533234f, 0.23157863f, -0.73382515f, -0.37280485f, 1.3548627f, 0.7834736f, -0.17717336f, -0.022453526f, -0.051644742f, 0.09414902f, 0.47237113f, -1.0575432f, -0.7760802f, 2.0278168f, -7.955064e-05f, -0.00052888587f, 1.1598778e-05f, 3.143641e-05f, 0.00031535162f, 0.0026097728f},
+    {0.4983863f, -0.0060177785f, -0.0061703552f, -0.0012201449f, 3.4493543e-05f, 5.5915003e-05f, 4.154105e-06f, -4.627716e-06f, -1.9632614e-06f, 0.9968123f, -0.01200661f, -0.012126506f, -0.0023945936f, -0.0001582082f, 6.905103e-05f, 4.280356e-05f, 1.4483756e-05f, 2.047264e-06f, -0.0007118395f, 0.001587338f, -0.00075223105f, 0.0003661898f, 0.0036456888f, -0.0073703933f},
+    {0.48508433f, -0.021588078f, -0.009154303f, -0.0007041504f, 0.00010857123f, -5.623126e-05f, 2.5015444e-05f, 9.961367e-05f, 6.47051e-05f, 0.97024375f, -0.043391176f, -0.01864475f, -0.001096035f, 0.001014172f, 0.00010505341f, -0.00039853965f, -0.0002777812f, -3.5766217e-05f, -9.584856e-05f, -0.0003553564f, -0.00033470086f, 0.00046887057f, 0.0006707846f, 0.0014205856f},
+    {0.45384058f, -0.040820763f, -0.009300298f, -0.0069824746f, -0.018735478f, 0.03852886f, 0.11440473f, -0.065799445f, -0.20613211f, 0.9076955f, -0.08224857f, -0.020123662f, -0.0037937677f, -0.01057457f, 0.032442067f, 0.09056343f, -0.074146554f, -0.1982885f, -3.207099e-05f, 0.0004829116f, -4.566564e-05f, 0.000109199835f, 0.00017508236f, -0.0024119904f},
+    {0.39175865f, -0.088568665f, -0.013359872f, -0.025438337f, 0.08479655f, 0.22998624f, -0.7306743f, -0.36927152f, 1.3491236f, 0.7834737f, -0.1772067f, -0.022419525f, -0.051100574f, 0.09319459f, 0.46959496f, -1.0493166f, -0.7711299f, 2.0075016f, -6.435135e-05f, -0.00054747245f, 1.4800345e-05f, 1.1732125e-05f, 0.0002998385f, 0.0026615032f},
 };
 template <class Count>
 inline void specular_terms(Count count, Terms& terms) noexcept {
@@ -247,6 +249,22 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.alpha, kDomainMax.alpha, kDomainMin.specular,
@@ -264,6 +282,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = false, has_bright = false;  // regimes of the table
+  static constexpr float alpha_limit = 3.4028235e+38f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 3.4028235e+38f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_alpha(terms.alpha[i], specular);
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -371,8 +403,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -382,13 +419,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -400,15 +526,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -416,16 +549,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -496,19 +632,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.010003426f, 0.99999714f}, {1.1e-05f, 9.6e-05f}},
-      {{0.13375f, 0.9375f}, {0.13310258f, 0.9283592f}, {1.1e-05f, 9.6e-05f}},
-      {{0.2575f, 0.875f}, {0.2532002f, 0.8453581f}, {1.1e-05f, 9.6e-05f}},
-      {{0.38125f, 0.8125f}, {0.36874157f, 0.7576398f}, {1.1e-05f, 9.6e-05f}},
-      {{0.505f, 0.75f}, {0.47927245f, 0.6706617f}, {1.1e-05f, 9.6e-05f}},
-      {{0.62875f, 0.6875f}, {0.5843403f, 0.5869486f}, {1.1e-05f, 9.6e-05f}},
-      {{0.7525f, 0.625f}, {0.6756478f, 0.4981215f}, {1.1e-05f, 9.6e-05f}},
-      {{0.87625f, 0.5625f}, {0.75914013f, 0.41690743f}, {1.1e-05f, 9.5e-05f}},
-      {{1.0f, 0.5f}, {0.83585215f, 0.34439808f}, {1.1e-05f, 9.5e-05f}},
-      {{0.005f, 0.5f}, {0.010003426f, 0.49996865f}, {1.1e-05f, 9.6e-05f}},
-      {{1.5f, 0.25f}, {0.83585215f, 0.17221123f}, {1.1e-05f, 9.5e-05f}},
-      {{0.505f, 0.0f}, {0.47927245f, 2.199752e-05f}, {1.1e-05f, 9.5e-05f}},
-      {{0.505f, 2.0f}, {0.47927245f, 1.7884059f}, {1.1e-05f, 2e-04f}},
+      {{0.01f, 1.0f}, {0.010003426f, 0.9999937f}, {1.1e-05f, 9.9e-05f}},
+      {{0.13375f, 0.9375f}, {0.13310258f, 0.9283604f}, {1.1e-05f, 9.9e-05f}},
+      {{0.2575f, 0.875f}, {0.2532002f, 0.84535813f}, {1.1e-05f, 9.9e-05f}},
+      {{0.38125f, 0.8125f}, {0.36874157f, 0.7576394f}, {1.1e-05f, 9.9e-05f}},
+      {{0.505f, 0.75f}, {0.47927245f, 0.67065895f}, {1.1e-05f, 9.9e-05f}},
+      {{0.62875f, 0.6875f}, {0.5843403f, 0.58694786f}, {1.1e-05f, 9.9e-05f}},
+      {{0.7525f, 0.625f}, {0.6756478f, 0.49812156f}, {1.1e-05f, 9.9e-05f}},
+      {{0.87625f, 0.5625f}, {0.75914013f, 0.41690752f}, {1.1e-05f, 9.8e-05f}},
+      {{1.0f, 0.5f}, {0.83585215f, 0.34439617f}, {1.1e-05f, 9.8e-05f}},
+      {{0.005f, 0.5f}, {0.010003426f, 0.49997306f}, {1.1e-05f, 9.9e-05f}},
+      {{1.5f, 0.25f}, {0.83585215f, 0.172213f}, {1.1e-05f, 9.8e-05f}},
+      {{0.505f, 0.0f}, {0.47927245f, 3.3601944e-05f}, {1.1e-05f, 9.8e-05f}},
+      {{0.505f, 2.0f}, {0.47927245f, 1.7884165f}, {1.1e-05f, 2e-04f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ward to mitsuba/phong: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ward_to_mitsuba_phong.csv, sha256 b1da866c5e37d87377b0883f1896aaaf04f28ce864b3532ab7bd05c687076a18;
+// Table mitsuba_ward_to_mitsuba_phong.csv, sha256 ee5d09cbe93b61611aad9f81c9b122f9e079f079aceb0ba43b0f1516528cb39a;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0.
-// Fit: parametric, seed 1, 720 rows trained, 180 held out.
-// Error on the rows held out: alpha rms 7.3e-05, 99 % 2e-04, max 2e-04;
-// specular rms 2.2e-05, 99 % 0.00012, max 0.00013.
-// Lowered from the fit. Target alpha: degree 6, proven within 4.3e-07 (sampled 4.8e-09), rising with alpha.
-// Target specular: degree 7 in alpha / (alpha + 0.3), proven within 4.7e-05 (sampled 4.2e-05), rising with specular.
+// Fit: series, seed 1, 720 rows trained, 180 held out.
+// Error on the rows held out: alpha rms 8e-05, 99 % 0.00023, max 0.00023;
+// specular rms 8.4e-05, 99 % 0.00028, max 0.00031.
+// Lowered from the fit. Target alpha: degree 6, proven within 4.4e-07 (sampled 1.9e-08), rising with alpha.
+// Target specular: degree 5, proven within 2.2e-05 (sampled 1.1e-05), rising with specular.
 // Covers alpha 0.01 to 1, specular 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_PHONG_HPP
 #define REMAP_GENERATED_MITSUBA_WARD_TO_MITSUBA_PHONG_HPP
@@ -36,8 +36,8 @@ inline constexpr const char* kTargetRoughness = "exponent";
 inline constexpr const char* kTargetSpecular = "specular";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 7.3e-05f;
-inline constexpr float kSpecularRmsError = 2.2e-05f;
+inline constexpr float kAlphaRmsError = 8e-05f;
+inline constexpr float kSpecularRmsError = 8.4e-05f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.29f;
@@ -74,35 +74,63 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-inline float target_alpha(float alpha) noexcept {
+inline float target_alpha(float alpha, float) noexcept {
   const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = 0.94372904f;
-  float c0_next = -0.62134224f;
-  c0 = c0 * u_2 + -0.10448521f;
-  c0_next = c0_next * u_2 + 0.4676003f;
-  c0 = c0 * u_2 + -0.79759115f;
-  c0_next = c0_next * u_2 + 0.82223004f;
-  c0 = c0 * u_2 + 0.6495899f;
+  float c0 = 1.0189902f;
+  float c0_next = -0.6161447f;
+  c0 = c0 * u_2 + -0.1328574f;
+  c0_next = c0_next * u_2 + 0.4664509f;
+  c0 = c0 * u_2 + -0.79496187f;
+  c0_next = c0_next * u_2 + 0.8222703f;
+  c0 = c0 * u_2 + 0.64955455f;
   c0 = c0_next * u + c0;
   return c0;
 }
 
-// The factor between the specular parameters.
-inline float specular_slope(float alpha) noexcept {
-  const float t = alpha / (alpha + 0.3f);
-  const float u = t - 0.40074456f;
-  const float u_2 = u * u;
-  float c1 = 10.459046f;
-  float c1_next = 12.796254f;
-  c1 = c1 * u_2 + 4.431603f;
-  c1_next = c1_next * u_2 + -1.7058862f;
-  c1 = c1 * u_2 + -2.6661668f;
-  c1_next = c1_next * u_2 + -1.7339575f;
-  c1 = c1 * u_2 + -0.591976f;
-  c1_next = c1_next * u_2 + 0.8318537f;
-  c1 = c1 * u + c1_next;
-  return c1;
+// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
+// channels: one row of a block for each power.
+struct Terms {
+  float alpha[kBlock], c0[kBlock], c1[kBlock];
+};
+
+template <class Count>
+inline void specular_terms(Count count, Terms& terms) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; ++i) {
+    const float alpha = terms.alpha[i];
+    const float u = alpha - 0.50500107f;
+    const float u_2 = u * u;
+    float c0 = -0.0027239018f;
+    float c0_next = 0.00044101023f;
+    c0 = c0 * u_2 + 0.00077358563f;
+    c0_next = c0_next * u_2 + -0.000109956214f;
+    c0 = c0 * u_2 + -3.784895e-05f;
+    c0_next = c0_next * u_2 + 2.9539756e-06f;
+    c0 = c0 * u + c0_next;
+    float c1 = 0.7525223f;
+    float c1_next = -1.2013162f;
+    c1 = c1 * u_2 + 0.5646269f;
+    c1_next = c1_next * u_2 + 0.37090895f;
+    c1 = c1 * u_2 + -0.81303865f;
+    c1_next = c1_next * u_2 + 0.5780445f;
+    c1 = c1 * u + c1_next;
+    terms.c0[i] = c0;
+    terms.c1[i] = c1;
+  }
+}
+
+inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  float sum = terms.c1[i];
+  sum = sum * specular + terms.c0[i];
+  return sum;
 }
 
 // The rule of the domain is written over these names: one texel here, several in programs with vectors of their own.
@@ -177,8 +205,17 @@ struct Mapping {
                                  kDomainMax.specular, 1.0f};
   static float alpha_of(float own) noexcept { return own; }
   static float own_of(float alpha) noexcept { return 2.0f / (alpha * alpha) - 2.0f; }
-  static float target_alpha(float alpha, std::size_t) noexcept { return detail::target_alpha(alpha); }
-  static float specular_slope(float alpha, std::size_t) noexcept { return detail::specular_slope(alpha); }
+  static constexpr bool alpha_by_specular = false;  // whether target alpha depends on specular
+  static float target_alpha(const Terms& terms, std::size_t i, float top) noexcept {
+    return detail::target_alpha(terms.alpha[i], top);
+  }
+  static float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::target_specular(terms, i, specular);
+  }
+  template <class Count>
+  static void find_terms(Count count, Terms& terms) noexcept {
+    specular_terms(count, terms);
+  }
 };
 
 template <class Count>
@@ -189,20 +226,47 @@ inline std::size_t count_outside(Count count, const std::uint32_t* outside) noex
   return sum;
 }
 
-// One loop writes one output row: several at once would meet in one set of the cache where maps begin at the same
-// offset in their pages. Loops take their count as a constant where the block is full, which gcc needs to vectorise
-// at -O2.
+// Beyond the largest of these a channel is left as it is, as infinity and NaN are.
+inline constexpr float kLargestChannel = 1e30f;
+
+// The larger of `largest`, bits of a float from 0, and a channel that is not left as it is. A mask in place of a
+// comparison: compilers would branch on it.
+inline Bits larger_channel(Bits largest, Float given) noexcept {
+  const Bits kept = bits(kLargestChannel) - bits(given);  // sign bit: beyond, or negative
+  return larger(bits(given) & ~all_of_sign(kept), largest);
+}
+
+// The ratio of the largest channel to the edge, from 1. Without a comparison: compilers would branch on it.
+inline Float channel_scale(const Domain& domain, Float largest) noexcept {
+  const Bits one = bits(1.0f);
+  const Bits more = bits(largest * domain.inverse_edge) - one;
+  return float_from_bits((more & ~all_of_sign(more)) + one);
+}
+
+// The channel, held at 0 from below, where it is left as it is; otherwise what it was mapped to.
+inline Float kept_or_mapped(Float held, Float mapped) noexcept {
+  const Bits kept = all_of_sign(bits(kLargestChannel) - (bits(held) & 0x7fffffffu));
+  return float_from_bits((bits(held) & kept) | (bits(mapped) & ~kept));
+}
+
+// Where no channel of a block is out of domain, as in most, nothing is scaled, and the block takes a shorter way to
+// the same bits: a factor of 1.
 //
-// A factor for each texel of a block.
+// What the channels of a texel share. `scale` brings the largest, `top`, to the edge of the domain, and is 1 inside;
+// NaN where the width is NaN.
 struct Block {
-  float slope[kBlock];
+  float top[kBlock], scale[kBlock], inverse[kBlock];
   std::uint32_t outside[kBlock];  // sign bit: out of domain
+  Terms terms;
 };
 
-template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, const float* in, float* out, Block& block) noexcept {
+// Returns with its sign bit whether any channel of the block is out of domain.
+template <class Count, std::size_t... Channel>
+inline Bits look_at_texels(Count count, const Mapping& mapping, const float* width, const float* const* specular,
+                           Block& block, std::index_sequence<Channel...>) noexcept {
   const std::size_t size = count;
   const Domain domain = mapping.domain;
+  Bits channels = 0;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
   #elif defined(__GNUC__)
@@ -211,16 +275,37 @@ inline void convert_widths(Count count, const Mapping& mapping, const float* in,
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const HeldWidth held = held_width(domain, load(in + i));
-    const Float alpha = mapping.alpha_of(held.own);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(alpha, i)), held.nan));
-    store(block.slope + i, with_nan(mapping.specular_slope(alpha, i), held.nan));
-    store(block.outside + i, held.outside);
+    const HeldWidth held = held_width(domain, load(width + i));
+    const Bits outside = (channel_outside(domain, load(specular[Channel] + i)) | ...);
+    store(block.terms.alpha + i, mapping.alpha_of(held.own));
+    store(block.scale + i, with_nan(1.0f, held.nan));
+    store(block.outside + i, held.outside | outside);
+    channels = channels | outside;
+  }
+  return channels;
+}
+
+// The largest channel.
+template <class Count, std::size_t... Channel>
+inline void find_tops(Count count, const float* const* specular, Block& block,
+                      std::index_sequence<Channel...>) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Bits largest = 0;
+    ((largest = larger_channel(largest, load(specular[Channel] + i))), ...);
+    store(block.top + i, float_from_bits(largest));
   }
 }
 
 template <class Count>
-inline void convert_channel(Count count, Domain domain, const float* in, float* out, Block& block) noexcept {
+inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -230,18 +315,69 @@ inline void convert_channel(Count count, Domain domain, const float* in, float* 
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float given = load(in + i);
-    store(block.outside + i, load(block.outside + i) | channel_outside(domain, given));
-    store(out + i, held_channel(given) * load(block.slope + i));
+    const Float scale = channel_scale(domain, load(block.top + i));
+    const Float inverse = 1.0f / scale;
+    store(block.inverse + i, inverse);
+    store(block.top + i, load(block.top + i) * inverse);
+    store(block.scale + i, scale * load(block.scale + i));
+  }
+}
+
+template <class Count>
+inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+  }
+}
+
+template <bool kInside, class Count>
+inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
+                            const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    if constexpr (kInside) {
+      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
+      store(out + i, held_channel(mapped) * load(block.scale + i));
+    } else {
+      const Float held = held_channel(load(in + i));
+      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
+      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
+    }
   }
 }
 
 template <std::size_t Channels, class Count>
 inline void convert_block(Count count, const Mapping& mapping, const float* width, const float* const* specular,
                           float* width_out, float* const* specular_out, Block& block) noexcept {
-  convert_widths(count, mapping, width, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c)
-    convert_channel(count, mapping.domain, specular[c], specular_out[c], block);
+  constexpr auto kChannels = std::make_index_sequence<Channels>();
+  const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
+  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside) scale_texels(count, mapping.domain, block);
+  mapping.find_terms(count, block.terms);
+  convert_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c) {
+    if (inside)
+      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
+    else
+      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
+  }
 }
 
 }  // namespace detail
@@ -312,19 +448,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {7330.2783f, 0.90877926f}, {0.38f, 4.7e-05f}},
-      {{0.13375f, 0.9375f}, {41.126972f, 0.81908464f}, {0.00019f, 4.7e-05f}},
-      {{0.2575f, 0.875f}, {11.112786f, 0.69000155f}, {3.5e-05f, 4.7e-05f}},
-      {{0.38125f, 0.8125f}, {4.9944577f, 0.55484456f}, {1.4e-05f, 4.7e-05f}},
-      {{0.505f, 0.75f}, {2.7397196f, 0.43343058f}, {8e-06f, 4.7e-05f}},
-      {{0.62875f, 0.6875f}, {1.652569f, 0.3327482f}, {5.5e-06f, 4.7e-05f}},
-      {{0.7525f, 0.625f}, {1.0440232f, 0.2526962f}, {4.2e-06f, 4.7e-05f}},
-      {{0.87625f, 0.5625f}, {0.673342f, 0.19049895f}, {3.5e-06f, 4.7e-05f}},
-      {{1.0f, 0.5f}, {0.43105155f, 0.14259554f}, {3e-06f, 4.7e-05f}},
-      {{0.005f, 0.5f}, {7330.2783f, 0.45438963f}, {0.38f, 4.7e-05f}},
-      {{1.5f, 0.25f}, {0.43105155f, 0.07129777f}, {3e-06f, 4.7e-05f}},
-      {{0.505f, 0.0f}, {2.7397196f, 0.0f}, {8e-06f, 4.7e-05f}},
-      {{0.505f, 2.0f}, {2.7397196f, 1.1558149f}, {8e-06f, 9.3e-05f}},
+      {{0.01f, 1.0f}, {7350.135f, 0.90842974f}, {0.4f, 2.2e-05f}},
+      {{0.13375f, 0.9375f}, {41.130035f, 0.8193502f}, {2e-04f, 2.2e-05f}},
+      {{0.2575f, 0.875f}, {11.110155f, 0.6897063f}, {3.6e-05f, 2.2e-05f}},
+      {{0.38125f, 0.8125f}, {4.9945736f, 0.5549135f}, {1.5e-05f, 2.2e-05f}},
+      {{0.505f, 0.75f}, {2.7402356f, 0.43352652f}, {8.2e-06f, 2.2e-05f}},
+      {{0.62875f, 0.6875f}, {1.6525545f, 0.33269385f}, {5.6e-06f, 2.2e-05f}},
+      {{0.7525f, 0.625f}, {1.0437686f, 0.25268936f}, {4.3e-06f, 2.2e-05f}},
+      {{0.87625f, 0.5625f}, {0.67347866f, 0.1905191f}, {3.6e-06f, 2.2e-05f}},
+      {{1.0f, 0.5f}, {0.4307964f, 0.14260454f}, {3.1e-06f, 2.2e-05f}},
+      {{0.005f, 0.5f}, {7350.135f, 0.45422426f}, {0.4f, 2.2e-05f}},
+      {{1.5f, 0.25f}, {0.4307964f, 0.07130582f}, {3.1e-06f, 2.2e-05f}},
+      {{0.505f, 0.0f}, {2.7402356f, 0.0f}, {8.2e-06f, 2.2e-05f}},
+      {{0.505f, 2.0f}, {2.7402356f, 1.1560757f}, {8.2e-06f, 4.4e-05f}},
   }};
   std::array<float, kGolden.size()> alpha{}, specular{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

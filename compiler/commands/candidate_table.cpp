@@ -16,8 +16,9 @@ std::string pair_text(double first, double second) {
   return first == 0.0 && second == 0.0 ? kNone : digits(first) + ", " + digits(second);
 }
 
-std::string with_error(double value, double standard_error) {
-  return standard_error == 0.0 ? digits(value) : digits(value) + " +- " + digits(standard_error);
+std::string with_error(const remap::RelativeError& error) {
+  return error.standard_error == 0.0 ? digits(error.rms)
+                                     : digits(error.rms) + " +- " + digits(error.standard_error);
 }
 
 // A smaller shift is rounding error, shown as 0.
@@ -28,10 +29,12 @@ using Line = std::vector<std::string>;
 Line line_of(const remap::Candidate& candidate) {
   return {candidate.name,
           candidate.number_count == 0 ? kNone : std::to_string(candidate.number_count),
-          with_error(candidate.alpha.rms, candidate.alpha_standard_error),
+          digits(candidate.alpha.rms),
           digits(candidate.alpha.max),
-          with_error(candidate.specular.rms, candidate.specular_standard_error),
+          with_error(candidate.relative_alpha),
+          digits(candidate.specular.rms),
           digits(candidate.specular.max),
+          with_error(candidate.relative_specular),
           pair_text(candidate.edge_alpha_rms, candidate.raw_edge_alpha_rms),
           pair_text(candidate.edge_specular_rms, candidate.raw_edge_specular_rms),
           digits(shown_shift(candidate.chroma_shift)),
@@ -47,8 +50,9 @@ bool has_figures(const std::vector<Line>& lines, std::size_t column) {
 }  // namespace
 
 std::string candidate_text(const std::vector<remap::Candidate>& candidates, const std::string& specular) {
-  std::vector<Line> lines = {{"", "numbers", "alpha rms", "max", specular + " rms", "max",
-                              "alpha at edge, raw", specular + " at edge, raw", "chroma shift", ""}};
+  std::vector<Line> lines = {{"", "numbers", "alpha rms", "max", "relative", specular + " rms", "max",
+                              "relative", "alpha at edge, raw", specular + " at edge, raw", "chroma shift",
+                              ""}};
   for (const remap::Candidate& candidate : candidates) lines.push_back(line_of(candidate));
   std::vector<std::size_t> widths(lines[0].size(), 0);
   for (const Line& line : lines)
@@ -79,13 +83,17 @@ nlohmann::ordered_json figures_json(const remap::ErrorFigures& figures) {
   return {{"rms", figures.rms}, {"p99", figures.p99}, {"max", figures.max}};
 }
 
+static nlohmann::ordered_json relative_json(const remap::RelativeError& error) {
+  return {{"rms", error.rms}, {"standard_error", error.standard_error}};
+}
+
 nlohmann::ordered_json candidate_json(const remap::Candidate& candidate) {
   return {{"name", candidate.name},
           {"numbers", candidate.number_count},
           {"alpha_error", figures_json(candidate.alpha)},
-          {"alpha_standard_error", candidate.alpha_standard_error},
+          {"relative_alpha", relative_json(candidate.relative_alpha)},
           {"specular_error", figures_json(candidate.specular)},
-          {"specular_standard_error", candidate.specular_standard_error},
+          {"relative_specular", relative_json(candidate.relative_specular)},
           {"edge_alpha_rms", candidate.edge_alpha_rms},
           {"edge_specular_rms", candidate.edge_specular_rms},
           {"raw_edge_alpha_rms", candidate.raw_edge_alpha_rms},

@@ -37,7 +37,7 @@ void run_chain(const ChainCommand& command) {
   for (const std::string& name : command.steps) steps.push_back(find_fit(name, command.fit_folder));
   const remap::Fit chain = composed_fit(steps, command.id);
   // A chain exists for its single-pass header, so one that cannot be emitted is an error here.
-  const remap::Lowered lowered = remap::lower(chain.mapping, chain.domain);
+  const remap::Lowered lowered = remap::lower(chain);
   const std::filesystem::path path = write_fit(command, chain);
   const std::string& steps_text = chain.method.at("against its steps one after another");
   if (command.json) {
@@ -49,15 +49,15 @@ void run_chain(const ChainCommand& command) {
           {"specular", {chain.domain.specular.min, chain.domain.specular.max}}}},
         {"alpha_error", figures_json(chain.alpha_error)},
         {"specular_error", figures_json(chain.specular_error)},
-        {"lowered_within", {{"alpha", lowered.alpha.bound}, {"specular", lowered.specular.bound}}},
+        {"lowered_within", {{"alpha", lowered.alpha_bound()}, {"specular", lowered.specular_bound()}}},
         {"against_its_steps", steps_text}};
     std::cout << json.dump(2) << "\n";
     return;
   }
   std::cerr << path.string() << ": chain of " << steps.size()
             << " fits\n  errors of the steps, propagated: " << errors_text(chain, "held out")
-            << "\n  single pass: alpha within " << error_text(lowered.alpha.bound) << ", specular within "
-            << error_text(lowered.specular.bound)
+            << "\n  single pass: alpha within " << error_text(lowered.alpha_bound()) << ", specular within "
+            << error_text(lowered.specular_bound())
             << " of the composed fits (proven)\n  compared with its steps: " << steps_text << "\n";
 }
 

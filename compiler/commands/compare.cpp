@@ -13,6 +13,7 @@
 #include "fit/rows/split.hpp"
 #include "manifest/fit_folder.hpp"
 #include "report/fit_plot.hpp"
+#include "table/row_regime.hpp"
 #include "text/errors.hpp"
 
 namespace remapc {
@@ -77,7 +78,7 @@ Entry entry_of(const NamedFit& named, const std::string& name, const std::vector
   candidate.number_count = remap::number_count(fit.mapping);
   candidate.alpha = errors.alpha;
   candidate.specular = errors.specular;
-  candidate.chroma_shift = look_beyond(fit.mapping, fit.domain).chroma_shift;
+  candidate.chroma_shift = look_beyond(fit.mapping, mapping_domain(fit)).chroma_shift;
   if (own_table) candidate.verdict = "fitted from this table, training rows included";
   if (outside != 0)
     candidate.verdict +=
@@ -128,7 +129,7 @@ std::string why_not_text(const std::vector<Entry>& entries) {
 void run(const CompareOptions& options) {
   std::string bytes;
   const Table table = options.table.read(&bytes);
-  const std::vector<TableRow> rows = usable_rows(table);
+  const std::vector<TableRow> rows = answer_rows(table);
   if (rows.empty()) throw input_error(table.name + ": no usable rows");
   std::vector<Entry> entries;
   const std::vector<NamedFit> fits = chosen_fits(options, table);

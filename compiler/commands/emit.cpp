@@ -51,7 +51,7 @@ std::vector<GeneratedFile> generate(const EmitCommand& options) {
   for (const remap::Fit& fit : chosen.fits) {
     if (code.exact) add_header(fit, emit_header(fit, code));
     if (code.exact && !options.all) continue;
-    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain, code.lowering);
+    const remap::Lowered lowered = remap::lower(fit, code.lowering);
     if (!code.exact) add_header(fit, emit_lowered_header(fit, lowered));
     converters.push_back(remap::converter_data(fit, lowered));
   }
@@ -135,7 +135,9 @@ void add_emit_command(remap::Command& app) {
           ->capture_default_str();
   command
       ->add_flag("--exact", options->code.exact,
-                 "Emit the mapping as it was fitted: support vectors, layers or exponentials")
+                 "Emit the mapping as it was fitted: support vectors, layers or exponentials; not for "
+                 "series, chains and "
+                 "fits that reach a limit of their target")
       ->excludes(lower);
   command
       ->add_option("--table-limit", options->code.lowering.table_limit,

@@ -9,6 +9,7 @@
 #include "fit/fit_table.hpp"
 #include "fit/rows/split.hpp"
 #include "manifest/fit_folder.hpp"
+#include "table/row_regime.hpp"
 #include "text/errors.hpp"
 
 namespace remapc {
@@ -25,7 +26,7 @@ void run(const EvalOptions& options) {
   const remap::Fit fit = find_fit(options.fit, options.fit_folder);
   std::string bytes;
   const Table table = options.table.read(&bytes);
-  const std::vector<TableRow> usable = usable_rows(table), rows = rows_inside(usable, fit.domain);
+  const std::vector<TableRow> usable = answer_rows(table), rows = rows_inside(usable, fit.domain);
   const std::size_t outside = usable.size() - rows.size();
   if (rows.empty()) throw input_error(table.name + ": no usable rows in the domain of " + fit.id);
   const RowErrors errors = row_errors(fit, rows);

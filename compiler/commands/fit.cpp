@@ -55,6 +55,7 @@ FitOptions fit_options(const FitCommand& command) {
   if (command.model == "parametric") options.regressor = Regressor::kParametric;
   if (command.model == "svr") options.regressor = Regressor::kSvr;
   if (command.model == "mlp") options.regressor = Regressor::kMlp;
+  if (command.model == "series") options.regressor = Regressor::kSeries;
   options.regression.mlp.activation = *remap::activation_from_name(command.activation);
   return options;
 }
@@ -173,11 +174,12 @@ void run(const FitCommand& command, const remap::Command& app) {
 void add_regression_options(remap::Command& app, FitCommand& command) {
   RegressionOptions& regression = command.options.regression;
   app.option_group("Regression");
-  app.add_option(
-         "--model", command.model,
-         "parametric: polynomials and exponentials; svr: support vectors; mlp: a small network; auto: the "
-         "simplest of them that is as good as the best by cross-validation, in up to a minute")
-      ->one_of({"auto", "parametric", "svr", "mlp"});
+  app.add_option("--model", command.model,
+                 "parametric: polynomials and exponentials; series: of Chebyshev polynomials; svr: support "
+                 "vectors; mlp: a "
+                 "small network; auto: the simplest of them that is as good as the best by cross-validation, "
+                 "in up to a minute")
+      ->one_of({"auto", "parametric", "series", "svr", "mlp"});
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
                "(remapc sample): a network from specular to metallic");

@@ -1,4 +1,5 @@
 // `remapc show` prints one fit.
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -8,6 +9,7 @@
 #include "fit/rows/split.hpp"
 #include "lower/lower.hpp"
 #include "manifest/fit_folder.hpp"
+#include "model/interpreter.hpp"
 #include "model/inverse.hpp"
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
@@ -66,6 +68,11 @@ std::string curve_text(const remap::AlphaCurve& curve) {
 
 std::string inputs_text(std::size_t count) { return count == 1 ? "alpha" : "alpha and specular"; }
 
+std::string series_text(const remap::TexelSeries& series) {
+  return "a Chebyshev series, degree " + std::to_string(series.coefficients.front().size() - 1) +
+         " in alpha, " + std::to_string(series.coefficients.size() - 1) + " in specular";
+}
+
 // Prints a mapping as formulas of a = alpha1 and s = specular1.
 struct PrintMapping {
   void operator()(const remap::Parametric& form) const {
@@ -91,7 +98,10 @@ struct PrintMapping {
     print("alpha2", mlp.alpha);
     print("specular2", mlp.specular);
   }
-
+  void operator()(const remap::Series& series) const {
+    print("alpha2", series.alpha);
+    print("specular2", series.specular);
+  }
   void operator()(const remap::Chain& chain) const {
     for (const remap::ChainStep& step : chain.steps) {
       std::cout << "  " << step.id << "\n";
@@ -109,7 +119,52 @@ struct PrintMapping {
     for (const remap::Layer& layer : network.layers) std::cout << " " << layer.output_count();
     std::cout << ", " << activation_name(network.activation) << "\n";
   }
+  static void print(const std::string& output, const remap::TexelSeries& series) {
+    std::cout << "  " << output << ": " << series_text(series) << "\n";
+  }
 };
+
+std::string percent_text(double share) { return number_text(remap::rounded_up(100.0 * share, 2)) + " %"; }
+
+// The shares of the domain in which the target is at no limit, at that of alpha, at that of specular, and at
+// both.
+std::array<double, 4> regime_shares(const remap::Fit& fit) {
+  constexpr int kSteps = 100;
+  constexpr double kAtLimit = 1.0 - 1e-9;
+  const remap::Regimes& regimes = fit.regimes;
+  std::array<double, 4> shares{};
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      const auto middle = [](const remap::Range& range, int step) {
+        return range.min + (range.max - range.min) * (step + 0.5) / kSteps;
+      };
+      const remap::MappedTexel texel =
+          remap::evaluate_fit(fit, middle(fit.domain.alpha, i), middle(fit.domain.specular, j));
+      const bool is_wide = texel.alpha >= regimes.alpha_limit * kAtLimit,
+                 is_bright = regimes.specular_limit && texel.specular >= *regimes.specular_limit * kAtLimit;
+      shares[(is_wide ? 1 : 0) + (is_bright ? 2 : 0)] += 1.0 / (kSteps * kSteps);
+    }
+  return shares;
+}
+
+void print_regimes(const remap::Fit& fit) {
+  const remap::Regimes& regimes = fit.regimes;
+  const std::array<double, 4> shares = regime_shares(fit);
+  if (shares[0] > 1.0 - 1e-9) return;
+  std::cout << "At the limits of " << fit.target.model << ", in shares of the domain\n  neither "
+            << percent_text(shares[0]) << "\n  alpha " << number_text(regimes.alpha_limit) << ": "
+            << percent_text(shares[1]);
+  if (regimes.wide)
+    std::cout << "; from alpha1 " << number_text(remap::rounded_up(regimes.wide->specular.alpha.min, 3))
+              << ", specular2 is " << series_text(regimes.wide->specular);
+  if (regimes.specular_limit)
+    std::cout << "\n  " << fit.target.specular << " " << number_text(*regimes.specular_limit) << ": "
+              << percent_text(shares[2]);
+  if (regimes.bright)
+    std::cout << "; from specular1 " << number_text(remap::rounded_up(regimes.bright->specular.min, 3))
+              << ", alpha2 is " << series_text(*regimes.bright);
+  std::cout << "\n  both " << percent_text(shares[3]) << "\n";
+}
 
 void print_method(const remap::Fit& fit) {
   if (!fit.method.empty()) std::cout << "Method\n";
@@ -128,17 +183,16 @@ std::string rows_text(const remap::Fit& fit) {
 
 void print_lowering(const remap::Fit& fit) {
   try {
-    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
-    std::cout << "Deviation of its header from the fit: alpha within " << error_text(lowered.alpha.bound)
-              << ", " << fit.target.specular << " within " << error_text(lowered.specular.bound)
-              << " (proven)\n";
+    const remap::Lowered lowered = remap::lower(fit);
+    std::cout << "Deviation of its header from the fit: alpha within " << error_text(lowered.alpha_bound())
+              << ", " << fit.target.specular << " within " << error_text(lowered.specular_bound())
+              << (lowered.wide || lowered.bright ? " (proven; at joints of regimes sampled)\n"
+                                                 : " (proven)\n");
   } catch (const remap::Error& error) {
     if (error.kind() != remap::ErrorKind::kNumeric) throw;
     std::cout << "No header with the default tolerances: " << error.what() << "\n";
   }
 }
-
-std::string percent_text(double share) { return number_text(remap::rounded_up(100.0 * share, 2)) + " %"; }
 
 // Prints the round trip through the inverse converter in `folder`, if there is one.
 void print_round_trip(const remap::Fit& fit, const std::filesystem::path& folder) {
@@ -176,8 +230,8 @@ void print_trust(const remap::Fit& fit) {
   if (!fit.has_errors()) {
     std::cout << "Deviation of the fit from its table: unknown (no rows held out)\n";
   } else {
-    std::cout << "Deviation of the fit from " << rows_text(fit) << "\n  alpha   "
-              << figures_text(fit.alpha_error) << "\n  " << std::left << std::setw(8) << fit.target.specular
+    std::cout << "Deviation of the fit from " << rows_text(fit) << "\n  alpha    "
+              << figures_text(fit.alpha_error) << "\n  " << std::left << std::setw(9) << fit.target.specular
               << figures_text(fit.specular_error) << "\n";
   }
   print_lowering(fit);
@@ -195,6 +249,7 @@ void show_card(const remap::Fit& fit, const ShowOptions& options) {
   print_round_trip(fit, options.fit_folder);
   std::cout << "Mapping\n";
   std::visit(PrintMapping{}, fit.mapping);
+  print_regimes(fit);
   print_method(fit);
   std::cout << (fit.table.name.empty() ? "No table" : "Table " + fit.table.name) << "\n";
   if (!fit.table.sha256.empty()) std::cout << "  sha256 " << fit.table.sha256 << "\n";

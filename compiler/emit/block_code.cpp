@@ -1,5 +1,8 @@
 // The domain rule as C++: the text of runtime/convert/code, which texremap also runs over vectors of texels,
 // with the definitions that this text needs.
+#include <limits>
+#include <optional>
+
 #include "emit/convention_text.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
@@ -38,12 +41,63 @@ static void find_terms(Count count, Terms& terms) noexcept {
 }
 )";
 
+constexpr std::string_view kRegimeFunctions =
+    R"(static constexpr bool has_wide = @has_wide@, has_bright = @has_bright@;  // regimes of the table
+static constexpr float alpha_limit = @alpha_limit@, specular_limit = @specular_limit@;
+static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+static constexpr float mapping_to = @mapping_to@;  // the mapping has reached the limit of alpha before
+static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+  return @wide_specular@;
+}
+static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+  return @bright_alpha@;
+}
+template <class Count>
+static void find_wide_terms(Count, Terms&) noexcept {}
+template <class Count>
+static void find_bright_terms(Count, Terms&) noexcept {}
+)";
+
+// Without a limit: the largest float, which no mapping gives.
+std::string limit_literal(const std::optional<float>& limit) {
+  return literal(static_cast<double>(limit.value_or(std::numeric_limits<float>::max())));
+}
+
+// Calls the function of a regime; one that a table does not have continues the mapping.
+std::string regime_call(const std::string& name, const std::optional<remap::LoweredSeries>& regime,
+                        const std::string& otherwise) {
+  if (!regime) return otherwise;
+  const auto held = [](const std::string& value, float least) {
+    return "held_above(" + value + ", " + literal(static_cast<double>(least)) + ")";
+  };
+  return "detail::" + name + "(" + held("terms.source_alpha[i]", regime->alpha_from) + ", " +
+         held("specular", regime->specular_from) + ")";
+}
+
+std::string regime_functions(const remap::Lowered& lowered) {
+  const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
+  const auto wide = lowered.wide ? std::optional(lowered.wide->specular) : std::nullopt;
+  std::optional<float> mapping_to;
+  if (lowered.wide) mapping_to = lowered.wide->mapping_to;
+  return fill_template(
+      kRegimeFunctions,
+      {{"has_wide", truth(wide.has_value())},
+       {"has_bright", truth(lowered.bright.has_value())},
+       {"alpha_limit", limit_literal(lowered.alpha_limit)},
+       {"specular_limit", limit_literal(lowered.specular_limit)},
+       {"mapping_to", limit_literal(mapping_to)},
+       {"wide_specular", regime_call("wide_specular", wide, "detail::target_specular(terms, i, specular)")},
+       {"bright_alpha",
+        regime_call("bright_alpha", lowered.bright, "detail::target_alpha(terms.alpha[i], specular)")}});
+}
+
 // The functions of Mapping, and the loops over a block that call them.
 struct RuleParts {
   std::string functions, loops;
 };
 
-RuleParts parts_of(const MappingCode& code, bool alpha_by_specular) {
+RuleParts parts_of(const ConverterHeader& header, const MappingCode& code) {
+  const std::string by_specular = header.alpha_by_specular ? "true" : "false";
   switch (code.form) {
     case CodeForm::kProportional:
       return {fill_template(kProportionalFunctions,
@@ -51,8 +105,12 @@ RuleParts parts_of(const MappingCode& code, bool alpha_by_specular) {
                                                         : "held_channel(detail::specular_slope(alpha))"}}),
               code_files({"proportional"})};
     case CodeForm::kTerms:
-      return {fill_template(kTermsFunctions, {{"alpha_by_specular", alpha_by_specular ? "true" : "false"}}),
-              code_files({"scale", "terms"})};
+      return {fill_template(kTermsFunctions, {{"alpha_by_specular", by_specular}}),
+              code_files({"scale", "texels", "terms"})};
+    case CodeForm::kRegimes:
+      return {fill_template(kTermsFunctions, {{"alpha_by_specular", by_specular}}) +
+                  regime_functions(std::get<remap::Lowered>(header.mapping.code)),
+              code_files({"scale", "texels", "regimes"})};
     case CodeForm::kRows:
       break;
   }
@@ -63,8 +121,8 @@ RuleParts parts_of(const MappingCode& code, bool alpha_by_specular) {
 
 std::string block_code(const ConverterHeader& header, const std::string& specular_name,
                        const MappingCode& code) {
-  const RuleParts parts = parts_of(code, header.alpha_by_specular);
-  return code_files({"lanes", "domain"}) +
+  const RuleParts parts = parts_of(header, code);
+  return code_files({"lanes", "domain"}) + (code.form == CodeForm::kRegimes ? code_files({"limits"}) : "") +
          fill_template(kMapping, {{"in_roughness", std::string(convention_name(header.source))},
                                   {"in_specular", specular_name},
                                   {"inverse_edge", literal(1.0 / header.specular.max)},

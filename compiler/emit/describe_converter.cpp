@@ -88,7 +88,7 @@ HeaderData described(const Fit& fit, MappingData mapping) {
   header.target = fit.target.roughness;
   header.width = own_roughness_range(fit);
   header.specular = specular_range(fit);
-  header.alpha_by_specular = alpha_depends_on_specular(fit.mapping);
+  header.alpha_by_specular = alpha_depends_on_specular(fit.mapping) || fit.regimes.bright.has_value();
   if (fit.has_errors()) {
     header.alpha_rms_error = remap::rounded_up(fit.alpha_error.rms, 2);
     header.specular_rms_error = remap::rounded_up(fit.specular_error.rms, 2);
@@ -105,6 +105,12 @@ HeaderData describe(const Fit& fit, const remap::Lowered& lowered) {
   return described(fit, lowered_mapping(lowered));
 }
 
-HeaderData describe_exact(const Fit& fit) { return described(fit, exact_mapping(fit.mapping, fit.domain)); }
+HeaderData describe_exact(const Fit& fit) {
+  if (fit.regimes.wide || fit.regimes.bright)
+    throw remap::Error(
+        remap::ErrorKind::kUsage,
+        "emit: a fit with regimes at the limits of its target has no exact form (remove --exact)");
+  return described(fit, exact_mapping(fit.mapping, fit.domain));
+}
 
 }  // namespace remapc

@@ -10,7 +10,7 @@ namespace remapc {
 
 std::string emit_header(const remap::Fit& fit, const EmitOptions& options) {
   if (options.exact) return fill(describe_exact(fit));
-  return emit_lowered_header(fit, remap::lower(fit.mapping, fit.domain, options.lowering));
+  return emit_lowered_header(fit, remap::lower(fit, options.lowering));
 }
 
 std::string emit_lowered_header(const remap::Fit& fit, const remap::Lowered& lowered) {

@@ -101,13 +101,14 @@ std::string alpha_parameter(const PiecewisePolynomial& polynomial) {
   return depends_on_alpha(polynomial) ? "float alpha" : "float";
 }
 
-std::string alpha_code(const PiecewisePolynomial& alpha, CodeForm form) {
-  const bool by_specular = alpha.degrees.size() > 1;
-  const std::string specular = by_specular ? ", float specular" : ", float";
-  return function_code(
-      {"", cell_table(alpha, "kAlphaTable"), "target_alpha",
-       alpha_parameter(alpha) + (form == CodeForm::kTerms ? specular : ""),
-       variable(alpha, "kAlphaTable") + factors_code(alpha) + sum_code(alpha, factor_names(alpha))});
+// A function of alpha and, unless there is only one power, of specular.
+std::string texel_code(const PiecewisePolynomial& polynomial, const std::string& name,
+                       const std::string& table, bool takes_specular, const std::string& comment = "") {
+  const std::string specular = polynomial.degrees.size() > 1 ? ", float specular" : ", float";
+  return function_code({comment, cell_table(polynomial, table), name,
+                        alpha_parameter(polynomial) + (takes_specular ? specular : ""),
+                        variable(polynomial, table) + factors_code(polynomial) +
+                            sum_code(polynomial, factor_names(polynomial))});
 }
 
 std::string slope_code(const PiecewisePolynomial& specular) {
@@ -116,13 +117,14 @@ std::string slope_code(const PiecewisePolynomial& specular) {
                         variable(specular, "kSpecularTable") + factors_code(specular, 1) + "return c1;\n"});
 }
 
-std::string polynomial_terms(const PiecewisePolynomial& specular) {
+std::string polynomial_terms(const PiecewisePolynomial& specular, CodeForm form) {
   TermsParts parts;
   parts.comment =
       R"(// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.)";
   parts.table = cell_table(specular, "kSpecularTable");
   parts.names = factor_names(specular);
+  if (form == CodeForm::kRegimes) parts.more_rows = code_file("regime_rows");
   parts.uses_alpha = depends_on_alpha(specular);
   parts.statements = variable(specular, "kSpecularTable") + factors_code(specular);
   parts.uses_specular = parts.names.size() > 1;
@@ -137,14 +139,26 @@ std::string polynomial_terms(const PiecewisePolynomial& specular) {
 MappingCode mapping_code(const remap::Lowered& lowered) {
   const PiecewisePolynomial& alpha = lowered.alpha.polynomial;
   const PiecewisePolynomial& specular = lowered.specular.polynomial;
-  const bool proportional = specular.degrees.size() == 2 && specular.degrees[0] < 0;
+  const bool is_factor = specular.degrees.size() == 2 && specular.degrees[0] < 0;
   MappingCode code;
-  code.form = proportional && alpha.degrees.size() == 1 ? CodeForm::kProportional : CodeForm::kTerms;
+  code.form = lowered.has_limits()                     ? CodeForm::kRegimes
+              : is_factor && alpha.degrees.size() == 1 ? CodeForm::kProportional
+                                                       : CodeForm::kTerms;
   code.is_positive = lowered.specular.rises_with_specular;
-  if (alpha.cell_count > 1 || specular.cell_count > 1) code.functions += kCellOf;
-  code.functions +=
-      alpha_code(alpha, code.form) +
-      (code.form == CodeForm::kProportional ? slope_code(specular) : polynomial_terms(specular));
+  std::vector<const PiecewisePolynomial*> all = {&alpha, &specular};
+  if (lowered.wide) all.push_back(&lowered.wide->specular.function.polynomial);
+  if (lowered.bright) all.push_back(&lowered.bright->function.polynomial);
+  if (std::ranges::any_of(all, [](const PiecewisePolynomial* one) { return one->cell_count > 1; }))
+    code.functions += kCellOf;
+  const bool is_proportional = code.form == CodeForm::kProportional;
+  code.functions += texel_code(alpha, "target_alpha", "kAlphaTable", !is_proportional) +
+                    (is_proportional ? slope_code(specular) : polynomial_terms(specular, code.form));
+  if (lowered.wide)
+    code.functions += texel_code(lowered.wide->specular.function.polynomial, "wide_specular", "kWideTable",
+                                 true, "// Target specular where target alpha is at its limit.");
+  if (lowered.bright)
+    code.functions += texel_code(lowered.bright->function.polynomial, "bright_alpha", "kBrightTable", true,
+                                 "// Target alpha where target specular is at its limit.");
   return code;
 }
 

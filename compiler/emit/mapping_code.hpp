@@ -17,6 +17,10 @@ enum class CodeForm {
   // them, from which `void specular_terms(Count, Terms&)` computes the others, for any type of count; `float
   // target_specular(const Terms&, std::size_t i, float specular)`.
   kTerms,
+  // The same, with limits and regimes (lower/lowered.hpp): `float wide_specular(float alpha, float
+  // specular)`, `float
+  // bright_alpha(float alpha, float specular)`, if there are any.
+  kRegimes,
   // `void target_alpha_rows(std::size_t count, const float* alpha, const float* specular, float* out)` and
   // target_specular_rows of the same shape, count up to kBlock: for long sums.
   kRows,
@@ -76,6 +80,7 @@ std::string function_code(const FunctionParts& parts);
 struct TermsParts {
   std::string comment, table;
   std::vector<std::string> names;  // of the coefficients
+  std::string more_rows = {};      // members of Terms
   bool uses_alpha = true;          // whether any coefficient depends on it
   std::string statements;          // that compute the coefficients
   bool uses_specular = true;

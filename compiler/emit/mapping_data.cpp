@@ -163,6 +163,10 @@ MappingData fitted(const remap::Mlp& mlp, const Domain& domain) {
           error_of(networks.alpha, domain), error_of(networks.specular, domain)};
 }
 
+MappingData fitted(const remap::Series&, const Domain&) {
+  throw remap::Error(remap::ErrorKind::kUsage, "emit: a series has no exact form (remove --exact)");
+}
+
 MappingData fitted(const remap::Chain& chain, const Domain&) {
   throw remap::Error(remap::ErrorKind::kUsage, "emit: a chain of " + std::to_string(chain.steps.size()) +
                                                    " steps has no exact form (remove --exact)");
@@ -173,10 +177,17 @@ MappingData fitted(const remap::Chain& chain, const Domain&) {
 std::string two_digits(double error) { return remap::number_text(remap::rounded_up(error, 2)); }
 
 MappingData lowered_mapping(const remap::Lowered& lowered) {
-  return {lowered,
-          "Lowered from the fit. Target alpha: " + shape_text(lowered.alpha) +
-              ".\nTarget specular: " + shape_text(lowered.specular) + ".",
-          lowered.alpha.bound, lowered.specular.bound};
+  std::string text = "Lowered from the fit. Target alpha: " + shape_text(lowered.alpha) +
+                     ".\nTarget specular: " + shape_text(lowered.specular) + ".";
+  if (lowered.wide)
+    text += "\nWhere alpha is at its limit, target specular: " + shape_text(lowered.wide->specular.function) +
+            ".";
+  if (lowered.bright)
+    text += "\nWhere specular is at its limit, target alpha: " + shape_text(lowered.bright->function) + ".";
+  if (lowered.wide || lowered.bright)
+    text += "\nAll together within " + two_digits(lowered.alpha_bound()) + " in alpha, " +
+            two_digits(lowered.specular_bound()) + " in specular.";
+  return {lowered, text, lowered.alpha_bound(), lowered.specular_bound()};
 }
 
 MappingData exact_mapping(const remap::MappingKind& mapping, const Domain& domain) {

@@ -30,6 +30,7 @@ std::string terms_code(const TermsParts& parts) {
                               {{"comment", parts.comment},
                                {"table", parts.table},
                                {"rows", joined(parts.names, ", ", row)},
+                               {"more_rows", parts.more_rows},
                                {"alpha", parts.uses_alpha ? "const float alpha = terms.alpha[i];" : ""},
                                {"statements", parts.statements},
                                {"store", joined(parts.names, "", store)},

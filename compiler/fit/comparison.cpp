@@ -29,7 +29,7 @@ constexpr double kShareOfFits = 0.5;
 
 // The errors of one contender on the held-out rows of a fold.
 struct FoldErrors {
-  Residuals residuals;
+  Residuals residuals, relative;
   std::string failure;
 };
 
@@ -78,6 +78,7 @@ class ComparisonRun {
     if (contenders.size() == 2 && contenders[0].fitted && contenders[1].fitted &&
         contenders[1].regression.method.at("form") == "paper")
       contenders.erase(contenders.begin());  // both are the same; the other one records how it was chosen
+    enter("series", Regressor::kSeries, regression);
     enter("svr", Regressor::kSvr, regression);
     enter("mlp", Regressor::kMlp, regression);
   }
@@ -127,6 +128,11 @@ class ComparisonRun {
     errors.failure = failure_of("not fitted in a fold", [&] {
       errors.residuals =
           residuals_of(fold.judging, regress_again(contender.regression, fold.training, single_threaded()));
+      for (std::size_t i = 0; i < fold.judging.size(); ++i) {
+        const TableRow& row = fold.judging[i];
+        errors.relative.alpha.push_back(errors.residuals.alpha[i] * error_weight(row.alpha2));
+        errors.relative.specular.push_back(errors.residuals.specular[i] * error_weight(row.specular2));
+      }
     });
     return errors;
   }
@@ -134,26 +140,29 @@ class ComparisonRun {
   static void put_together(Contender& contender, const std::vector<FoldErrors>& folds) {
     for (const FoldErrors& fold : folds)
       if (!fold.failure.empty() && contender.sound) reject(contender, fold.failure);
-    const auto join = [&](std::vector<double> Residuals::*output, remap::ErrorFigures* figures) {
-      std::vector<std::vector<double>> by_fold;
+    const auto join = [&](std::vector<double> Residuals::*output, remap::ErrorFigures* figures,
+                          remap::RelativeError* relative) {
       std::vector<double> all;
+      std::vector<std::vector<double>> by_fold;
       for (const FoldErrors& fold : folds) {
-        const std::vector<double>& own = by_fold.emplace_back(fold.residuals.*output);
+        const std::vector<double>& own = fold.residuals.*output;
         all.insert(all.end(), own.begin(), own.end());
+        by_fold.push_back(fold.relative.*output);
       }
       *figures = error_figures(std::move(all));
-      return cross_validated(by_fold).standard_error;
+      const CrossValidated score = cross_validated(by_fold);
+      *relative = {score.rms, score.standard_error};
     };
     Candidate& candidate = contender.candidate;
-    candidate.alpha_standard_error = join(&Residuals::alpha, &candidate.alpha);
-    candidate.specular_standard_error = join(&Residuals::specular, &candidate.specular);
+    join(&Residuals::alpha, &candidate.alpha, &candidate.relative_alpha);
+    join(&Residuals::specular, &candidate.specular, &candidate.relative_specular);
   }
 
   void judge_beyond(Contender& contender) {
     if (!contender.fitted) return;
     const BeyondDomain beyond = look_beyond(contender.regression.mapping, domain_);
     contender.candidate.chroma_shift = beyond.chroma_shift;
-    if (!beyond.fault.empty()) reject(contender, "breaks beyond the domain: " + beyond.fault);
+    if (!beyond.fault.empty()) reject(contender, "breaks inside the domain: " + beyond.fault);
   }
 
   void judge_by_edge() {
@@ -233,7 +242,7 @@ class ComparisonRun {
     if (progress_) progress_(share);
   }
 
-  static constexpr double kContenders = 4.0;
+  static constexpr double kContenders = 5.0;
 
   const std::vector<TableRow>& rows_;
   const remap::Domain& domain_;
@@ -248,21 +257,22 @@ class ComparisonRun {
 }  // namespace
 
 std::size_t choose_candidate(std::vector<Candidate*> candidates, const std::vector<bool>& eligible) {
-  const auto bound_of = [&](remap::ErrorFigures Candidate::*figures, double Candidate::*standard_error) {
+  const auto bound_of = [&](remap::RelativeError Candidate::*output) {
     std::vector<CrossValidated> scores;
     for (std::size_t i = 0; i < candidates.size(); ++i)
-      if (eligible[i]) scores.push_back({(candidates[i]->*figures).rms, candidates[i]->*standard_error});
+      if (eligible[i])
+        scores.push_back({(candidates[i]->*output).rms, (candidates[i]->*output).standard_error});
     return error_bound(scores);
   };
-  const double alpha_bound = bound_of(&Candidate::alpha, &Candidate::alpha_standard_error),
-               specular_bound = bound_of(&Candidate::specular, &Candidate::specular_standard_error);
+  const double alpha_bound = bound_of(&Candidate::relative_alpha),
+               specular_bound = bound_of(&Candidate::relative_specular);
   std::size_t chosen = candidates.size();
   double least_excess = 1e300;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!eligible[i]) continue;
     // 1 for all candidates that count as equal to the best; the number of constants decides among them.
-    const double excess =
-        std::max({1.0, candidates[i]->alpha.rms / alpha_bound, candidates[i]->specular.rms / specular_bound});
+    const double excess = std::max({1.0, candidates[i]->relative_alpha.rms / alpha_bound,
+                                    candidates[i]->relative_specular.rms / specular_bound});
     if (excess < least_excess ||
         (excess == least_excess && candidates[i]->number_count < candidates[chosen]->number_count)) {
       chosen = i;
@@ -274,9 +284,9 @@ std::size_t choose_candidate(std::vector<Candidate*> candidates, const std::vect
     Candidate& candidate = *candidates[i];
     if (i == chosen)
       candidate.verdict = "chosen";
-    else if (candidate.alpha.rms > alpha_bound)
+    else if (candidate.relative_alpha.rms > alpha_bound)
       candidate.verdict = "alpha error beyond one standard error of the best";
-    else if (candidate.specular.rms > specular_bound)
+    else if (candidate.relative_specular.rms > specular_bound)
       candidate.verdict = "specular error beyond one standard error of the best";
     else
       candidate.verdict = "no better, and more numbers";

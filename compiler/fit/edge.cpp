@@ -29,19 +29,20 @@ double at(const std::set<double>& values, std::size_t position) {
 
 using Color = std::array<double, 3>;
 
-// Maps a color channel by channel, and fills `fault` if the result is not finite or negative.
-Color map_color(const remap::MappingKind& mapping, double alpha, Color color, std::string* fault) {
-  for (double& channel : color) {
-    const double specular = channel;
-    const remap::MappedTexel texel = remap::evaluate_mapping(mapping, alpha, specular);
-    channel = texel.specular;
-    const bool sound = texel.alpha > 0.0 && texel.specular >= 0.0 && std::isfinite(texel.alpha) &&
-                       std::isfinite(texel.specular);
-    if (!sound && fault->empty())
-      *fault = "alpha2 " + number_text(texel.alpha) + " and specular2 " + number_text(texel.specular) +
-               " at alpha1 " + number_text(alpha) + ", specular1 " + number_text(specular);
-  }
+// Maps a color channel by channel.
+Color map_color(const remap::MappingKind& mapping, double alpha, Color color) {
+  for (double& channel : color) channel = remap::evaluate_mapping(mapping, alpha, channel).specular;
   return color;
+}
+
+// Where the result is not finite or negative; empty if it is neither.
+std::string fault_at(const remap::MappingKind& mapping, double alpha, double specular) {
+  const remap::MappedTexel texel = remap::evaluate_mapping(mapping, alpha, specular);
+  const bool is_sound = texel.alpha > 0.0 && texel.specular >= 0.0 && std::isfinite(texel.alpha) &&
+                        std::isfinite(texel.specular);
+  if (is_sound) return "";
+  return "alpha2 " + number_text(texel.alpha) + " and specular2 " + number_text(texel.specular) +
+         " at alpha1 " + number_text(alpha) + ", specular1 " + number_text(specular);
 }
 
 double chroma_difference(const Color& a, const Color& b) {
@@ -98,11 +99,13 @@ BeyondDomain look_beyond(const remap::MappingKind& mapping, const remap::Domain&
       for (const double third : kChannels) {
         const Color inside = {edge, second * edge, third * edge};
         const Color outside = {kBeyond * inside[0], kBeyond * inside[1], kBeyond * inside[2]};
-        beyond.chroma_shift = std::max(beyond.chroma_shift,
-                                       chroma_difference(map_color(mapping, alpha, inside, &beyond.fault),
-                                                         map_color(mapping, alpha, outside, &beyond.fault)));
+        beyond.chroma_shift = std::max(
+            beyond.chroma_shift,
+            chroma_difference(map_color(mapping, alpha, inside), map_color(mapping, alpha, outside)));
       }
     }
+    for (const double channel : kChannels)
+      if (beyond.fault.empty()) beyond.fault = fault_at(mapping, alpha, channel * edge);
   }
   return beyond;
 }

@@ -34,7 +34,8 @@ inline constexpr double kBeyond = 1.5;
 // are 0.1, 0.5 and 1 times it, and the same colors times kBeyond, are mapped channel by channel without the
 // domain rule, at 33 alphas over the domain. The shift is the largest difference between the two in a
 // chromaticity coordinate (channel / sum of the channels). It is 0 for a proportional mapping. `fault` states
-// where alpha2 or specular2 is not finite or negative; empty if nowhere.
+// where inside the domain alpha2 or specular2 is not finite or negative; empty if nowhere. Beyond it no code
+// evaluates the mapping without the rule.
 struct BeyondDomain {
   double chroma_shift = 0.0;
   std::string fault;

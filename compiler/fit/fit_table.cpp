@@ -6,7 +6,9 @@
 #include <sstream>
 
 #include "fit/comparison.hpp"
+#include "fit/regime_fit.hpp"
 #include "fit/rows/split.hpp"
+#include "model/interpreter.hpp"
 #include "remap/version.hpp"
 #include "table/check.hpp"
 #include "table/domain.hpp"
@@ -61,7 +63,8 @@ std::optional<remap::ImageSimilarity> image_similarity(const Table& table,
 }  // namespace
 
 RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows) {
-  Residuals residuals = residuals_of(rows, fit.mapping);
+  Residuals residuals = residuals_of(
+      rows, [&](double alpha, double specular) { return remap::evaluate_fit(fit, alpha, specular); });
   return {error_figures(std::move(residuals.alpha)), error_figures(std::move(residuals.specular))};
 }
 
@@ -75,24 +78,29 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   fit.target = table.target;
   fit.domain = table_domain(table);
   fit.table = table_record(table.name, bytes, table.comments);
-  fit.image_similarity = image_similarity(table, rows_inside(usable_rows(table), fit.domain));
   fit.tool_version = remap::kVersion;
 
   const RowSplit split = split_rows(table, fit.domain, options.regression.seed, options.held_out_fraction);
   fit.split = split.record;
+  std::vector<TableRow> answers = split.training;
+  answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
+  fit.image_similarity = image_similarity(table, answers);
+  const TargetLimits limits = target_limits(table);
+  const RegimeRows rows = regime_rows(split.training, answers, limits);
+  const remap::Domain inside = covered_domain(rows.inside);
   const auto fit_of = [&](const Regression& regression) {
     remap::Fit one = fit;
     one.mapping = regression.mapping;
     one.method = regression.method;
+    one.regimes = fit_regimes(rows, limits, one.mapping, fit.domain, options.regression.seed, &one.method);
     const RowErrors errors = row_errors(one, split.held_out);
     one.alpha_error = errors.alpha;
     one.specular_error = errors.specular;
     return one;
   };
   if (options.regressor)
-    return {fit_of(regress(*options.regressor, split.training, fit.domain, options.regression, progress)),
-            {}};
-  const Comparison comparison = compare_regressions(split.training, fit.domain, options.regression, progress);
+    return {fit_of(regress(*options.regressor, rows.inside, inside, options.regression, progress)), {}};
+  const Comparison comparison = compare_regressions(rows.inside, inside, options.regression, progress);
   for (const Contender& contender : comparison.contenders) fit.candidates.push_back(contender.candidate);
   FittedTable fitted{fit_of(comparison.contenders[comparison.chosen].regression), {}};
   for (const Contender& contender : comparison.contenders)

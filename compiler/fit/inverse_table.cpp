@@ -20,17 +20,17 @@ double reached_specular(const remap::Fit& fit) {
   const remap::Range& alphas = fit.domain.alpha;
   for (int i = 0; i <= kProbes; ++i) {
     const double alpha = alphas.min + (alphas.max - alphas.min) * i / kProbes;
-    least = std::min(least, evaluate_mapping(fit.mapping, alpha, fit.domain.specular.max).specular);
+    least = std::min(least, evaluate_fit(fit, alpha, fit.domain.specular.max).specular);
   }
   return least;
 }
 
 TableRow row_of(const remap::Fit& fit, const remap::MappedTexel& target) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (const auto source = remap::inverse(fit.mapping, fit.domain, target))
+  if (const auto source = remap::inverse(fit, target))
     return {target.alpha, target.specular, source->alpha, source->specular, unknown, RowStatus::kOk, 0};
   const double alpha = std::clamp(target.alpha, fit.domain.alpha.min, fit.domain.alpha.max);
-  const double black = evaluate_mapping(fit.mapping, alpha, 0.0).specular;
+  const double black = evaluate_fit(fit, alpha, 0.0).specular;
   const RowStatus status = target.specular <= black ? RowStatus::kFlat : RowStatus::kClamped;
   return {target.alpha, target.specular, alpha, fit.domain.specular.max, unknown, status, 0};
 }
@@ -44,8 +44,8 @@ Table inverse_table(const remap::Fit& fit, std::string_view bytes, std::size_t a
   table.target = fit.source;
   table.name = remap::converter_id(table.source.model, table.target.model) + ".csv";
   const double least = fit.domain.specular.max / static_cast<double>(specular_count);
-  const remap::Range alphas{evaluate_mapping(fit.mapping, fit.domain.alpha.min, least).alpha,
-                            evaluate_mapping(fit.mapping, fit.domain.alpha.max, least).alpha};
+  const remap::Range alphas{evaluate_fit(fit, fit.domain.alpha.min, least).alpha,
+                            evaluate_fit(fit, fit.domain.alpha.max, least).alpha};
   const double top = reached_specular(fit);
   table.comments = {
       {"tool", std::string("remapc ") + remap::kVersion},

@@ -5,6 +5,7 @@
 
 #include "fit/parametric/parametric.hpp"
 #include "fit/parametric/specular_terms.hpp"
+#include "fit/series/series.hpp"
 
 namespace remapc {
 namespace {
@@ -33,6 +34,7 @@ struct RegressAgain {
   remap::MappingKind operator()(const remap::Mlp&) const {
     return fit_mlp(rows, joined(options.mlp, options)).mapping;
   }
+  remap::MappingKind operator()(const remap::Series& near) const { return fit_series_again(near, rows); }
   remap::MappingKind operator()(const remap::Chain&) const {
     throw std::logic_error("chains are composed, not regressed");
   }
@@ -47,6 +49,8 @@ Regression regress(Regressor regressor, const std::vector<TableRow>& rows, const
       return fit_parametric_best(rows, domain, {options.form, options.seed, options.jobs}, progress);
     case Regressor::kSvr:
       return fit_svr(rows, joined(options.svr, options), progress);
+    case Regressor::kSeries:
+      return fit_series_kind(rows, domain, options.seed);
     case Regressor::kMlp:
       break;
   }

@@ -10,7 +10,7 @@
 
 namespace remapc {
 
-enum class Regressor { kParametric, kSvr, kMlp };
+enum class Regressor { kParametric, kSvr, kMlp, kSeries };
 
 struct RegressionOptions {
   std::uint64_t seed = 1;

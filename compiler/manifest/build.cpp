@@ -176,9 +176,9 @@ class Builder {
   }
 
   std::string header_of(const remap::Fit& fit, LockedItem* record) {
-    const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
-    record->alpha_bound = lowered.alpha.bound;
-    record->specular_bound = lowered.specular.bound;
+    const remap::Lowered lowered = remap::lower(fit);
+    record->alpha_bound = lowered.alpha_bound();
+    record->specular_bound = lowered.specular_bound();
     remap::ConverterData data = remap::converter_data(fit, lowered);
     {
       const std::lock_guard lock(mutex_);
@@ -292,9 +292,8 @@ class Builder {
     remap::run_parallel(folder.fits.size(), execution_.jobs, [&](std::size_t i) {
       const remap::Fit& fit = folder.fits[i];
       const auto known = converters_.find(fit.id);
-      converters[i] = known != converters_.end()
-                          ? known->second
-                          : remap::converter_data(fit, remap::lower(fit.mapping, fit.domain));
+      converters[i] =
+          known != converters_.end() ? known->second : remap::converter_data(fit, remap::lower(fit));
     });
     write_changed(folders_.generated / kConverterListName, emit_converter_list(std::move(converters)));
     lock_.converters = converters_hash(folders_, lock_);

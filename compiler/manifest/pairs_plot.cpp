@@ -41,9 +41,9 @@ std::string panel(const remap::Fit& fit, const Place& corner) {
                      "\" fill=\"white\" stroke=\"#999\"/>\n<path d=\"M" + x + "," +
                      fixed(corner.y + kPanel, 1) + " l" + side + ",-" + side + "\" stroke=\"#ccc\"/>\n";
   text += polyline(corner, "#1f6fb4", fit.domain.alpha,
-                   [&](double alpha) { return remap::evaluate_mapping(fit.mapping, alpha, specular).alpha; });
+                   [&](double alpha) { return remap::evaluate_fit(fit, alpha, specular).alpha; });
   text += polyline(corner, "#e07b00", fit.domain.alpha, [&](double alpha) {
-    return remap::evaluate_mapping(fit.mapping, alpha, specular).specular / (specular * kLargestRatio);
+    return remap::evaluate_fit(fit, alpha, specular).specular / (specular * kLargestRatio);
   });
   return text;
 }

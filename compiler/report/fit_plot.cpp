@@ -13,6 +13,7 @@
 #include "remap/error.hpp"
 #include "report/gnuplot.hpp"
 #include "system/files.hpp"
+#include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -25,6 +26,7 @@ using remap::number_text;
 
 constexpr std::size_t kMostRows = 2000;
 constexpr int kCurvePoints = 200;
+constexpr const char* kLimitColor = "#999999";
 constexpr std::size_t kCurves = 5;  // alphas whose specular is drawn
 
 // Quotes a text for gnuplot.
@@ -55,7 +57,8 @@ std::vector<double> spread(const std::set<double>& values, std::size_t count) {
 class Plot {
  public:
   Plot(const Table& table, const std::vector<Fit>& fits) : fits_(fits), fit_(fits.front()) {
-    rows_ = draw_rows(usable_rows(table), kMostRows, 1);
+    rows_ = draw_rows(answer_rows(table), kMostRows, 1);
+    limits_ = target_limits(table);
     for (const TableRow& row : rows_) {
       alphas_.insert(row.alpha1);
       speculars_.insert(row.specular1);
@@ -83,7 +86,7 @@ class Plot {
     out_ << "$rows << EOD\n";
     for (const TableRow& row : rows_)
       out_ << number_text(row.alpha1) << ' ' << number_text(row.specular1) << ' ' << number_text(row.alpha2)
-           << ' ' << number_text(row.specular2) << '\n';
+           << ' ' << number_text(row.specular2) << ' ' << at_limit(row) << '\n';
     out_ << "EOD\n";
     const double middle = *std::next(speculars_.begin(), static_cast<std::ptrdiff_t>(speculars_.size() / 2));
     shown_ = spread(alphas_, kCurves);
@@ -95,14 +98,18 @@ class Plot {
     out_ << "$shown << EOD\n";
     for (const TableRow& row : rows_)
       if (std::find(shown_.begin(), shown_.end(), row.alpha1) != shown_.end())
-        out_ << number_text(row.specular1) << ' ' << number_text(row.specular2) << '\n';
+        out_ << number_text(row.specular1) << ' ' << number_text(row.specular2) << ' ' << at_limit(row)
+             << '\n';
     out_ << "EOD\n";
   }
+
+  // 1 where the target is at a limit, else 0.
+  int at_limit(const TableRow& row) const { return regime_of(row, limits_) == RowRegime::kInside ? 0 : 1; }
 
   void write_residuals(std::size_t f) {
     out_ << "$residuals" << f << " << EOD\n";
     for (const TableRow& row : rows_) {
-      const remap::MappedTexel texel = remap::evaluate_mapping(fits_[f].mapping, row.alpha1, row.specular1);
+      const remap::MappedTexel texel = remap::evaluate_fit(fits_[f], row.alpha1, row.specular1);
       out_ << number_text(row.alpha1) << ' ' << shown_error(texel.alpha - row.alpha2) << ' '
            << shown_error(texel.specular - row.specular2) << '\n';
     }
@@ -114,8 +121,8 @@ class Plot {
     const remap::Range& range = fit_.domain.alpha;
     for (int i = 0; i <= kCurvePoints; ++i) {
       const double alpha = range.min + (range.max - range.min) * i / kCurvePoints;
-      out_ << number_text(alpha) << ' '
-           << number_text(remap::evaluate_mapping(fits_[f].mapping, alpha, specular).alpha) << '\n';
+      out_ << number_text(alpha) << ' ' << number_text(remap::evaluate_fit(fits_[f], alpha, specular).alpha)
+           << '\n';
     }
     out_ << "EOD\n";
   }
@@ -127,7 +134,7 @@ class Plot {
       for (int i = 0; i <= kCurvePoints / 4; ++i) {
         const double specular = fit_.domain.specular.max * i / (kCurvePoints / 4);
         out_ << number_text(specular) << ' '
-             << number_text(remap::evaluate_mapping(fits_[f].mapping, alpha, specular).specular) << '\n';
+             << number_text(remap::evaluate_fit(fits_[f], alpha, specular).specular) << '\n';
       }
       out_ << '\n';
     }
@@ -139,22 +146,34 @@ class Plot {
          << " noenhanced\nset ylabel " << quoted(y) << " noenhanced\n";
   }
 
-  // The first line is the widest, so that overlapping lines stay visible. The rows are drawn last.
-  void plot_curves(const std::string& block, const std::string& rows) {
+  // The first line is the widest, so that overlapping lines stay visible. The rows are drawn last: `rows`, a
+  // data block whose column `y` is drawn over `x`, and whose column `limit` tells those at a limit of the
+  // target.
+  void plot_curves(const std::string& block, const std::string& rows, int x, int y, int limit) {
     // gnuplot requires a range even if all values are 0.
     out_ << "set yrange [0:1e-3<*]\nset key left top Left reverse\nplot ";
     for (std::size_t f = 0; f < fits_.size(); ++f)
       out_ << "$" << block << f << " using 1:2 with lines linewidth "
            << 1.2 + 1.8 * static_cast<double>(fits_.size() - 1 - f) << " linecolor rgb '" << kPlotColors[f]
            << "' title " << quoted(fit_label(fits_[f])) << ", ";
-    out_ << rows << " with points pointtype 7 pointsize 0.25 linecolor rgb 'black' title 'rows'\n"
-         << "unset yrange\n";
+    const auto points = [&](int at_limit, const std::string& color) {
+      out_ << rows << " using " << x << ":($" << limit << "==" << at_limit << "?$" << y
+           << ":NaN) with points pointtype 7 pointsize 0.25 linecolor rgb '" << color << "' title ";
+    };
+    points(0, "black");
+    out_ << "'rows'";
+    if (std::ranges::any_of(rows_, [&](const TableRow& row) { return at_limit(row) != 0; })) {
+      out_ << ", ";
+      points(1, kLimitColor);
+      out_ << "'rows at a limit of the target'";
+    }
+    out_ << "\nunset yrange\n";
   }
 
   void alpha_panel() {
     axes("Target alpha; curves at the middle " + fit_.source.specular, "alpha of " + fit_.source.model,
          "alpha of " + fit_.target.model);
-    plot_curves("alpha", "$rows using 1:3");
+    plot_curves("alpha", "$rows", 1, 3, 5);
   }
 
   void specular_panel() {
@@ -164,7 +183,7 @@ class Plot {
     axes("Target " + fit_.target.specular + " at alpha " + alphas,
          fit_.source.specular + " of " + fit_.source.model,
          fit_.target.specular + " of " + fit_.target.model);
-    plot_curves("specular", "$shown using 1:2");
+    plot_curves("specular", "$shown", 1, 2, 3);
   }
 
   // The axis is logarithmic, because the errors of the kinds differ by powers of ten.
@@ -186,6 +205,7 @@ class Plot {
   const std::vector<Fit>& fits_;
   const Fit& fit_;  // the first one; models, table and domain are the same for all
   std::vector<TableRow> rows_;
+  TargetLimits limits_;
   std::set<double> alphas_, speculars_;
   std::vector<double> shown_;  // alphas of the second panel
   std::ostringstream out_;

@@ -43,7 +43,7 @@ Parameters matched(const EnvironmentsOptions& options, const Renderer& renderer,
 // Evaluates the fit as generated headers and texremap do: as polynomials in floats, after the domain rule
 // (model/interpreter.hpp).
 Parameters shipped(const EnvironmentsOptions& options, const remap::Fit& fit) {
-  const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
+  const remap::Lowered lowered = remap::lower(fit);
   const double held_specular = std::min(options.specular, fit.domain.specular.max);
   const double scale = held_specular > 0.0 ? options.specular / held_specular : 1.0;
   Parameters parameters;

@@ -15,7 +15,7 @@ struct ReachOptions {
   std::vector<remap::Fit> fits;    // between models of the built-in renderer
   std::size_t materials = 32;      // of each parameter: their product is compared
   remap::Range alphas{0.05, 1.0};  // of the source; narrower highlights need more pixels
-  int resolution = 96;             // width and height of the pictures in pixels
+  int resolution = 192;            // width and height of the pictures in pixels
   unsigned jobs = 0;               // threads; 0: one per core. Results do not depend on it
   std::function<void()> progress;  // called progress_steps() times, from any thread
   const std::atomic<bool>* cancelled = nullptr;

@@ -5,6 +5,8 @@
 
 #include "match/joint_match.hpp"
 #include "match/match.hpp"
+#include "table/row_regime.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -63,63 +65,110 @@ class SourcePictures {
   std::vector<std::vector<float>> pictures_;
 };
 
+// Matches width and specular at one source width, from pictures without diffuse.
+class WidthMatch {
+ public:
+  virtual ~WidthMatch() = default;
+  virtual TableRow at(const SamplePoint& sample) = 0;
+};
+
 // Matches each sample by its own picture, for sources whose weights or law differ from one sample to the
 // next.
-std::vector<TableRow> match_each(const SweepSetup& setup, const SampleBlock& block) {
-  const SourcePictures pictures(setup, block);
-  std::vector<TableRow> rows;
-  std::vector<std::size_t> minima;
-  for (const std::size_t index : block.samples) {
-    const SamplePoint& sample = setup.options.samples[index];
-    auto picture = pictures.at(sample.specular);
-    if (sample.specular == 0.0 || *std::max_element(picture.begin(), picture.end()) <= 0.0f) {
-      rows.push_back(flat_row(sample, setup.target));
-      continue;
-    }
-    auto weights = setup.picture_taker.weights(picture);
-    if (setup.bank == nullptr) {
-      rows.push_back(searched_row(setup, sample, std::move(picture), std::move(weights)));
-      continue;
-    }
-    Matcher matcher(*setup.bank, {std::move(picture)}, std::move(weights));
-    rows.push_back(matched_row(sample, matcher.match({1.0}, &minima)));
+class SeparateMatch final : public WidthMatch {
+ public:
+  SeparateMatch(const SweepSetup& setup, const SampleBlock& block) : setup_(setup), pictures_(setup, block) {}
+
+  TableRow at(const SamplePoint& sample) override {
+    auto picture = pictures_.at(sample.specular);
+    if (sample.specular == 0.0 || *std::max_element(picture.begin(), picture.end()) <= 0.0f)
+      return flat_row(sample, setup_.target);
+    auto weights = setup_.picture_taker.weights(picture);
+    if (setup_.bank == nullptr) return searched_row(setup_, sample, std::move(picture), std::move(weights));
+    Matcher matcher(*setup_.bank, {std::move(picture)}, std::move(weights));
+    return matched_row(sample, matcher.match({1.0}, &minima_));
   }
-  return rows;
-}
 
-// Matches all samples at once. Pictures of an affine source are combinations of two. If the weights do not
-// depend on specular either (uniform, or relative to a picture that only scales), one set of inner products
-// serves all.
-std::vector<TableRow> match_together(const SweepSetup& setup, const SampleBlock& block) {
-  AffinePictures pictures = take_affine(setup.picture_taker, setup.source, block.alpha);
-  auto weights = setup.picture_taker.weights(pictures.full);
-  const bool proportional = setup.source.response.proportional();
-  std::vector<std::vector<float>> basis;
-  basis.push_back(std::move(pictures.slope));
-  if (!proportional) basis.push_back(std::move(pictures.base));
-  Matcher matcher(*setup.bank, std::move(basis), std::move(weights));
+ private:
+  const SweepSetup& setup_;
+  SourcePictures pictures_;
+  std::vector<std::size_t> minima_;
+};
 
-  const double most = setup.source.linear_range().max;
-  const bool is_dark = *std::max_element(pictures.full.begin(), pictures.full.end()) <= 0.0f;
-  std::vector<TableRow> rows;
-  for (const std::size_t index : block.samples) {
-    const SamplePoint& sample = setup.options.samples[index];
+// Matches all samples from the same inner products. Pictures of an affine source are combinations of two. If
+// the weights do not depend on specular either (uniform, or relative to a picture that only scales), one set
+// of inner products serves all.
+class CommonMatch final : public WidthMatch {
+ public:
+  CommonMatch(const SweepSetup& setup, double alpha)
+      : setup_(setup),
+        proportional_(setup.source.response.proportional()),
+        pictures_(take_affine(setup.picture_taker, setup.source, alpha)),
+        is_dark_(*std::max_element(pictures_.full.begin(), pictures_.full.end()) <= 0.0f),
+        matcher_(*setup.bank, basis(), setup.picture_taker.weights(pictures_.full)) {}
+
+  TableRow at(const SamplePoint& sample) override {
+    if (is_dark_ || sample.specular == 0.0) return flat_row(sample, setup_.target);
     std::vector<std::size_t> minima;  // products are shared, so each material can search the whole bank
-    std::vector<double> coefficients = {std::min(sample.specular, most)};
-    if (!proportional) coefficients.push_back(1.0);
-    rows.push_back(is_dark || sample.specular == 0.0
-                       ? flat_row(sample, setup.target)
-                       : matched_row(sample, matcher.match(coefficients, &minima)));
+    std::vector<double> coefficients = {std::min(sample.specular, setup_.source.linear_range().max)};
+    if (!proportional_) coefficients.push_back(1.0);
+    return matched_row(sample, matcher_.match(coefficients, &minima));
   }
-  return rows;
-}
 
-// Matches specular and width, from pictures without diffuse.
-std::vector<TableRow> match_specular(const SweepSetup& setup, const SampleBlock& block) {
+ private:
+  std::vector<std::vector<float>> basis() const {
+    std::vector<std::vector<float>> all = {pictures_.slope};
+    if (!proportional_) all.push_back(pictures_.base);
+    return all;
+  }
+
+  const SweepSetup& setup_;
+  bool proportional_;
+  AffinePictures pictures_;
+  bool is_dark_;
+  Matcher matcher_;
+};
+
+std::unique_ptr<WidthMatch> width_match(const SweepSetup& setup, const SampleBlock& block) {
   const bool uniform = setup.options.objective.weighting == Weighting::kUniform;
   const SpecularResponse& source = setup.source.response;
   const bool shared = setup.bank != nullptr && (source.proportional() || (source.affine() && uniform));
-  return shared ? match_together(setup, block) : match_each(setup, block);
+  if (shared) return std::make_unique<CommonMatch>(setup, block.alpha);
+  return std::make_unique<SeparateMatch>(setup, block);
+}
+
+// Halvings of the step between samples by which a joint of regimes is found.
+constexpr int kJointHalvings = 6;
+
+// Adds rows on both sides of every joint between regimes (row_regime.hpp) of neighbouring samples, where fits
+// of the regimes have to meet.
+void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow>* rows) {
+  const TargetLimits limits = setup.limits();
+  std::vector<TableRow> sorted = *rows;
+  std::ranges::sort(sorted, {}, &TableRow::specular1);
+  const auto differ = [&](const TableRow& a, const TableRow& b) {
+    const RowRegime of_a = regime_of(a, limits), of_b = regime_of(b, limits);
+    return of_a != of_b && of_a != RowRegime::kNone && of_b != RowRegime::kNone;
+  };
+  for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
+    // Between two samples lies at most one corner, so at most two joints.
+    TableRow below = sorted[i];
+    for (int joint = 0; joint < 2 && differ(below, sorted[i + 1]); ++joint) {
+      const TableRow start = below;
+      TableRow above = sorted[i + 1];
+      // The last two on each side, so that one is left where the other is held out.
+      std::vector<TableRow> on_this_side, beyond;
+      for (int k = 0; k < kJointHalvings; ++k) {
+        const double middle = remap::rounded(0.5 * (below.specular1 + above.specular1), kSampleDigits);
+        const TableRow row = match->at({below.alpha1, middle});
+        (differ(row, below) ? above : below) = row;
+        (differ(row, start) ? beyond : on_this_side).push_back(row);
+      }
+      for (const auto* side : {&on_this_side, &beyond})
+        for (std::size_t k = side->size() - std::min<std::size_t>(side->size(), 2); k < side->size(); ++k)
+          rows->push_back((*side)[k]);
+      below = above;
+    }
+  }
 }
 
 // Matches diffuse by itself, in proportion.
@@ -174,8 +223,14 @@ std::vector<TableRow> unmatched_rows(const SweepSetup& setup, const SampleBlock&
 bool has_diffuse(const SweepOptions& options) { return options.stages != 2 || options.diffuse > 0.0; }
 
 std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& block) {
-  std::vector<TableRow> rows =
-      setup.options.stages == 1 ? unmatched_rows(setup, block) : match_specular(setup, block);
+  std::vector<TableRow> rows;
+  if (setup.options.stages == 1) {
+    rows = unmatched_rows(setup, block);
+  } else {
+    const std::unique_ptr<WidthMatch> match = width_match(setup, block);
+    for (const std::size_t index : block.samples) rows.push_back(match->at(setup.options.samples[index]));
+    if (!has_diffuse(setup.options) && setup.bank != nullptr) add_joints(setup, match.get(), &rows);
+  }
   for (TableRow& row : rows) {
     if (has_diffuse(setup.options)) {
       match_diffuse_apart(setup, &row);

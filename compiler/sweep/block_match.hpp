@@ -7,6 +7,7 @@
 #include "match/target_bank.hpp"
 #include "match/target_pictures.hpp"
 #include "sweep/sweep_options.hpp"
+#include "table/row_regime.hpp"
 #include "table/table.hpp"
 
 namespace remapc {
@@ -16,6 +17,9 @@ struct SampleBlock {
   double alpha;
   std::vector<std::size_t> samples;
 };
+
+// Samples are rounded to numbers that a user can type.
+inline constexpr int kSampleDigits = 9;
 
 // What the blocks of one sweep share.
 struct SweepSetup {
@@ -29,12 +33,14 @@ struct SweepSetup {
   std::unique_ptr<TargetPictures> pictures;  // for non-linear matches
   std::unique_ptr<TargetGrid> grid;          // of a target without a family
   EffectiveWidths source_widths, target_widths;
+
+  TargetLimits limits() const { return {target_widths.effective.max, target.linear_range().max, true}; }
 };
 
 // Whether rows carry diffuse: if the source has some, or if the target's is matched together with the rest.
 bool has_diffuse(const SweepOptions& options);
 
-// Returns the rows of a block in its order.
+// Returns the rows of a block in its order, then those that mark where regimes meet.
 std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& block);
 
 }  // namespace remapc

@@ -8,6 +8,7 @@ namespace {
 using remap::number_text;
 
 constexpr int kWidthDigits = 4;
+constexpr int kLimitDigits = 10;  // those of a row
 
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 
@@ -48,6 +49,11 @@ void add_side(const std::string& role, const ProbedModel& probed_model, Comments
                            pictures_text(probed_model.curve->picture_count()) + " a width");
   if (response.law == SpecularLaw::kClamped)
     comments->emplace_back(role + "_specular_knee", number_text(response.knee));
+}
+
+void add_limits(const TargetLimits& limits, Comments* comments) {
+  comments->emplace_back(kAlphaLimitComment, number_text(remap::rounded(limits.alpha, kLimitDigits)));
+  comments->emplace_back(kSpecularLimitComment, number_text(remap::rounded(*limits.specular, kLimitDigits)));
 }
 
 void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments) {

@@ -8,11 +8,15 @@
 #include "probe/picture_taker.hpp"
 #include "renderer/steady_renderer.hpp"
 #include "sweep/sweep_options.hpp"
+#include "table/row_regime.hpp"
 
 namespace remapc {
 
 // Adds one side: the model, its parameters and the law of its specular.
 void add_side(const std::string& role, const ProbedModel& probed_model, Comments* comments);
+
+// Adds the limits of the target, which must be known.
+void add_limits(const TargetLimits& limits, Comments* comments);
 
 // Adds the widths of one side that change its pictures, if some do not.
 void add_widths(const std::string& role, const EffectiveWidths& widths, Comments* comments);

@@ -27,8 +27,6 @@ using remap::ErrorKind;
 using remap::number_text;
 using remap::Range;
 
-// Samples are rounded to numbers that a user can type.
-constexpr int kSampleDigits = 9;
 // The law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
 // The number of widths whose spheres are compared, spread over those of a table: for each, the usable row
@@ -129,6 +127,7 @@ Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
   add_widths("source", setup.source_widths, &table.comments);
   add_noise("source", renderer, options.source, &table.comments);
   add_side("target", setup.target, &table.comments);
+  add_limits(setup.limits(), &table.comments);
   add_widths("target", setup.target_widths, &table.comments);
   add_noise("target", renderer, options.target, &table.comments);
   add_comparison(renderer, options, &table.comments);
@@ -289,6 +288,7 @@ Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const
   const std::vector<SampleBlock> blocks = blocks_of(options.samples);
   std::mutex mutex;
   std::size_t done = 0;
+  std::vector<std::vector<TableRow>> joints(blocks.size());
   remap::run_parallel(blocks.size(), execution.jobs, [&](std::size_t b) {
     const SampleBlock& block = blocks[b];
     if (execution.cancelled != nullptr && *execution.cancelled)
@@ -296,10 +296,12 @@ Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const
     const std::vector<TableRow> rows = rounded(match_block(setup, block));
     const std::lock_guard lock(mutex);
     for (std::size_t i = 0; i < block.samples.size(); ++i) table.rows[block.samples[i]] = rows[i];
+    joints[b].assign(rows.begin() + static_cast<std::ptrdiff_t>(block.samples.size()), rows.end());
     done += block.samples.size();
     if (execution.progress) execution.progress(done, options.samples.size());
   });
   table.comments.emplace_back(kSpheresComment, spheres_text(setup, table.rows));
+  for (const auto& rows : joints) table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   return table;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "remap/error.hpp"
+#include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -184,9 +185,10 @@ class TableCheck : Findings {
   }
 
   void check_saturation() {
+    const TargetLimits limits = target_limits(table_);
     std::map<RowStatus, std::vector<std::size_t>> lines;
     for (const TableRow& row : table_.rows)
-      if (row.status != RowStatus::kOk) lines[row.status].push_back(row.line);
+      if (regime_of(row, limits) == RowRegime::kNone) lines[row.status].push_back(row.line);
     for (const auto& [status, where] : lines) {
       const std::string message = std::to_string(where.size()) + " of " + std::to_string(table_.rows.size()) +
                                   " rows are " + std::string(status_name(status)) +

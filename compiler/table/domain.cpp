@@ -6,6 +6,7 @@
 
 #include "model/covered_box.hpp"
 #include "remap/error.hpp"
+#include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -36,7 +37,7 @@ std::map<double, std::size_t> column_of_alpha(const Table& table) {
 // Rows of similar width.
 struct Column {
   double first = INFINITY, last = -INFINITY;  // alpha1 of its usable rows
-  double cut = INFINITY;                      // lowest clamped specular1
+  double cut = INFINITY;                      // lowest specular1 that is clamped without an answer
   double reach = 0.0;                         // highest usable specular1 below that
   bool is_cut() const { return std::isfinite(cut); }
 };
@@ -44,15 +45,18 @@ struct Column {
 std::vector<Column> columns_of(const Table& table) {
   const std::map<double, std::size_t> column_of = column_of_alpha(table);
   if (column_of.empty()) return {};
+  const TargetLimits limits = target_limits(table);
+  const auto is_answer = [&](const TableRow& row) { return regime_of(row, limits) != RowRegime::kNone; };
   std::vector<Column> columns(column_of.rbegin()->second + 1);
   for (const TableRow& row : table.rows) {
     Column& column = columns[column_of.at(row.alpha1)];
-    if (row.status == RowStatus::kClamped) column.cut = std::min(column.cut, row.specular1);
+    if (row.status == RowStatus::kClamped && !is_answer(row))
+      column.cut = std::min(column.cut, row.specular1);
   }
   double highest = 0.0;
   for (const TableRow& row : table.rows) {
     Column& column = columns[column_of.at(row.alpha1)];
-    if (row.status != RowStatus::kOk || row.specular1 >= column.cut) continue;
+    if (!is_answer(row) || row.specular1 >= column.cut) continue;
     column.first = std::min(column.first, row.alpha1);
     column.last = std::max(column.last, row.alpha1);
     column.reach = std::max(column.reach, row.specular1);
@@ -82,7 +86,10 @@ std::string range_text(const remap::Range& range) {
 
 Table swapped(const Table& table) {
   Table result = table;
-  std::erase_if(result.comments, [](const auto& comment) { return comment.first == kSpheresComment; });
+  std::erase_if(result.comments, [](const auto& comment) {
+    return comment.first == kSpheresComment || comment.first == kAlphaLimitComment ||
+           comment.first == kSpecularLimitComment;
+  });
   result.comments.emplace_back("roles", "swapped");
   std::swap(result.source, result.target);
   result.rows = usable_rows(table);

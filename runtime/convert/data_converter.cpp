@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "convert/lowered_kernel.hpp"
@@ -18,7 +20,10 @@ void require_evaluable(const ConverterData& data) {
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::kNumeric, data.id + ": " + what);
   };
-  for (const PiecewisePolynomial* polynomial : {&data.alpha_polynomial, &data.specular_polynomial})
+  std::vector<const PiecewisePolynomial*> polynomials = {&data.alpha_polynomial, &data.specular_polynomial};
+  if (data.wide) polynomials.push_back(&data.wide->polynomial);
+  if (data.bright) polynomials.push_back(&data.bright->polynomial);
+  for (const PiecewisePolynomial* polynomial : polynomials)
     if (polynomial->degrees.size() > kMostPowers)
       refuse("the degree in specular is " + std::to_string(polynomial->degrees.size() - 1) + " (at most " +
              std::to_string(kMostPowers - 1) + " is supported)");
@@ -44,6 +49,14 @@ ConverterInfo info_of(const ConverterData& data, InstructionSet set) {
           {}};
 }
 
+LoweredForm form_of(const ConverterData& data) {
+  if (data.alpha_limit || data.specular_limit) return LoweredForm::kRegimes;
+  const std::vector<int>& degrees = data.specular_polynomial.degrees;
+  const bool is_factor = degrees.size() == 2 && degrees[0] < 0;
+  return is_factor && data.alpha_polynomial.degrees.size() == 1 ? LoweredForm::kProportional
+                                                                : LoweredForm::kTerms;
+}
+
 bool is_close(float value, float expected, float within) { return std::fabs(value - expected) <= within; }
 
 class DataConverter final : public Converter {
@@ -54,17 +67,26 @@ class DataConverter final : public Converter {
         specular_(data.specular_polynomial),
         golden_(data.golden),
         kernel_(lowered_kernel(set)) {
-    const std::vector<int>& degrees = data.specular_polynomial.degrees;
-    pass_ = {data.source.roughness,
-             data.target.roughness,
-             static_cast<float>(data.roughness.min),
-             static_cast<float>(data.roughness.max),
-             static_cast<float>(data.specular.min),
-             static_cast<float>(data.specular.max),
-             static_cast<float>(1.0 / data.specular.max),
-             degrees.size() == 2 && degrees[0] < 0 && data.alpha_polynomial.degrees.size() == 1,
-             alpha_.rows(),
-             specular_.rows()};
+    constexpr float kNone = std::numeric_limits<float>::max();  // larger than any number that a mapping gives
+    pass_.source = data.source.roughness;
+    pass_.target = data.target.roughness;
+    pass_.roughness_min = static_cast<float>(data.roughness.min);
+    pass_.roughness_max = static_cast<float>(data.roughness.max);
+    pass_.specular_min = static_cast<float>(data.specular.min);
+    pass_.specular_max = static_cast<float>(data.specular.max);
+    pass_.inverse_specular_max = static_cast<float>(1.0 / data.specular.max);
+    pass_.form = form_of(data);
+    pass_.alpha = alpha_.rows();
+    pass_.specular = specular_.rows();
+    pass_.alpha_limit = data.alpha_limit.value_or(kNone);
+    pass_.specular_limit = data.specular_limit.value_or(kNone);
+    pass_.mapping_to = data.wide ? data.mapping_to : kNone;
+    if (data.wide)
+      pass_.wide = {data.wide->alpha_from, data.wide->specular_from,
+                    wide_.emplace(data.wide->polynomial).rows()};
+    if (data.bright)
+      pass_.bright = {data.bright->alpha_from, data.bright->specular_from,
+                      bright_.emplace(data.bright->polynomial).rows()};
   }
 
   std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
@@ -122,8 +144,9 @@ class DataConverter final : public Converter {
   }
 
   OwnedPolynomialRows alpha_, specular_;
+  std::optional<OwnedPolynomialRows> wide_, bright_;
   std::vector<GoldenTexel> golden_;
-  LoweredPass pass_;  // points into the two polynomials
+  LoweredPass pass_;  // points into the polynomials
   LoweredKernel kernel_;
 };
 
@@ -135,7 +158,7 @@ std::unique_ptr<Converter> make_converter(const ConverterData& data, Instruction
 }
 
 std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, InstructionSet set) {
-  return make_lowered_converter(fit, lower(fit.mapping, fit.domain), set);
+  return make_lowered_converter(fit, lower(fit), set);
 }
 
 std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, const Lowered& lowered,

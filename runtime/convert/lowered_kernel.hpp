@@ -21,6 +21,19 @@ struct PolynomialRows {
   const float* numbers = nullptr;  // for each coefficient of a cell, those of all cells
 };
 
+// The polynomial of a regime, and where its domain begins.
+struct RegimeRows {
+  float alpha_from = 0.0f, specular_from = 0.0f;
+  PolynomialRows polynomial;
+};
+
+// The loops of a pass, from the fastest.
+enum class LoweredForm {
+  kProportional,  // target specular is a factor times specular, target alpha free of it
+  kTerms,
+  kRegimes,  // a limit of the target may hold what a polynomial gives
+};
+
 // What a kernel is told of a converter.
 struct LoweredPass {
   RoughnessConvention source = RoughnessConvention::kAlpha;
@@ -28,9 +41,13 @@ struct LoweredPass {
   float roughness_min = 0.0f, roughness_max = 0.0f;  // of the source's own width parameter
   float specular_min = 0.0f, specular_max = 0.0f;    // from 0; to more than 0
   float inverse_specular_max = 1.0f;
-  bool is_proportional = false;  // target specular is a factor times specular, target alpha free of it
+  LoweredForm form = LoweredForm::kTerms;
   PolynomialRows alpha;
   PolynomialRows specular;
+  // Of kRegimes: the largest float where there is no limit, without degrees where there is no regime
+  // (lower/lowered.hpp).
+  float alpha_limit = 0.0f, specular_limit = 0.0f, mapping_to = 0.0f;
+  RegimeRows wide, bright;
 };
 
 // A polynomial that owns its numbers.

@@ -23,7 +23,7 @@ fs::path& chosen_path() {
   return path;
 }
 
-ConverterData data_of(const Fit& fit) { return converter_data(fit, lower(fit.mapping, fit.domain)); }
+ConverterData data_of(const Fit& fit) { return converter_data(fit, lower(fit)); }
 
 // Fits of whole materials and warps have files of their own on the command line.
 void add_fit(const fs::path& path, std::vector<ConverterData>* converters) {

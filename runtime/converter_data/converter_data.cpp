@@ -31,6 +31,10 @@ std::optional<double> three_digits(const std::optional<double>& value) {
   return value ? std::optional<double>(rounded(*value, 3)) : std::nullopt;
 }
 
+ConverterData::Series series_of(const LoweredSeries& lowered) {
+  return {lowered.alpha_from, lowered.specular_from, lowered.function.polynomial};
+}
+
 }  // namespace
 
 std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, double specular_error) {
@@ -71,7 +75,12 @@ ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
           three_digits(mean_ssim(fit)),
           lowered.alpha.polynomial,
           lowered.specular.polynomial,
-          golden_texels(fit, lowered.alpha.bound, lowered.specular.bound)};
+          lowered.alpha_limit,
+          lowered.specular_limit,
+          lowered.wide ? lowered.wide->mapping_to : 0.0f,
+          lowered.wide ? std::optional(series_of(lowered.wide->specular)) : std::nullopt,
+          lowered.bright ? std::optional(series_of(*lowered.bright)) : std::nullopt,
+          golden_texels(fit, lowered.alpha_bound(), lowered.specular_bound())};
 }
 
 }  // namespace remap

@@ -32,7 +32,17 @@ struct ConverterData {
   // Of the fit, as in ConverterInfo; two digits, rounded up.
   std::optional<double> roughness_rms_error, specular_rms_error, image_rms_error;
   std::optional<double> ssim;  // as in ConverterInfo; three digits
+  // The polynomials of a lowered fit, its limits and regimes (lower/lowered.hpp).
+  struct Series {
+    float alpha_from = 0.0f, specular_from = 0.0f;
+    PiecewisePolynomial polynomial;
+    bool operator==(const Series&) const = default;
+  };
   PiecewisePolynomial alpha_polynomial, specular_polynomial;
+  std::optional<float> alpha_limit, specular_limit;
+  float mapping_to = 0.0f;       // beside `wide`
+  std::optional<Series> wide;    // target specular
+  std::optional<Series> bright;  // target alpha
   std::vector<GoldenTexel> golden;
   bool operator==(const ConverterData&) const = default;
 };

@@ -76,6 +76,18 @@ std::string converter_text(const ConverterData& data) {
   add("ssim", optional_json(data.ssim).dump());
   add("alpha", polynomial_text(data.alpha_polynomial));
   add("specular", polynomial_text(data.specular_polynomial));
+  const auto limit = [](const std::optional<float>& value) { return value ? Json(decimal(*value)) : Json(); };
+  const Json limits = {{"alpha", limit(data.alpha_limit)}, {"specular", limit(data.specular_limit)}};
+  add("limits", limits.dump());
+  const auto add_series = [&](const char* name, Json ends, const ConverterData::Series& series) {
+    ends["alpha_from"] = decimal(series.alpha_from);
+    ends["specular_from"] = decimal(series.specular_from);
+    std::string head = ends.dump();
+    head.back() = ',';
+    add(name, head + " \"polynomial\": " + polynomial_text(series.polynomial) + "}");
+  };
+  if (data.wide) add_series("wide", {{"mapping_to", decimal(data.mapping_to)}}, *data.wide);
+  if (data.bright) add_series("bright", Json::object(), *data.bright);
   add("golden", golden_text(data.golden));
   return text + "}";
 }
@@ -122,6 +134,17 @@ std::optional<double> read_optional(const Field& field) {
   return field.is_null() ? std::nullopt : std::optional<double>(field.number());
 }
 
+ConverterData::Series read_series(const Field& field) {
+  return {read_float(field["alpha_from"]), read_float(field["specular_from"]),
+          read_polynomial(field["polynomial"])};
+}
+
+std::optional<float> read_limit(const Field& field) {
+  if (field.is_null()) return std::nullopt;
+  field.require(read_float(field) > 0.0f, "a number above 0");
+  return read_float(field);
+}
+
 GoldenTexel read_golden(const Field& field) {
   const auto number = [&](std::size_t index) { return read_float(field.at(index, 6)); };
   return {number(0), number(1), number(2), number(3), number(4), number(5)};
@@ -141,6 +164,15 @@ ConverterData read_converter(const Field& field) {
   data.ssim = read_optional(field["ssim"]);
   data.alpha_polynomial = read_polynomial(field["alpha"]);
   data.specular_polynomial = read_polynomial(field["specular"]);
+  data.alpha_limit = read_limit(field["limits"]["alpha"]);
+  data.specular_limit = read_limit(field["limits"]["specular"]);
+  if (field.json().contains("wide")) {
+    data.mapping_to = read_float(field["wide"]["mapping_to"]);
+    data.wide = read_series(field["wide"]);
+  }
+  if (field.json().contains("bright")) data.bright = read_series(field["bright"]);
+  field.require(!data.wide || data.alpha_limit, "a limit of alpha beside the wide regime");
+  field.require(!data.bright || data.specular_limit, "a limit of specular beside the bright regime");
   data.golden = field["golden"].list(1, read_golden);
   return data;
 }

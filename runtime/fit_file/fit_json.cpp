@@ -47,6 +47,16 @@ Json to_json(const Mlp& mlp) {
   return {{"alpha", network_json(mlp.alpha)}, {"specular", network_json(mlp.specular)}};
 }
 
+Json to_json(const TexelSeries& series) {
+  Json rows = Json::array();
+  for (const auto& row : series.coefficients) rows.push_back(numbers_json(row));
+  return {{"alpha", to_json(series.alpha)}, {"specular", to_json(series.specular)}, {"coefficients", rows}};
+}
+
+Json to_json(const Series& series) {
+  return {{"alpha", to_json(series.alpha)}, {"specular", to_json(series.specular)}};
+}
+
 // A mapping with its kind.
 Json mapping_json(const MappingKind& mapping);
 
@@ -63,13 +73,27 @@ Json mapping_json(const MappingKind& mapping) {
   return json;
 }
 
+Json to_json(const Regimes& regimes) {
+  Json json = {{"alpha_limit", finite(regimes.alpha_limit)},
+               {"specular_limit", regimes.specular_limit ? Json(finite(*regimes.specular_limit)) : Json()}};
+  if (regimes.wide)
+    json["wide"] = {{"mapping_to", finite(regimes.wide->mapping_to)},
+                    {"specular", to_json(regimes.wide->specular)}};
+  if (regimes.bright) json["bright"] = {{"alpha", to_json(*regimes.bright)}};
+  return json;
+}
+
+Json to_json(const RelativeError& error) {
+  return {{"rms", finite(error.rms)}, {"standard_error", finite(error.standard_error)}};
+}
+
 Json to_json(const Candidate& candidate) {
   return {{"name", candidate.name},
           {"number_count", candidate.number_count},
           {"alpha", figures_json(candidate.alpha)},
-          {"alpha_standard_error", finite(candidate.alpha_standard_error)},
+          {"relative_alpha", to_json(candidate.relative_alpha)},
           {"specular", figures_json(candidate.specular)},
-          {"specular_standard_error", finite(candidate.specular_standard_error)},
+          {"relative_specular", to_json(candidate.relative_specular)},
           {"edge_alpha_rms", finite(candidate.edge_alpha_rms)},
           {"edge_specular_rms", finite(candidate.edge_specular_rms)},
           {"raw_edge_alpha_rms", finite(candidate.raw_edge_alpha_rms)},
@@ -136,6 +160,11 @@ Network read_texel_network(const Field& field) {
   return read_network(field, 1);
 }
 
+TexelSeries read_series(const Field& field) {
+  return {read_range(field["alpha"]), read_range(field["specular"]),
+          field["coefficients"].list(1, [](const Field& row) { return row.numbers(1); })};
+}
+
 RegressedKind read_regressed(const Field& field) {
   const std::string kind = field["kind"].text();
   if (kind == "parametric") return read_parametric(field);
@@ -146,7 +175,8 @@ RegressedKind read_regressed(const Field& field) {
                                             "the activation of the other network");
     return mlp;
   }
-  field["kind"].require(false, "parametric, svr or mlp");
+  if (kind == "series") return Series{read_series(field["alpha"]), read_series(field["specular"])};
+  field["kind"].require(false, "parametric, svr, mlp or series");
   return {};
 }
 
@@ -159,13 +189,37 @@ MappingKind read_mapping(const Field& field) {
   })};
 }
 
+double read_positive(const Field& field) {
+  field.require(field.number() > 0.0, "a number above 0");
+  return field.number();
+}
+
+Regimes read_regimes(const Field& field) {
+  Regimes regimes;
+  regimes.alpha_limit = read_positive(field["alpha_limit"]);
+  if (!field["specular_limit"].is_null()) regimes.specular_limit = read_positive(field["specular_limit"]);
+  if (field.json().contains("wide"))
+    regimes.wide = {read_positive(field["wide"]["mapping_to"]), read_series(field["wide"]["specular"])};
+  if (field.json().contains("bright")) {
+    field.require(regimes.specular_limit.has_value(), "a specular_limit beside the regime bright");
+    regimes.bright = read_series(field["bright"]["alpha"]);
+  }
+  return regimes;
+}
+
+// Fits of 0.1.0 have none.
+RelativeError read_relative(const Field& candidate, const std::string& name) {
+  if (!candidate.json().contains(name)) return {};
+  return {candidate[name]["rms"].number(), candidate[name]["standard_error"].number()};
+}
+
 Candidate read_candidate(const Field& field) {
   return {field["name"].text(),
           static_cast<std::size_t>(field["number_count"].count()),
           read_figures(field["alpha"]),
           read_figures(field["specular"]),
-          field["alpha_standard_error"].number(),
-          field["specular_standard_error"].number(),
+          read_relative(field, "relative_alpha"),
+          read_relative(field, "relative_specular"),
           field["edge_alpha_rms"].number(),
           field["edge_specular_rms"].number(),
           field["raw_edge_alpha_rms"].number(),
@@ -194,6 +248,7 @@ std::string fit_to_json(const Fit& fit) {
       {"target", to_json(fit.target)},
       {"domain", {{"alpha", to_json(fit.domain.alpha)}, {"specular", to_json(fit.domain.specular)}}},
       {"mapping", mapping_json(fit.mapping)},
+      {"regimes", to_json(fit.regimes)},
       {"method", fit.method},
       {"candidates", candidates},
       {"error_on_held_out_rows",
@@ -216,6 +271,7 @@ Fit read_fit(const Field& root) {
   root["domain"]["alpha"].require(fit.domain.alpha.min > 0.0, "an alpha above 0");
   root["domain"]["specular"].require(fit.domain.specular.min == 0.0, "a range from 0");
   fit.mapping = read_mapping(root["mapping"]);
+  if (root.json().contains("regimes")) fit.regimes = read_regimes(root["regimes"]);
   fit.method = root["method"].text_dictionary();
   fit.candidates = root["candidates"].list(0, read_candidate);
   fit.alpha_error = read_figures(root["error_on_held_out_rows"]["alpha"]);

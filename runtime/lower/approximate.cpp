@@ -9,9 +9,9 @@
 namespace remap {
 namespace {
 
-constexpr int kMostNodes = 32;          // in t, of one cell
-constexpr int kMostSpecularNodes = 13;  // degree 12
-constexpr int kMostDegree = 18;         // in one cell: rounding in floats outweighs the gain of more
+constexpr int kMostNodes = 32;  // in t, of one cell
+constexpr int kMostSpecularNodes = static_cast<int>(kMostPowers);
+constexpr int kMostDegree = 18;  // in one cell: rounding in floats outweighs the gain of more
 constexpr std::array<double, 7> kPoles = {0.0, 1.0, 0.3, 0.2, 0.1, 0.05, 0.02};
 // Cells, and the highest degree in each. Few cells of high degree vectorise; tables load every coefficient.
 struct CellChoice {

@@ -6,6 +6,7 @@
 
 #include "lower/approximate.hpp"
 #include "lower/prove.hpp"
+#include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
 
@@ -18,9 +19,12 @@ constexpr std::size_t kFirstBudget = 2000, kBoxBudget = 6000, kSearchBudget = 12
 
 // Converters take the model's own parameter as a float, so the ends of the domain move by some units in the
 // last place of alpha or, for glossiness, of 1 - sqrt(alpha).
+double room(double alpha) { return 2e-6 * alpha + 1.5e-7 * std::sqrt(alpha); }
+double room_below(double alpha) { return alpha - room(alpha); }
+double room_above(double alpha) { return alpha + room(alpha); }
+
 ProofDomain proof_domain(const Domain& domain) {
-  const auto room = [](double alpha) { return 2e-6 * alpha + 1.5e-7 * std::sqrt(alpha); };
-  return {{domain.alpha.min - room(domain.alpha.min), domain.alpha.max + room(domain.alpha.max)},
+  return {{room_below(domain.alpha.min), room_above(domain.alpha.max)},
           {0.0, domain.specular.max * (1.0 + 2e-6)}};
 }
 
@@ -188,8 +192,8 @@ LoweredFunction lower_output(const Wanted& wanted) {
 }
 
 template <typename Kind>
-Lowered lower_kind(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
-                   const LoweringOptions& options) {
+Wanted wanted_alpha(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
+                    const LoweringOptions& options) {
   Wanted alpha;
   alpha.name = "target alpha";
   alpha.model = mapped_function(alpha_depends_on_specular(mapping),
@@ -197,7 +201,13 @@ Lowered lower_kind(const Kind& kind, const MappingKind& mapping, const ProofDoma
   alpha.domain = domain;
   alpha.tolerance = options.alpha_tolerance;
   alpha.table_limit = options.table_limit;
+  return alpha;
+}
 
+// `limit`: what lies beyond is not looked at, so it is no unit of errors.
+template <typename Kind>
+Wanted wanted_specular(const Kind& kind, const MappingKind& mapping, const ProofDomain& domain,
+                       const std::optional<double>& limit, const LoweringOptions& options) {
   Wanted specular;
   specular.name = "target specular";
   specular.unit_text = " of its largest value";
@@ -206,18 +216,105 @@ Lowered lower_kind(const Kind& kind, const MappingKind& mapping, const ProofDoma
       !specular.is_factor, [kind](const auto& a, const auto& s) { return target_specular(kind, a, s); });
   specular.domain = specular.is_factor ? ProofDomain{domain.alpha, {1.0, 1.0}} : domain;
   specular.specular_max = domain.specular.max;
-  const double largest = sample(specular.model, specular.domain).largest;
-  if (largest != 0.0) specular.unit = largest * (specular.is_factor ? domain.specular.max : 1.0);
+  const double largest =
+      sample(specular.model, specular.domain).largest * (specular.is_factor ? domain.specular.max : 1.0);
+  if (largest != 0.0) specular.unit = std::min(largest, limit.value_or(largest));
   specular.tolerance = options.specular_tolerance;
   specular.table_limit = options.table_limit;
-  return {lower_output(alpha), lower_output(specular)};
+  return specular;
+}
+
+// Lowers a series of both parameters to the tolerance of `like`.
+LoweredSeries lower_series(const Wanted& like, const char* name, const TexelSeries& series) {
+  Wanted wanted = like;
+  wanted.name = name;
+  wanted.is_factor = false;
+  wanted.model =
+      mapped_function(true, [series](const auto& a, const auto& s) { return series_value(series, a, s); });
+  wanted.domain = {{room_below(series.alpha.min), room_above(series.alpha.max)},
+                   {series.specular.min * (1.0 - 2e-6), series.specular.max * (1.0 + 2e-6)}};
+  return {static_cast<float>(series.alpha.min), static_cast<float>(series.specular.min),
+          lower_output(wanted)};
+}
+
+// Whether values of the function may pass `limit` on its samples.
+bool may_pass(const Wanted& wanted, double limit) {
+  const double factor = wanted.is_factor ? wanted.specular_max : 1.0;
+  const std::vector<double> values = sample(wanted.model, wanted.domain).values;
+  return factor * *std::ranges::max_element(values) + wanted.tolerance * wanted.unit > limit;
+}
+
+// Beyond the limit of specular, pictures differ by far more than a width that is off by this times the
+// tolerance.
+constexpr double kBrightTolerance = 10.0;
+
+constexpr int kSeamSamples = 400;
+
+// The largest difference between regimes in the seams, times the errors of their shares.
+void find_seams(const Fit& fit, const ProofDomain& domain, Lowered* lowered) {
+  const auto at = [](const Range& range, int i) {
+    return range.min + (range.max - range.min) * i / kSeamSamples;
+  };
+  const auto in_seam = [](double share) { return share > 0.0 && share < 1.0; };
+  double alpha_gap = 0.0, specular_gap = 0.0;
+  for (int i = 0; i <= kSeamSamples; ++i)
+    for (int j = 0; j <= kSeamSamples; ++j) {
+      const double alpha = at(domain.alpha, i), specular = at(domain.specular, j);
+      const TexelWidth width = target_width(fit, alpha, specular);
+      if (in_seam(width.bright)) {
+        const double held = std::min(alpha, mapping_domain(fit).alpha.max);
+        const double inside = evaluate_mapping(fit.mapping, held, specular).alpha;
+        const double moved = width.alpha - std::min(inside, fit.regimes.alpha_limit);
+        alpha_gap = std::max(alpha_gap, std::fabs(moved) / width.bright);
+      }
+      if (in_seam(width.wide))
+        specular_gap = std::max(specular_gap, std::fabs(target_channel(fit, 1.0, alpha, specular) -
+                                                        target_channel(fit, 0.0, alpha, specular)));
+    }
+  const double limit = fit.regimes.specular_limit.value_or(1.0);
+  const double specular_bound =
+      std::max(lowered->specular.bound, lowered->wide ? lowered->wide->specular.function.bound : 0.0);
+  lowered->specular_seam = specular_gap * lowered->alpha.bound / (kSeam * fit.regimes.alpha_limit);
+  lowered->alpha_seam = alpha_gap * (specular_bound + lowered->specular_seam) / (kSeam * limit);
 }
 
 }  // namespace
 
 Lowered lower(const MappingKind& mapping, const Domain& domain, const LoweringOptions& options) {
-  return std::visit(
-      [&](const auto& kind) { return lower_kind(kind, mapping, proof_domain(domain), options); }, mapping);
+  Fit fit;
+  fit.mapping = mapping;
+  fit.domain = domain;
+  fit.regimes.alpha_limit = INFINITY;
+  return lower(fit, options);
+}
+
+Lowered lower(const Fit& fit, const LoweringOptions& options) {
+  const ProofDomain domain = proof_domain(fit.domain);
+  const Regimes& regimes = fit.regimes;
+  ProofDomain inside = domain;
+  if (regimes.wide) inside.alpha.max = std::min(inside.alpha.max, room_above(regimes.wide->mapping_to));
+  const auto [alpha, specular] = std::visit(
+      [&](const auto& kind) {
+        return std::pair(wanted_alpha(kind, fit.mapping, inside, options),
+                         wanted_specular(kind, fit.mapping, inside, regimes.specular_limit, options));
+      },
+      fit.mapping);
+  Lowered lowered;
+  lowered.alpha = lower_output(alpha);
+  lowered.specular = lower_output(specular);
+  if (may_pass(alpha, regimes.alpha_limit)) lowered.alpha_limit = static_cast<float>(regimes.alpha_limit);
+  if (regimes.specular_limit && may_pass(specular, *regimes.specular_limit))
+    lowered.specular_limit = static_cast<float>(*regimes.specular_limit);
+  if (regimes.wide)
+    lowered.wide = {static_cast<float>(regimes.wide->mapping_to),
+                    lower_series(specular, "target specular of the wide regime", regimes.wide->specular)};
+  if (regimes.bright) {
+    Wanted bright = alpha;
+    bright.tolerance *= kBrightTolerance;
+    lowered.bright = lower_series(bright, "target alpha of the bright regime", *regimes.bright);
+  }
+  if (regimes.wide || regimes.bright) find_seams(fit, domain, &lowered);
+  return lowered;
 }
 
 }  // namespace remap

@@ -16,4 +16,7 @@ struct LoweringOptions {
 // be met within the table limit; the message has one with which lowering succeeds.
 Lowered lower(const MappingKind& mapping, const Domain& domain, const LoweringOptions& options = {});
 
+// The same with the regimes of the fit, each over the part of the domain where it is evaluated.
+Lowered lower(const Fit& fit, const LoweringOptions& options = {});
+
 }  // namespace remap

@@ -13,6 +13,14 @@ std::size_t coefficient_count(const std::vector<int>& degrees) {
   return count;
 }
 
+double Lowered::alpha_bound() const {
+  return std::max(alpha.bound, bright ? bright->function.bound : 0.0) + alpha_seam;
+}
+
+double Lowered::specular_bound() const {
+  return std::max(specular.bound, wide ? wide->specular.function.bound : 0.0) + specular_seam;
+}
+
 float value(const PiecewisePolynomial& polynomial, float alpha, float specular) {
   const float t = polynomial.pole == 0.0f ? alpha : alpha / (alpha + polynomial.pole);
   float u = t * polynomial.scale - polynomial.start;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "remap/fit.hpp"
@@ -45,12 +46,34 @@ struct LoweredFunction {
   bool operator==(const LoweredFunction&) const = default;
 };
 
-// A mapping over the domain of its fit. Bounds of specular are in units of target specular, for specular
-// within the domain.
+// A regime (remap/regimes.hpp): its function, and where its domain begins, below which a parameter is held.
+struct LoweredSeries {
+  float alpha_from = 0.0f, specular_from = 0.0f;
+  LoweredFunction function;
+  bool operator==(const LoweredSeries&) const = default;
+};
+struct LoweredWide {
+  float mapping_to = 1.0f;
+  LoweredSeries specular;
+  bool operator==(const LoweredWide&) const = default;
+};
+
+// A fit over its domain. Bounds of specular are in units of target specular, for specular within the domain.
 struct Lowered {
   LoweredFunction alpha;     // one power of specular if target alpha does not depend on it
   LoweredFunction specular;  // power 1 alone if the mapping is proportional
+  // Set where a polynomial may pass the limit, which then holds what it gives.
+  std::optional<float> alpha_limit, specular_limit;
+  std::optional<LoweredWide> wide;
+  std::optional<LoweredSeries> bright;  // target alpha
+  // What the errors of the shares add where one regime takes over from another, found by sampling.
+  double alpha_seam = 0.0, specular_seam = 0.0;
   bool operator==(const Lowered&) const = default;
+
+  bool has_limits() const { return alpha_limit.has_value() || specular_limit.has_value(); }
+  // Bounds over all regimes.
+  double alpha_bound() const;
+  double specular_bound() const;
 };
 
 // The value in float arithmetic, in the order of operations of the generated header without contraction.

@@ -48,7 +48,7 @@ void require_links(const std::vector<Fit>& steps) {
 std::vector<MappedTexel> states(const std::vector<Fit>& steps, MappedTexel texel) {
   std::vector<MappedTexel> passed = {texel};
   for (const Fit& step : steps) {
-    texel = evaluate_mapping(step.mapping, texel.alpha, texel.specular);
+    texel = evaluate_fit(step, texel.alpha, texel.specular);
     passed.push_back(texel);
   }
   return passed;
@@ -58,12 +58,13 @@ bool covers(const Range& range, double value) {
   return value >= range.min * (1.0 - kSameEdge) && value <= range.max * (1.0 + kSameEdge);
 }
 
-// The first step whose domain a texel leaves; steps.size() if it stays in all. Specular below 0 is left to
-// the domain rule.
+// The first step whose domain a texel leaves, or that follows one whose target is at its limit; steps.size()
+// if it stays inside all. Specular below 0 is left to the domain rule.
 std::size_t leaves(const std::vector<Fit>& steps, const MappedTexel& texel) {
   const std::vector<MappedTexel> passed = states(steps, texel);
   for (std::size_t i = 1; i < steps.size(); ++i)
-    if (!covers(steps[i].domain.alpha, passed[i].alpha) ||
+    if (!is_inside(steps[i - 1], passed[i - 1].alpha, passed[i - 1].specular) ||
+        !covers(steps[i].domain.alpha, passed[i].alpha) ||
         passed[i].specular > steps[i].domain.specular.max * (1.0 + kSameEdge))
       return i;
   return steps.size();

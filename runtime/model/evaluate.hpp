@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "remap/mapping.hpp"
+#include "remap/regimes.hpp"
 
 namespace remap {
 
@@ -99,6 +99,34 @@ Scalar expansion_value(const KernelExpansion& expansion, const Scalar& alpha, co
   return scaled_back(expansion.output, gaussian_sum(expansion, inputs) + expansion.bias);
 }
 
+// By Clenshaw's recurrence; 2 x - 1 is the parameter in its range. `at(i)`: the coefficient of T_i.
+template <typename Scalar, typename Coefficient>
+Scalar chebyshev_sum(const Range& range, const Scalar& parameter, std::size_t count, const Coefficient& at) {
+  const double width = range.max - range.min;
+  const Scalar x = (parameter - range.min) * (2.0 / width) - 1.0;
+  Scalar next = parameter * 0.0, after = next;
+  for (std::size_t i = count; i-- > 1;) {
+    const Scalar sum = x * next * 2.0 - after + at(i);
+    after = next;
+    next = sum;
+  }
+  return x * next - after + at(0);
+}
+
+template <typename Scalar>
+Scalar series_sum(const TexelSeries& series, const Scalar& alpha, const Scalar& specular) {
+  return chebyshev_sum(series.specular, specular, series.coefficients.size(), [&](std::size_t j) {
+    const std::vector<double>& row = series.coefficients[j];
+    return chebyshev_sum(series.alpha, alpha, row.size(), [&](std::size_t i) { return row[i]; });
+  });
+}
+
+// Beyond the ranges of the series, its polynomial goes on.
+template <typename Scalar>
+Scalar series_value(const TexelSeries& series, const Scalar& alpha, const Scalar& specular) {
+  return series_sum(series, alpha, specular);
+}
+
 template <typename Scalar>
 Scalar target_alpha(const Parametric& form, const Scalar& alpha, const Scalar& specular) {
   Scalar sum = alpha * 0.0;
@@ -116,7 +144,18 @@ Scalar target_alpha(const Svr& svr, const Scalar& alpha, const Scalar& specular)
 }
 template <typename Scalar>
 Scalar target_alpha(const Mlp& mlp, const Scalar& alpha, const Scalar& specular) {
-  return network_outputs(mlp.alpha, inputs_of(mlp.alpha.inputs.size(), alpha, specular))[0];
+  return network_value(mlp.alpha, alpha, specular);
+}
+
+template <typename Scalar>
+Scalar target_alpha(const Series& series, const Scalar& alpha, const Scalar& specular) {
+  return series_value(series.alpha, alpha, specular);
+}
+
+// A network of one output over one texel.
+template <typename Scalar>
+Scalar network_value(const Network& network, const Scalar& alpha, const Scalar& specular) {
+  return network_outputs(network, inputs_of(network.inputs.size(), alpha, specular))[0];
 }
 
 template <typename Scalar>
@@ -136,7 +175,12 @@ Scalar target_specular(const Svr& svr, const Scalar& alpha, const Scalar& specul
 }
 template <typename Scalar>
 Scalar target_specular(const Mlp& mlp, const Scalar& alpha, const Scalar& specular) {
-  return network_outputs(mlp.specular, inputs_of(mlp.specular.inputs.size(), alpha, specular))[0];
+  return network_value(mlp.specular, alpha, specular);
+}
+
+template <typename Scalar>
+Scalar target_specular(const Series& series, const Scalar& alpha, const Scalar& specular) {
+  return series_value(series.specular, alpha, specular);
 }
 
 // Applies all steps but the last.

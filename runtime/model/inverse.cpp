@@ -39,8 +39,9 @@ double quantile(std::vector<double>* values, double share) {
 
 }  // namespace
 
-std::optional<MappedTexel> inverse(const MappingKind& mapping, const Domain& domain,
-                                   const MappedTexel& target) {
+std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target) {
+  const MappingKind& mapping = fit.mapping;
+  const Domain domain = mapping_domain(fit);
   // The specular that is needed at an alpha, clamped to the domain; the last test rejects clamped ones.
   const auto specular_at = [&](double alpha) {
     const auto rising = [&](double specular) { return evaluate_mapping(mapping, alpha, specular).specular; };
@@ -65,9 +66,11 @@ RoundTrip round_trip(const Fit& there, const Fit& back) {
       const Range& range = there.domain.alpha;
       const double alpha = range.min + (range.max - range.min) * i / (kReturnedAlphas - 1);
       const double specular = there.domain.specular.max * j / kReturnedSpeculars;
-      const MappedTexel far = evaluate_mapping(there.mapping, alpha, specular);
-      if (!back.domain.alpha.contains(far.alpha) || !back.domain.specular.contains(far.specular)) continue;
-      const MappedTexel home = evaluate_mapping(back.mapping, far.alpha, far.specular);
+      const MappedTexel far = evaluate_fit(there, alpha, specular);
+      if (!is_inside(there, alpha, specular) || !back.domain.alpha.contains(far.alpha) ||
+          !back.domain.specular.contains(far.specular) || !is_inside(back, far.alpha, far.specular))
+        continue;
+      const MappedTexel home = evaluate_fit(back, far.alpha, far.specular);
       alphas.push_back(std::fabs(home.alpha - alpha) / alpha);
       speculars.push_back(std::fabs(home.specular - specular) / specular);
     }

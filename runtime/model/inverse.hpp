@@ -8,15 +8,14 @@
 
 namespace remap {
 
-// The source parameters in `domain` that `mapping` takes to `target`, to the resolution of doubles; none if
-// they are not found. The mapping must be monotonic, as shipped fits are: target alpha rises with alpha,
-// target specular with specular at every alpha, and target alpha with alpha along a line of equal target
-// specular.
-std::optional<MappedTexel> inverse(const MappingKind& mapping, const Domain& domain,
-                                   const MappedTexel& target);
+// The source parameters in the domain of `fit` that its mapping takes to `target`, within the limits of the
+// target model, to the resolution of doubles; none if they are not found. The mapping must be monotonic, as
+// shipped fits are: target alpha rises with alpha, target specular with specular at every alpha, and target
+// alpha with alpha along a line of equal target specular.
+std::optional<MappedTexel> inverse(const Fit& fit, const MappedTexel& target);
 
 // Relative changes |there and back - texel| / texel of alpha and of specular, over the part of a grid on
-// `there`'s domain that it maps into `back`'s.
+// `there`'s domain that it maps into `back`'s, without limits (is_inside()) on both ways.
 struct RoundTrip {
   double alpha_median = 0.0, alpha_p99 = 0.0;
   double specular_median = 0.0, specular_p99 = 0.0;

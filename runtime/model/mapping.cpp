@@ -15,6 +15,12 @@ std::size_t count_of(const KernelExpansion& expansion) {
   return expansion.vectors.size() + expansion.weights.size() + 2 * expansion.inputs.size() + 4;
 }
 
+std::size_t count_of(const TexelSeries& series) {
+  std::size_t count = 0;
+  for (const auto& row : series.coefficients) count += row.size();
+  return count;
+}
+
 // The constants that a curve needs: a term that is absent costs nothing.
 std::size_t count_of(const AlphaCurve& curve) {
   std::size_t count = 1;
@@ -28,6 +34,7 @@ struct Name {
   std::string operator()(const Parametric&) const { return "parametric"; }
   std::string operator()(const Svr&) const { return "svr"; }
   std::string operator()(const Mlp&) const { return "mlp"; }
+  std::string operator()(const Series&) const { return "series"; }
   std::string operator()(const Chain&) const { return "chain"; }
 };
 
@@ -35,6 +42,7 @@ struct AlphaDependsOnSpecular {
   bool operator()(const Parametric& form) const { return form.alpha.size() > 1; }
   bool operator()(const Svr& svr) const { return svr.alpha.inputs.size() > 1; }
   bool operator()(const Mlp& mlp) const { return mlp.alpha.inputs.size() > 1; }
+  bool operator()(const Series& series) const { return series.alpha.coefficients.size() > 1; }
   bool operator()(const Chain& chain) const {
     return std::any_of(chain.steps.begin(), chain.steps.end(),
                        [this](const ChainStep& step) { return std::visit(*this, step.mapping); });
@@ -48,6 +56,7 @@ struct IsProportional {
   }
   bool operator()(const Svr&) const { return false; }
   bool operator()(const Mlp&) const { return false; }
+  bool operator()(const Series&) const { return false; }
   // A width that depends on specular bends the specular of the next step.
   bool operator()(const Chain& chain) const {
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
@@ -68,6 +77,9 @@ struct NumberCount {
   }
   std::size_t operator()(const Svr& svr) const { return count_of(svr.alpha) + count_of(svr.specular); }
   std::size_t operator()(const Mlp& mlp) const { return count_of(mlp.alpha) + count_of(mlp.specular); }
+  std::size_t operator()(const Series& series) const {
+    return count_of(series.alpha) + count_of(series.specular);
+  }
   std::size_t operator()(const Chain& chain) const {
     std::size_t count = 0;
     for (const ChainStep& step : chain.steps) count += std::visit(*this, step.mapping);

@@ -24,42 +24,33 @@ expect_output() {
   tr -s ' \n' ' ' <"$work/output" | grep -qF -- "$1" || fail "expected the words \"$1\" in: $(cat "$work/output")"
 }
 
-# expected_row FIT ALPHA SPECULAR...: converted alpha and speculars by the formulas that `remapc show` prints for a
-# parametric fit, inside its domain.
+# expected_row FIT ALPHA SPECULAR...: converted alpha and speculars by the definition of the kind `series` (sums of cos(n acos x)),
+# inside its domain and the limits of its target.
 expected_row() {
-  tr -d '\n' <"$1" | LC_ALL=C awk -v given="${*:2}" '
-    function number(text, name) {
-      match(text, "\"" name "\": *[-+0-9.eE]+")
-      return substr(text, RSTART + length(name) + 3, RLENGTH - length(name) - 3) + 0
-    }
-    function phi(rate, x) { return rate == 0 ? x : (1 - exp(-rate * x)) / rate }
-    function factor(term, a) {
-      return number(term, "start") + number(term, "ramp") * phi(number(term, "ramp_rate"), a) \
-        + number(term, "bump") * phi(number(term, "bump_rate"), a * a) + number(term, "pole") / a
-    }
-    {
-      gsub(" ", "")
-      count = split(given, value, " ")
-      a = value[1]
-      for (i = 2; i <= count; ++i) if (value[i] > top) top = value[i]
-      match($0, "\"kind\":\"parametric\",\"roughness\":\\[\\[[^a-z]*\\]\\],")
-      list = substr($0, RSTART, RLENGTH)
-      sub("^[^[]*\\[\\[", "", list); sub("\\]\\],$", "", list)
-      rows = split(list, row, "\\],\\[")
-      for (j = 1; j <= rows; ++j) {
-        n = split(row[j], c, ",")
-        for (i = 1; i <= n; ++i) alpha += c[i] * a ^ i * top ^ (j - 1)
-      }
-      printf "%.9g", alpha
-      list = substr($0, index($0, "\"specular\":[{"))
-      terms = split(substr(list, 1, index(list, "]")), term, "\"power\":")
-      for (i = 2; i <= count; ++i) {
-        sum = 0
-        for (t = 2; t <= terms; ++t) sum += factor(term[t], a) * value[i] ^ (term[t] + 0)
-        printf " %.9g", (sum > 0 ? sum : 0)
-      }
-      printf "\n"
-    }'
+  python3 - "$@" <<'PROGRAM'
+import json
+import math
+import sys
+
+mapping = json.load(open(sys.argv[1]))["mapping"]
+alpha, *speculars = map(float, sys.argv[2:])
+if mapping["kind"] != "series":
+    sys.exit(f"{sys.argv[1]}: is of kind {mapping['kind']}; this test knows series")
+
+
+def chebyshev(n, limits, value):
+    low, high = limits
+    return math.cos(n * math.acos(2 * (value - low) / (high - low) - 1))
+
+
+def value(series, specular):
+    return sum(c * chebyshev(j, series["specular"], specular) * chebyshev(i, series["alpha"], alpha)
+               for j, row in enumerate(series["coefficients"]) for i, c in enumerate(row))
+
+
+print(f"{value(mapping['alpha'], max(speculars)):.9g}",
+      *(f"{max(value(mapping['specular'], s), 0):.9g}" for s in speculars))
+PROGRAM
 }
 
 # expect_close "NUMBERS" "EXPECTED": alpha within 1e-5, specular within 1e-4, what headers are lowered to, and seven

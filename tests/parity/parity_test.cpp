@@ -15,6 +15,7 @@
 #include "model/interpreter.hpp"
 #include "remap/fit_file.hpp"
 #include "support/campaign.hpp"
+#include "support/made_regimes.hpp"
 #include "support/skip.hpp"
 #include "support/temporary_folder.hpp"
 #include "system/files.hpp"
@@ -57,7 +58,7 @@ std::vector<Build> builds() {
 }
 
 Fit committed_fit() {
-  return load_fit(fs::path(REMAP_SOURCE_DIR) / "fits" / "mitsuba_ward_to_mitsuba_as.json");
+  return load_fit(fs::path(REMAP_SOURCE_DIR) / "fits" / "mitsuba_ward_to_mitsuba_as_sztrajman_2019.json");
 }
 
 // A header under test: the fit, how it is emitted, and what the header promises.
@@ -68,8 +69,8 @@ struct MadeModel {
 };
 
 MadeModel lowered(const Fit& fit) {
-  const Lowered result = lower(fit.mapping, fit.domain);
-  return {fit, {}, result.alpha.bound, result.specular.bound};
+  const Lowered result = lower(fit);
+  return {fit, {}, result.alpha_bound(), result.specular_bound()};
 }
 
 MadeModel exact(Fit fit) {
@@ -151,6 +152,18 @@ std::vector<MadeModel> subjects() {
   add("from_squared", RoughnessConvention::kSquared, kAlpha, full);
   add("to_exponent", kAlpha, RoughnessConvention::kExponent, paper);
   add("from_exponent", RoughnessConvention::kExponent, kAlpha, full);
+  all.push_back(lowered(made_regimes::fit()));
+  Fit capped = base;  // a limit, and no regime beyond it
+  capped.id = "capped";
+  capped.mapping = Parametric{{{1.3}}, {{1, {1.4, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
+  capped.domain = {{0.02, 0.95}, {0.0, 1.0}};
+  capped.regimes.specular_limit = 1.0;
+  all.push_back(lowered(capped));
+  add("series", kAlpha, kAlpha,
+      Series{made_regimes::bilinear({0.02, 0.95}, {0.0, 0.6},
+                                    [](double a, double s) { return a * (0.9 - 0.1 * s); }),
+             made_regimes::bilinear({0.02, 0.95}, {0.0, 0.6},
+                                    [](double a, double s) { return s * (1.0 - 0.3 * a); })});
   // Kinks cost the lowered form a table of some size; as fitted they are any other activation.
   Fit kinked = base;
   kinked.id = "network_relu";

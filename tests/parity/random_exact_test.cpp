@@ -304,6 +304,9 @@ TEST_CASE("lowered headers: random sums of Gaussians give the bits of the lowere
 TEST_CASE("lowered headers: random networks give the bits of the lowered form", "[slow][campaign]") {
   check_lowered("mlp");
 }
+TEST_CASE("lowered headers: random series give the bits of the lowered form", "[slow][campaign]") {
+  check_lowered("series");
+}
 TEST_CASE("lowered headers: random chains give the bits of the lowered form", "[slow][campaign]") {
   check_lowered("chain", campaign_length(200) / 5);
 }

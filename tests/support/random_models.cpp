@@ -155,9 +155,26 @@ Network random_network(Random* random, const Domain& domain, bool both, Activati
   return network;
 }
 
+// Coefficients that fall as those of smooth functions do, slowly or fast.
+TexelSeries random_series(Random* random, const Domain& domain, bool both) {
+  const double fall = random->between(0.2, 0.9);
+  TexelSeries series{domain.alpha, domain.specular, {}};
+  const std::size_t degree = random->count(0, 12), powers = both ? random->count(1, 4) : 0;
+  for (std::size_t j = 0; j <= powers; ++j) {
+    std::vector<double>& row = series.coefficients.emplace_back();
+    for (std::size_t i = 0; i <= degree; ++i)
+      row.push_back(random->normal() * std::pow(fall, static_cast<double>(i + 2 * j)));
+  }
+  return series;
+}
+
 RegressedKind random_regressed(const std::string& kind, Random* random, const Domain& domain) {
   if (kind == "parametric") return random_parametric(random);
   const bool both = random->chance(0.3);  // whether target alpha depends on specular
+  if (kind == "series") {
+    TexelSeries alpha = random_series(random, domain, both);
+    return Series{alpha, random_series(random, domain, random->chance(0.9))};
+  }
   if (kind == "svr") {
     KernelExpansion alpha = random_expansion(random, domain, both);
     return Svr{alpha, random_expansion(random, domain, random->chance(0.9))};
@@ -190,7 +207,7 @@ std::optional<Domain> reached(const RegressedKind& mapping, const Domain& domain
 
 // Two or three models, each over what the one before it reaches.
 Chain random_chain(Random* random, const Domain& domain) {
-  const std::array kinds = {"parametric", "svr", "mlp"};
+  const std::array kinds = {"parametric", "svr", "mlp", "series"};
   Chain chain;
   const std::size_t count = random->count(2, 3);
   for (std::optional<Domain> given = domain; chain.steps.size() < count;) {
@@ -205,7 +222,7 @@ Chain random_chain(Random* random, const Domain& domain) {
 
 }  // namespace
 
-std::vector<std::string> random_kinds() { return {"parametric", "svr", "mlp", "chain"}; }
+std::vector<std::string> random_kinds() { return {"parametric", "svr", "mlp", "chain", "series"}; }
 
 RandomModel random_model(const std::string& kind, std::uint64_t seed) {
   const std::vector<std::string> kinds = random_kinds();

@@ -242,7 +242,7 @@ Rates polish(const Projection& projection, Rates rates) {
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  if (summary.termination_type != ceres::CONVERGENCE || !std::isfinite(summary.final_cost)) return {};
+  if (!summary.IsSolutionUsable() || !std::isfinite(summary.final_cost)) return {};
   rates.cost = 2.0 * summary.final_cost;
   return rates;
 }
@@ -276,12 +276,18 @@ std::vector<Rates> search_starts(const Projection& projection) {
   return beams;
 }
 
-Rates best_of(const Projection& projection, const std::vector<Rates>& starts) {
+// Of infinite cost if no start converges.
+Rates best_or_none(const Projection& projection, const std::vector<Rates>& starts) {
   Rates best;
   for (const Rates& start : starts) {
     const Rates candidate = polish(projection, start);
     if (candidate.cost < best.cost) best = candidate;
   }
+  return best;
+}
+
+Rates best_of(const Projection& projection, const std::vector<Rates>& starts) {
+  const Rates best = best_or_none(projection, starts);
   if (!std::isfinite(best.cost))
     throw numeric_error(
         "fit: the rates of k(alpha) did not converge from any start (check the table with remapc check)");
@@ -319,16 +325,17 @@ std::vector<SpecularTerm> fit_specular_terms(const std::vector<TableRow>& rows, 
 
   const Samples samples = join_rows(by_alpha, form.powers);
   const Projection projection(samples, form);
-  std::vector<Rates> starts(1);
   if (near != nullptr) {
+    std::vector<Rates> starts(1);
     for (const SpecularTerm& term : *near)
       starts[0].values.insert(starts[0].values.end(), {term.factor.ramp_rate, term.factor.bump_rate});
-  } else {
-    const Samples few = join_rows(thinned, form.powers);
-    const Projection few_projection(few, form);
-    starts = search_starts(few_projection);
-    if (step > 1) starts = {best_of(few_projection, starts)};
+    const Rates found = best_or_none(projection, starts);
+    if (std::isfinite(found.cost)) return projection.terms(found.values);
   }
+  const Samples few = join_rows(thinned, form.powers);
+  const Projection few_projection(few, form);
+  std::vector<Rates> starts = search_starts(few_projection);
+  if (step > 1) starts = {best_of(few_projection, starts)};
   return projection.terms(best_of(projection, starts).values);
 }
 

@@ -21,6 +21,11 @@ FitProgress part_of(const FitProgress& progress, double begin, double end) {
   return [&progress, begin, end](double share) { progress(begin + (end - begin) * share); };
 }
 
+double error_weight(double value) {
+  constexpr double kLeastValue = 0.02;
+  return 1.0 / std::max(value, kLeastValue);
+}
+
 void require_variety(const std::vector<TableRow>& rows, const std::string& kind) {
   if (rows.size() < kFewestRows)
     throw input_error(kind + ": too few rows (" + std::to_string(rows.size()) + ", at least " +

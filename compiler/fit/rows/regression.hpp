@@ -24,6 +24,10 @@ using FitProgress = std::function<void(double share)>;
 // if that is.
 FitProgress part_of(const FitProgress& progress, double begin, double end);
 
+// By which an error of an output counts where fits are compared: 1 / value, but at most 50. Pictures show
+// errors relative to the value; below a fiftieth they show nothing.
+double error_weight(double value);
+
 // Throws kInput for fewer than 10 rows, or if alpha1 or specular1 is constant. The message starts with
 // `kind`.
 void require_variety(const std::vector<TableRow>& rows, const std::string& kind);

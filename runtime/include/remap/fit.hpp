@@ -10,15 +10,10 @@
 
 #include "remap/convention.hpp"
 #include "remap/mapping.hpp"
+#include "remap/range.hpp"
+#include "remap/regimes.hpp"
 
 namespace remap {
-
-struct Range {
-  double min = 0.0;
-  double max = 0.0;
-  bool contains(double value) const noexcept { return value >= min && value <= max; }
-  bool operator==(const Range&) const = default;
-};
 
 // One end of a conversion: a model and the meaning of its two parameters.
 struct ModelSide {
@@ -61,13 +56,20 @@ struct TableRecord {
   bool operator==(const TableRecord&) const = default;
 };
 
+// Errors relative to the value, or to a fiftieth of 1 where that is more: what pictures show. Over the rows
+// that each fold of cross-validation holds out.
+struct RelativeError {
+  double rms = 0.0;
+  double standard_error = 0.0;  // over the folds
+  bool operator==(const RelativeError&) const = default;
+};
+
 // One row of the comparison by which `--model auto` decided (compiler/fit/comparison.hpp).
 struct Candidate {
-  std::string name;                   // kind, or named form of it
-  std::size_t number_count = 0;       // of its coefficients: its complexity
-  ErrorFigures alpha, specular;       // of cross-validation, all folds
-  double alpha_standard_error = 0.0;  // of alpha.rms over the folds
-  double specular_standard_error = 0.0;
+  std::string name;                                 // kind, or named form of it
+  std::size_t number_count = 0;                     // of its coefficients: its complexity
+  ErrorFigures alpha, specular;                     // of cross-validation, all folds
+  RelativeError relative_alpha, relative_specular;  // by which candidates are compared
   double edge_alpha_rms = 0.0;  // on the outermost rows, fitted without them, with the domain rule
   double edge_specular_rms = 0.0;
   double raw_edge_alpha_rms = 0.0;  // the same without the domain rule
@@ -97,7 +99,8 @@ struct Fit {
   ModelSide source;
   ModelSide target;
   Domain domain;
-  MappingKind mapping;
+  MappingKind mapping;                              // inside the target's range
+  Regimes regimes;                                  // at its limits
   std::map<std::string, std::string> method;        // of the regression: hyper-parameters, search, starts
   std::vector<Candidate> candidates;                // of `auto`; else empty
   ErrorFigures alpha_error;                         // of the target's alpha

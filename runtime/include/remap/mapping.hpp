@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "remap/named_values.hpp"
+#include "remap/range.hpp"
 
 namespace remap {
 
@@ -113,8 +114,23 @@ struct Mlp {
   bool operator==(const Mlp&) const = default;
 };
 
+// The sum over j and i of coefficients[j][i] T_j(specular) T_i(alpha), T the Chebyshev polynomials (Trefethen
+// 2013, chapter 3) of the parameter mapped from its range to [-1, 1].
+struct TexelSeries {
+  Range alpha, specular;                          // of the source
+  std::vector<std::vector<double>> coefficients;  // at least one row of at least one
+  bool operator==(const TexelSeries&) const = default;
+};
+
+// Kind `series`: one series per output. With one row, target alpha does not depend on specular.
+struct Series {
+  TexelSeries alpha;
+  TexelSeries specular;
+  bool operator==(const Series&) const = default;
+};
+
 // The result of one regression.
-using RegressedKind = std::variant<Parametric, Svr, Mlp>;
+using RegressedKind = std::variant<Parametric, Svr, Mlp, Series>;
 
 // Kind `chain`: mappings applied in sequence. No domain rule applies between steps, because every step stays
 // in its own domain (chain.hpp).
@@ -129,7 +145,7 @@ struct Chain {
 };
 
 // A new kind is a new alternative here; std::visit makes every consumer handle it.
-using MappingKind = std::variant<Parametric, Svr, Mlp, Chain>;
+using MappingKind = std::variant<Parametric, Svr, Mlp, Series, Chain>;
 
 MappingKind widened(const RegressedKind& mapping);
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -13,8 +14,10 @@
 #include "manifest/trust.hpp"
 #include "model/chain.hpp"
 #include "model/interpreter.hpp"
+#include "support/campaign.hpp"
 #include "system/files.hpp"
 #include "table/domain.hpp"
+#include "table/row_regime.hpp"
 
 using namespace remapc;
 
@@ -82,48 +85,110 @@ TEST_CASE("shipped: every ordered pair of the hub, and the models that are reach
 }
 
 // Tables of real renderers are less smooth: clamped widths, lookup tables in shaders, half floats.
-TEST_CASE(
-    "shipped: fits follow their tables to 1e-3 in alpha, 2e-3 for real renderers, and 1 % in specular") {
+TEST_CASE("shipped: fits follow their tables to 2e-3 in alpha and 1 % in specular") {
   for (const remap::Fit& fit : shipped()) {
     if (!is_measured(fit)) continue;
     INFO(fit.id);
-    const double allowed = of_hub(fit) ? 1e-3 : 2e-3;
+    constexpr double allowed = 2e-3;
     CHECK(fit.alpha_error.rms <= allowed);
     CHECK(fit.split.held_out_rows >= (of_hub(fit) ? 20 : 15));
     const std::string bytes = remap::read_file(kFits / "tables" / fit.table.name);
     CHECK(sha256(bytes) == fit.table.sha256);
     const Table table = parse_table(bytes, fit.table.name);
     CHECK(table_domain(table) == fit.domain);
+    const TargetLimits limits = target_limits(table);
     double largest = 0.0;
     for (const TableRow& row : table.rows) {
       if (!is_inside(row, fit.domain)) continue;
-      CHECK(row.status == RowStatus::kOk);
+      CHECK(regime_of(row, limits) != RowRegime::kNone);
       largest = std::max(largest, row.specular2);
     }
     CHECK(fit.specular_error.rms <= 0.01 * largest);
-    const RowErrors errors = row_errors(fit, rows_inside(usable_rows(table), fit.domain));
+    const RowErrors errors = row_errors(fit, rows_inside(answer_rows(table), fit.domain));
     CHECK(errors.alpha.rms <= allowed);
     CHECK(errors.specular.rms <= 0.01 * largest);
   }
 }
 
-TEST_CASE("shipped: inside its domain a converter gives valid parameters of the target, and rises",
-          "[slow]") {
+TEST_CASE(
+    "shipped: inside its domain a converter gives valid parameters of the target, and rises up to its limits",
+    "[slow]") {
   for (const remap::Fit& fit : shipped()) {
     INFO(fit.id);
     const double specular_slack = fit.has_errors() ? 2.0 * fit.specular_error.max + 1e-3 : 1e-3;
     over_domain(fit, [&](double alpha, double specular) {
-      const remap::MappedTexel texel = evaluate_mapping(fit.mapping, alpha, specular);
+      const remap::MappedTexel texel = evaluate_fit(fit, alpha, specular);
       CHECK(texel.alpha > 0.0);
-      // Beyond the last row, and below the first samples of dielectrics.
-      const bool faint = specular < 0.2 * fit.domain.specular.max;
-      CHECK(texel.alpha <= 1.0 + (of_hub(fit) ? 5e-3 : faint ? 0.04 : 0.02));
-      CHECK(texel.specular <= 1.0 + specular_slack);
-      const remap::MappedTexel wider = evaluate_mapping(fit.mapping, alpha * 1.01, specular);
-      CHECK(wider.alpha > texel.alpha);
-      const remap::MappedTexel brighter = evaluate_mapping(fit.mapping, alpha, specular + 0.01);
-      CHECK(brighter.specular > texel.specular);
+      CHECK(texel.alpha <= 1.0);
+      CHECK(texel.specular <= fit.regimes.specular_limit.value_or(1.0 + specular_slack));
+      if (!is_inside(fit, alpha * 1.01, specular + 0.01)) return;
+      CHECK(evaluate_fit(fit, alpha * 1.01, specular).alpha > texel.alpha);
+      if (texel.specular > 0.0) CHECK(evaluate_fit(fit, alpha, specular + 0.01).specular > texel.specular);
     });
+  }
+}
+
+TEST_CASE("shipped: converters of the hub cover every width and specular") {
+  for (const remap::Fit& fit : shipped())
+    if (of_hub(fit) && is_measured(fit)) {
+      INFO(fit.id);
+      CHECK(fit.domain == remap::Domain{{0.01, 1.0}, {0.0, 1.0}});
+    }
+}
+
+TEST_CASE("shipped: a ramp of 1e-4 in alpha or specular jumps nowhere by more than 1e-3",
+          "[slow][campaign]") {
+  constexpr double kStep = 1e-4, kMost = 1e-3;
+  const int lines = remap::campaign_length(40) + 1;
+  for (const remap::Fit& fit : shipped()) {
+    if (!of_hub(fit) || !is_measured(fit)) continue;
+    remap::MappedTexel worst;
+    for (int line = 0; line < lines; ++line) {
+      const double share = (line + 0.5) / lines, alpha = 0.01 + 0.99 * share;
+      remap::MappedTexel by_alpha = evaluate_fit(fit, 0.01, share),
+                         by_specular = evaluate_fit(fit, alpha, 0.0);
+      for (double moving = 0.01; moving <= 1.0; moving += kStep) {
+        const remap::MappedTexel wider = evaluate_fit(fit, moving, share);
+        worst.alpha = std::max(worst.alpha, std::fabs(wider.alpha - by_alpha.alpha));
+        worst.specular = std::max(worst.specular, std::fabs(wider.specular - by_alpha.specular));
+        by_alpha = wider;
+      }
+      for (double moving = 0.0; moving <= 1.0; moving += kStep) {
+        const remap::MappedTexel brighter = evaluate_fit(fit, alpha, moving);
+        worst.alpha = std::max(worst.alpha, std::fabs(brighter.alpha - by_specular.alpha));
+        worst.specular = std::max(worst.specular, std::fabs(brighter.specular - by_specular.specular));
+        by_specular = brighter;
+      }
+    }
+    INFO(fit.id);
+    CHECK(worst.alpha <= kMost);
+    CHECK(worst.specular <= kMost);
+  }
+}
+
+// Between rows of the grid whose targets rise by more than the fit is off, the fit rises, too.
+TEST_CASE("shipped: a converter of the hub is monotone in width where its table is", "[slow]") {
+  constexpr int kBetween = 6;
+  for (const remap::Fit& fit : shipped()) {
+    if (!of_hub(fit) || !is_measured(fit)) continue;
+    INFO(fit.id);
+    const Table table = read_table(kFits / "tables" / fit.table.name);
+    std::map<double, std::map<double, const TableRow*>> by_specular;
+    const std::vector<TableRow> rows = answer_rows(table);
+    for (const TableRow& row : rows) by_specular[row.specular1][row.alpha1] = &row;
+    for (const auto& [specular, line] : by_specular)
+      for (auto low = line.begin(); std::next(low) != line.end(); ++low) {
+        const auto high = std::next(low);
+        if (!(high->second->alpha2 - low->second->alpha2 > 4.0 * fit.alpha_error.max)) continue;
+        double before = 0.0;
+        for (int i = 0; i <= kBetween; ++i) {
+          const double alpha = low->first + (high->first - low->first) * i / kBetween;
+          const double found = evaluate_fit(fit, alpha, specular).alpha;
+          INFO(alpha << " " << specular);
+          CHECK(found >= before);
+          before = found;
+        }
+      }
   }
 }
 
@@ -136,7 +201,7 @@ TEST_CASE("shipped: chains agree with their steps", "[slow]") {
       steps.push_back(find_fit(step.id, kFits));
     CHECK(composed_fit(steps, fit.id) == fit);
     const remap::ChainDifference difference = difference_from_steps(fit, steps);
-    CHECK(difference.alpha < 2e-5);
+    CHECK(difference.alpha < 1e-4);  // at specular 0, where a step clamps what the chain hands on
     CHECK(difference.grey_specular < 2e-5);
     CHECK(difference.color_specular < 2e-3);
   }

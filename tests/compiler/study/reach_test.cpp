@@ -2,7 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/report/scaled_fit.hpp"
+#include "remap/fit_file.hpp"
 #include "study/reach_report.hpp"
+#include "support/campaign.hpp"
 #include "sweep/sweep.hpp"
 
 using namespace remapc;
@@ -59,6 +61,20 @@ TEST_CASE("reach: the least error is that of the sweep, which finds it another w
   for (std::size_t i = 0; i < reach.materials.size(); ++i) {
     INFO(reach.materials[i].alpha << " " << reach.materials[i].specular);
     CHECK(reach.materials[i].least_error == Approx(table.rows[i].error).margin(2e-4));
+  }
+}
+
+// Every pair of the hub at full length: `remap-study reach`.
+TEST_CASE("reach: shipped converters leave at most 1 % over the whole range", "[study][slow][campaign]") {
+  ReachOptions options;
+  options.materials = remap::is_full_campaign() ? 16 : 5;
+  options.resolution = 128;
+  for (const std::string id : {"as_to_mitsuba_ward", "ggx_to_mitsuba_ward", "phong_to_mitsuba_ward"})
+    options.fits.push_back(remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_" + id + ".json"));
+  for (const FitReach& reach : study_reach(*make_builtin_renderer(), options)) {
+    INFO(options.fits[reach.fit].id << ": " << reach.worst().alpha << " " << reach.worst().specular);
+    CHECK(reach.worst().excess() < 0.01);
+    CHECK(reach.mean_excess() < 0.002);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "remap/error.hpp"
 #include "support/shared_data.hpp"
+#include "table/row_regime.hpp"
 
 using namespace remapc;
 
@@ -99,6 +100,18 @@ TEST_CASE("check: clamped rows and constant values are reported as saturation") 
   const auto found = of_kind(table, "saturation");
   REQUIRE(found.size() >= 2);
   CHECK(found.back().message.find("5 of 50 rows are clamped") != std::string::npos);
+}
+
+TEST_CASE("check: rows at the limits that a sweep recorded are answers, not saturation") {
+  Table table = sound_table();
+  for (TableRow& row : table.rows)
+    if (row.alpha1 > 0.85) {
+      row.alpha2 = 0.7;
+      row.status = RowStatus::kClamped;
+    }
+  CHECK(of_kind(table, "saturation").size() == 1);
+  table.comments = {{kAlphaLimitComment, "0.7"}, {kSpecularLimitComment, "1"}};
+  CHECK(of_kind(table, "saturation").empty());
 }
 
 TEST_CASE("check: invalid values are errors, unphysical ones warnings") {

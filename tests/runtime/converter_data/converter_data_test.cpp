@@ -11,7 +11,7 @@ using namespace remapc;
 
 TEST_CASE("converter data: reads back exactly, in the order of their ids") {
   const remap::Fit fit =
-      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
+      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_duer_to_mitsuba_phong.json");
   const remap::ConverterData data = remap::converter_data(fit, remap::lower(fit.mapping, fit.domain));
   remap::ConverterData other = data;
   other.id = "a_to_b";
@@ -23,7 +23,8 @@ TEST_CASE("converter data: reads back exactly, in the order of their ids") {
 }
 
 TEST_CASE("converter data: the SSIM is the mean of the fit's spheres, in three digits") {
-  remap::Fit fit = remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
+  remap::Fit fit =
+      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_duer_to_mitsuba_phong.json");
   const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
   fit.image_similarity->ssim = {{0.1, 0.5}, {0.5, 0.75}, {0.9, 0.751}};
   CHECK(remap::converter_data(fit, lowered).ssim == 0.667);
@@ -35,9 +36,8 @@ TEST_CASE("converter data: the SSIM is the mean of the fit's spheres, in three d
 
 TEST_CASE("converter data: a damaged file is refused with the place") {
   const remap::Fit fit =
-      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
-  const std::string text =
-      emit_converter_list({remap::converter_data(fit, remap::lower(fit.mapping, fit.domain))});
+      remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_duer_to_mitsuba_phong.json");
+  const std::string text = emit_converter_list({remap::converter_data(fit, remap::lower(fit))});
   const auto refused = [&](const std::string& from, const std::string& to, const std::string& place) {
     std::string damaged = text;
     REQUIRE(damaged.find(from) != std::string::npos);
@@ -46,7 +46,7 @@ TEST_CASE("converter data: a damaged file is refused with the place") {
   };
   refused("\"version\": 1", "\"version\": 2", ".version");
   refused("\"ssim\": 0", "\"ssim\": \"0\", \"of\": 0", ".converters[0].ssim");
-  refused("\"cell_count\":32", "\"cell_count\":31", ".converters[0].alpha.coefficients");
-  refused("\"cell_count\":32", "\"cell_count\":0", ".converters[0].alpha.cell_count");
-  refused("\"roughness\":\"exponent\"", "\"roughness\":\"width\"", ".converters[0].source.roughness");
+  refused("\"cell_count\":16", "\"cell_count\":31", ".converters[0].alpha.coefficients");
+  refused("\"cell_count\":16", "\"cell_count\":0", ".converters[0].alpha.cell_count");
+  refused("\"roughness\":\"exponent\"", "\"roughness\":\"width\"", ".converters[0].target.roughness");
 }

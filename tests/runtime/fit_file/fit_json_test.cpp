@@ -5,6 +5,7 @@
 
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
+#include "support/made_regimes.hpp"
 #include "support/replaced.hpp"
 
 using namespace remap;
@@ -56,10 +57,25 @@ Fit mlp_fit() {
   return fit;
 }
 
+Fit series_fit() {
+  Fit fit = sample_fit();
+  const TexelSeries of_alpha{{1.0 / 30.0, 0.9}, {0.0, 0.7}, {{0.5, 0.4, -1.0 / 7.0}}};
+  fit.mapping = Series{of_alpha, {{0.01, 1.0}, {0.0, 1.0}, {{0.5, 1e-17}, {0.1}}}};
+  return fit;
+}
+
+Fit regime_fit() {
+  Fit fit = made_regimes::fit();
+  fit.split = sample_fit().split;
+  fit.candidates = sample_fit().candidates;
+  fit.candidates.front().relative_alpha = {1.0 / 7.0, 1e-3};
+  return fit;
+}
+
 }  // namespace
 
 TEST_CASE("fit file: what is written is read back bit for bit, of every kind") {
-  for (const Fit& fit : {sample_fit(), svr_fit(), mlp_fit()}) {
+  for (const Fit& fit : {sample_fit(), svr_fit(), mlp_fit(), series_fit(), regime_fit()}) {
     const std::string json = fit_to_json(fit);
     CHECK(fit_from_json(json, "x.json") == fit);
     CHECK(fit_to_json(fit_from_json(json, "x.json")) == json);
@@ -76,6 +92,17 @@ TEST_CASE("fit file: complaints about support vectors and networks name the fiel
   CHECK_THROWS_WITH(read(replaced(mlp, "\"silu\"", "\"sine\"")), Catch::Contains("x.json.mapping"));
   CHECK_THROWS_WITH(read(replaced(mlp, "\"weights\"", "\"wights\"")),
                     Catch::Contains("has no field \"weights\""));
+}
+
+TEST_CASE("fit file: complaints about series and regimes name the field") {
+  const auto read = [](const std::string& text) { return fit_from_json(text, "x.json"); };
+  const std::string series = fit_to_json(series_fit()), regimes = fit_to_json(regime_fit());
+  CHECK_THROWS_WITH(read(replaced(series, "\"coefficients\"", "\"terms\"")),
+                    Catch::Contains("x.json.mapping.alpha: has no field \"coefficients\""));
+  CHECK_THROWS_WITH(read(replaced(regimes, "\"alpha_limit\": 0.9", "\"alpha_limit\": 0.0")),
+                    Catch::Contains("x.json.regimes.alpha_limit: expected a number above 0"));
+  CHECK_THROWS_WITH(read(replaced(regimes, "\"specular_limit\": 1.0", "\"specular_limit\": null")),
+                    Catch::Contains("specular_limit"));
 }
 
 TEST_CASE("fit file: complaints name the file and the field") {

@@ -17,6 +17,7 @@
 #include "remap/error.hpp"
 #include "support/build_speed.hpp"
 #include "support/campaign.hpp"
+#include "support/made_regimes.hpp"
 #include "support/random_models.hpp"
 #include "text/number_text.hpp"
 
@@ -233,7 +234,24 @@ TEST_CASE("lowered sums of Gaussians: random ones keep their proven bound", "[sl
   check_kind("svr");
 }
 TEST_CASE("lowered networks: random ones keep their proven bound", "[slow][campaign]") { check_kind("mlp"); }
+TEST_CASE("lowered series: random ones keep their proven bound", "[slow][campaign]") { check_kind("series"); }
 TEST_CASE("lowered chains: random ones keep their proven bound", "[slow][campaign]") {
   check_kind("chain", campaign_length(200) / 5,
              0.4);  // each takes as long as its steps and all their products
+}
+
+TEST_CASE("lower: a fit with regimes is within its bounds in all of them and in the seams") {
+  const Fit fit = made_regimes::fit();
+  const Lowered lowered = lower(fit);
+  REQUIRE(lowered.wide.has_value());
+  REQUIRE(lowered.bright.has_value());
+  CHECK(lowered.alpha_limit == static_cast<float>(made_regimes::kAlphaLimit));
+  CHECK(lowered.specular_limit == static_cast<float>(made_regimes::kSpecularLimit));
+  CHECK(lowered.alpha_bound() < 1e-3);
+  CHECK(lowered.specular_bound() < 1e-3);
+  Fit bounded = fit;
+  bounded.regimes.alpha_limit = bounded.regimes.specular_limit.emplace(3.0);  // out of reach
+  bounded.regimes.wide.reset();
+  bounded.regimes.bright.reset();
+  CHECK_FALSE(lower(bounded).has_limits());
 }

@@ -1,0 +1,144 @@
+#include "fit/series/series.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <Eigen/Dense>
+
+#include "fit/rows/folds.hpp"
+#include "model/evaluate.hpp"
+
+namespace remapc {
+namespace {
+
+constexpr std::array kDegrees = {1, 2, 3, 4, 6, 8, 10, 12};
+constexpr std::size_t kSeriesFolds = 5;
+constexpr double kRowsATerm = 1.5;  // at least
+
+// Weight of the squares of coefficients, relative to one row.
+constexpr double kRidge = 1e-4;
+
+// T_0 to T_degree of `value` in its range.
+Eigen::VectorXd chebyshev_row(const remap::Range& range, double value, int degree) {
+  const double x = 2.0 * (value - range.min) / (range.max - range.min) - 1.0;
+  Eigen::VectorXd row(degree + 1);
+  row(0) = 1.0;
+  if (degree > 0) row(1) = x;
+  for (int i = 2; i <= degree; ++i) row(i) = 2.0 * x * row(i - 1) - row(i - 2);
+  return row;
+}
+
+SeriesShape shape_of(const remap::TexelSeries& series) {
+  return {static_cast<int>(series.coefficients.front().size()) - 1,
+          static_cast<int>(series.coefficients.size()) - 1};
+}
+
+bool is_determined(const SeriesShape& shape, std::size_t rows, std::size_t widths) {
+  return static_cast<std::size_t>(shape.degree) + 1 <= widths &&
+         kRowsATerm * static_cast<double>(shape.count()) <= static_cast<double>(rows);
+}
+
+// The relative errors of the series over the rows of each fold, which it is fitted without.
+std::vector<std::vector<double>> errors_of_folds(const std::vector<Fold>& folds, double TableRow::*output,
+                                                 const remap::TexelSeries& box, const SeriesShape& shape) {
+  std::vector<std::vector<double>> errors;
+  for (const Fold& fold : folds) {
+    const remap::TexelSeries series = fit_series(fold.training, output, box, shape);
+    errors.emplace_back();
+    for (const TableRow& row : fold.judging)
+      errors.back().push_back((remap::series_value(series, row.alpha1, row.specular1) - row.*output) *
+                              error_weight(row.*output));
+  }
+  return errors;
+}
+
+}  // namespace
+
+std::size_t SeriesShape::count() const {
+  std::size_t terms = 0;
+  for (int j = 0; j <= std::min(degree, of_specular); ++j) terms += static_cast<std::size_t>(degree - j + 1);
+  return terms;
+}
+
+std::vector<SeriesShape> series_shapes(const std::vector<int>& of_specular) {
+  std::vector<SeriesShape> shapes;
+  for (const int degree : kDegrees)
+    for (const int power : of_specular) shapes.push_back({degree, std::min(degree, power)});
+  std::ranges::stable_sort(shapes, {}, &SeriesShape::count);
+  shapes.erase(std::ranges::unique(shapes).begin(), shapes.end());
+  return shapes;
+}
+
+remap::TexelSeries fit_series(const std::vector<TableRow>& rows, double TableRow::*output,
+                              remap::TexelSeries series, const SeriesShape& shape) {
+  const auto count = static_cast<Eigen::Index>(rows.size()), terms = static_cast<Eigen::Index>(shape.count());
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(count + terms, terms);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(count + terms);
+  const int powers = std::min(shape.degree, shape.of_specular);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const TableRow& row = rows[static_cast<std::size_t>(r)];
+    const Eigen::VectorXd of_alpha = chebyshev_row(series.alpha, row.alpha1, shape.degree);
+    const Eigen::VectorXd of_specular = chebyshev_row(series.specular, row.specular1, powers);
+    const double weight = error_weight(row.*output);
+    values(r) = weight * row.*output;
+    Eigen::Index term = 0;
+    for (int j = 0; j <= powers; ++j)
+      for (int i = 0; i <= shape.degree - j; ++i) basis(r, term++) = weight * of_alpha(i) * of_specular(j);
+  }
+  Eigen::Index term = 0;
+  for (int j = 0; j <= powers; ++j)
+    for (int i = 0; i <= shape.degree - j; ++i, ++term) basis(count + term, term) = kRidge * (1.0 + i + j);
+  const Eigen::VectorXd found = basis.householderQr().solve(values);
+  series.coefficients.clear();
+  const double* next = found.data();
+  for (int j = 0; j <= powers; ++j, next += shape.degree - j + 2)
+    series.coefficients.emplace_back(next, next + shape.degree - j + 1);
+  return series;
+}
+
+remap::TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t widths,
+                               double TableRow::*output, const remap::TexelSeries& box,
+                               const std::vector<SeriesShape>& shapes, std::uint64_t seed) {
+  const std::vector<Fold> folds = split_folds(rows, kSeriesFolds, seed);
+  std::vector<SeriesShape> tried;
+  std::vector<CrossValidated> scores;
+  for (const SeriesShape& shape : shapes) {
+    if (!tried.empty() && !is_determined(shape, rows.size(), widths)) continue;
+    tried.push_back(shape);
+    scores.push_back(cross_validated(errors_of_folds(folds, output, box, shape)));
+  }
+  const double bound = error_bound(scores);
+  const auto chosen =
+      std::ranges::find_if(scores, [&](const CrossValidated& score) { return score.rms <= bound; });
+  return fit_series(rows, output, box, tried[static_cast<std::size_t>(chosen - scores.begin())]);
+}
+
+std::string series_text(const remap::TexelSeries& series) {
+  const SeriesShape shape = shape_of(series);
+  return "degree " + std::to_string(shape.degree) + ", up to " + std::to_string(shape.of_specular) +
+         " in specular";
+}
+
+Regression fit_series_kind(const std::vector<TableRow>& rows, const remap::Domain& domain,
+                           std::uint64_t seed) {
+  require_variety(rows, "series");
+  std::set<double> widths;
+  for (const TableRow& row : rows) widths.insert(row.alpha1);
+  const remap::TexelSeries box{domain.alpha, domain.specular, {}};
+  const std::vector<int> of_alpha =
+      alpha_needs_specular(rows) ? std::vector{1, 2, 4, kAnyDegree} : std::vector{0};
+  remap::Series series;
+  series.alpha = best_series(rows, widths.size(), &TableRow::alpha2, box, series_shapes(of_alpha), seed);
+  series.specular =
+      best_series(rows, widths.size(), &TableRow::specular2, box, series_shapes({1, 2, 4, kAnyDegree}), seed);
+  return {remap::MappingKind(series),
+          {{"alpha", series_text(series.alpha)}, {"specular", series_text(series.specular)}}};
+}
+
+remap::Series fit_series_again(const remap::Series& model, const std::vector<TableRow>& rows) {
+  return {fit_series(rows, &TableRow::alpha2, model.alpha, shape_of(model.alpha)),
+          fit_series(rows, &TableRow::specular2, model.specular, shape_of(model.specular))};
+}
+
+}  // namespace remapc
