@@ -134,6 +134,8 @@ TEST_CASE("regimes: reaches_limit tells whether limits change anything") {
   fit.domain = {{0.01, 0.59}, {0.0, 0.62}};
   CHECK_FALSE(reaches_limit(fit));
   fit.mapping = Parametric{{{1.0}}, {{1, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
+  fit.regimes.wide.reset();
+  fit.regimes.bright.reset();
   fit.domain = {{0.01, made_regimes::kAlphaLimit}, {0.0, 1.0}};  // the limit itself is no matter
   CHECK_FALSE(reaches_limit(fit));
 }
