@@ -106,10 +106,10 @@ HeaderData describe(const Fit& fit, const remap::Lowered& lowered) {
 }
 
 HeaderData describe_exact(const Fit& fit) {
-  if (fit.regimes.wide || fit.regimes.bright)
+  if (reaches_limit(fit))
     throw remap::Error(
         remap::ErrorKind::kUsage,
-        "emit: a fit with regimes at the limits of its target has no exact form (remove --exact)");
+        "emit: " + fit.id + " reaches a limit of its target and has no exact form (remove --exact)");
   return described(fit, exact_mapping(fit.mapping, fit.domain));
 }
 

@@ -94,22 +94,11 @@ class Sampler {
   bool has_two_axes() const { return table_.axes.size() == 2; }
   std::size_t specular_count() const { return has_two_axes() ? table_.axes[1].positions.size() : 1; }
 
-  // Whether a target parameter is at its limit somewhere, from where on neither is in proportion to specular.
-  bool reaches_limit() const {
-    const remap::Range& alphas = fit_.domain.alpha;
-    for (std::size_t i = 0; i < options_.size; ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(options_.size - 1);
-      if (!is_inside(fit_, alphas.min + share * (alphas.max - alphas.min), fit_.domain.specular.max))
-        return true;
-    }
-    return false;
-  }
-
   void lay_out() {
     const bool gives_width = options_.output != LookupOutput::kSpecular;
     const bool gives_specular = options_.output != LookupOutput::kRoughness;
     const bool two_axes = (gives_width && alpha_depends_on_specular(fit_.mapping)) ||
-                          (gives_specular && !is_proportional(fit_.mapping)) || reaches_limit();
+                          (gives_specular && !is_proportional(fit_.mapping)) || reaches_limit(fit_);
     require_sizes(options_, two_axes);
     table_.axes.push_back({"source_" + std::string(convention_name(fit_.source.roughness)),
                            even_steps(own_roughness_range(fit_), options_.size)});

@@ -84,7 +84,7 @@ TEST_CASE("emit: the header names models, table, errors and licence, and defines
 TEST_CASE("emit: a coefficient that is not a finite float is refused") {
   remap::Fit fit =
       remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_to_mitsuba_as_sztrajman_2019.json");
-  std::get<remap::Parametric>(fit.mapping).alpha[0][2] = 1e300;
+  std::get<remap::Parametric>(fit.mapping).specular[0].factor.start = 1e300;
   CHECK_THROWS_WITH(emit_header(fit, {true, {}}), Catch::Contains("not finite"));
   CHECK_THROWS_AS(emit_header(fit), remap::Error);
 }
