@@ -1,5 +1,6 @@
 // Reads the results of texremap with OpenImageIO: converted channels must equal the converter, everything
 // else the input.
+#include <cmath>
 #include <cstring>
 
 #include <catch2/catch.hpp>
