@@ -66,7 +66,8 @@ std::vector<SeriesShape> series_shapes(const std::vector<int>& of_specular) {
   for (const int degree : kDegrees)
     for (const int power : of_specular) shapes.push_back({degree, std::min(degree, power)});
   std::ranges::stable_sort(shapes, {}, &SeriesShape::count);
-  shapes.erase(std::ranges::unique(shapes).begin(), shapes.end());
+  shapes.erase(std::unique(shapes.begin(), shapes.end()),
+               shapes.end());  // clang 14 has no std::ranges::unique
   return shapes;
 }
 
