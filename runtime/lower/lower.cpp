@@ -256,13 +256,14 @@ void find_seams(const Fit& fit, const ProofDomain& domain, Lowered* lowered) {
     return range.min + (range.max - range.min) * i / kSeamSamples;
   };
   const auto in_seam = [](double share) { return share > 0.0 && share < 1.0; };
+  const double held_from = mapping_domain(fit).alpha.max;
   double alpha_gap = 0.0, specular_gap = 0.0;
   for (int i = 0; i <= kSeamSamples; ++i)
     for (int j = 0; j <= kSeamSamples; ++j) {
       const double alpha = at(domain.alpha, i), specular = at(domain.specular, j);
       const TexelWidth width = target_width(fit, alpha, specular);
       if (in_seam(width.bright)) {
-        const double held = std::min(alpha, mapping_domain(fit).alpha.max);
+        const double held = std::min(alpha, held_from);
         const double inside = evaluate_mapping(fit.mapping, held, specular).alpha;
         const double moved = width.alpha - std::min(inside, fit.regimes.alpha_limit);
         alpha_gap = std::max(alpha_gap, std::fabs(moved) / width.bright);

@@ -308,29 +308,4 @@ Taylor<V, N> gaussian_sum(const KernelExpansion& expansion, const std::vector<Ta
   return sum;
 }
 
-// Each step of the recurrence enlarges the remainders of its arguments, 40000 times over twelve steps. So it
-// runs on variables without a remainder that reach as far as the arguments, and what it gives is composed
-// with them.
-template <int Variables, int Order>
-Taylor<Variables, Order> series_value(const TexelSeries& series, const Taylor<Variables, Order>& alpha,
-                                      const Taylor<Variables, Order>& specular) {
-  using Model = Taylor<Variables, Order>;
-  using Plain = Taylor<2, Order>;
-  const double wide = alpha.deviation(), bright = specular.deviation();
-  const Plain sum = series_sum(series, Plain::variable(0, alpha.constant(), wide),
-                               Plain::variable(1, specular.constant(), bright));
-  const auto share = [](const Model& argument, double deviation) {
-    return deviation > 0.0 ? (argument - argument.constant()) * (1.0 / deviation) : Model(0.0);
-  };
-  const Model u = share(alpha, wide), v = share(specular, bright);
-  Model result;
-  for (int j = Order; j >= 0; --j) {
-    Model row;
-    for (int i = Order - j; i >= 0; --i) row = row * u + sum.at(i, j);
-    result = result * v + row;
-  }
-  result.widen(sum.rest());
-  return result;
-}
-
 }  // namespace remap

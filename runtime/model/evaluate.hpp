@@ -113,18 +113,13 @@ Scalar chebyshev_sum(const Range& range, const Scalar& parameter, std::size_t co
   return x * next - after + at(0);
 }
 
+// Beyond the ranges of the series, its polynomial goes on.
 template <typename Scalar>
-Scalar series_sum(const TexelSeries& series, const Scalar& alpha, const Scalar& specular) {
+Scalar series_value(const TexelSeries& series, const Scalar& alpha, const Scalar& specular) {
   return chebyshev_sum(series.specular, specular, series.coefficients.size(), [&](std::size_t j) {
     const std::vector<double>& row = series.coefficients[j];
     return chebyshev_sum(series.alpha, alpha, row.size(), [&](std::size_t i) { return row[i]; });
   });
-}
-
-// Beyond the ranges of the series, its polynomial goes on.
-template <typename Scalar>
-Scalar series_value(const TexelSeries& series, const Scalar& alpha, const Scalar& specular) {
-  return series_sum(series, alpha, specular);
 }
 
 template <typename Scalar>
