@@ -25,7 +25,8 @@ constexpr int kHalvings = 40;
 constexpr int kWideSpeculars = 2;
 // Times the limit of alpha: where the mapping is held, more than its lowering may change beyond the seam.
 constexpr double kBeyondLimit = 1.0 + remap::kSeam + 1e-4;
-constexpr double kLeastWide = 1e-3;  // of source alpha
+constexpr double kLeastWide = 1e-3;    // of source alpha
+constexpr double kLeastBright = 1e-3;  // of the range of source specular
 constexpr double kSameJoint =
     2e-3;  // between the rows on both sides of a joint, relative to the range of specular
 
@@ -192,8 +193,9 @@ class RegimeFit {
     return wide;
   }
 
-  // `mapping_to`: the largest width at which the mapping is joined.
-  remap::TexelSeries fit_bright(double mapping_to) {
+  // `mapping_to`: the largest width at which the mapping is joined. None if the target reaches the limit of
+  // its specular at the very end of the domain.
+  std::optional<remap::TexelSeries> fit_bright(double mapping_to) {
     std::vector<TableRow> rows = rows_.bright;
     for (const auto& [alpha, column] : columns_of(rows_.bright)) {
       if (alpha > mapping_to) break;
@@ -212,6 +214,7 @@ class RegimeFit {
     const remap::TexelSeries box{{width_before(least(&TableRow::alpha1)), domain_.alpha.max},
                                  {least(&TableRow::specular1), domain_.specular.max},
                                  {}};
+    if (box.specular.max - box.specular.min < kLeastBright * domain_.specular.max) return std::nullopt;
     const remap::TexelSeries series = best_series(rows, columns_of(rows).size(), &TableRow::alpha2, box,
                                                   series_shapes({kAnyDegree}), seed_);
     (*method_)["bright"] = series_text(series) + rows_text(rows);

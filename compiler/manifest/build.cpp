@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 
 #include "emit/emit.hpp"
@@ -61,11 +62,17 @@ class Builder {
           return std::any_of(waiting.begin(), waiting.end(),
                              [&](const ManifestItem* other) { return other->id == input; });
         });
-        (waits ? later : ready).push_back(item);
+        const bool is_lost =
+            std::ranges::any_of(inputs, [&](const auto& input) { return failures_.contains(input); });
+        if (!is_lost)
+          (waits ? later : ready).push_back(item);
+        else
+          failures_.emplace(item->id, item->id + ": needs an item that failed");
       }
       remap::run_parallel(ready.size(), execution_.jobs, [&](std::size_t i) { build_item(*ready[i]); });
       waiting = later;
     }
+    require_success();
     const FitFolder folder = load_fit_folder(folders_.fits);
     write_converters(folder);
     write_report(folder);
@@ -120,7 +127,10 @@ class Builder {
       make(item, fresh, &record);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kInterrupted) throw;
-      throw Error(error.kind(), item.id + ": " + error.what());
+      const std::lock_guard lock(mutex_);
+      failures_.emplace(item.id, item.id + ": " + error.what());
+      if (!first_kind_) first_kind_ = error.kind();
+      return;
     }
     const std::lock_guard lock(mutex_);
     lock_.items[item.id] = record;
@@ -133,6 +143,17 @@ class Builder {
     }
     ++done_;
     if (execution_.progress) execution_.progress(done_, manifest_.items.size());
+  }
+
+  // Throws the errors of all items that failed; what was finished stays.
+  void require_success() const {
+    if (failures_.empty()) return;
+    std::string text;
+    for (const auto& [id, failure] : failures_) text += (text.empty() ? "" : "; ") + failure;
+    if (failures_.size() > 1)
+      text = std::to_string(failures_.size()) + " of " + std::to_string(manifest_.items.size()) +
+             " items failed: " + text;
+    throw Error(first_kind_.value_or(ErrorKind::kInput), text);
   }
 
   // Whether the table of the last build can be reused because a renderer that would make it is not installed.
@@ -320,6 +341,8 @@ class Builder {
   std::size_t done_ = 0;
   std::map<std::string, remap::ConverterData> converters_;  // those known to be current, by id
   std::vector<BuiltItem> built_;
+  std::map<std::string, std::string> failures_;  // by id
+  std::optional<ErrorKind> first_kind_;          // of a failure
   std::vector<std::string> pruned_;
 };
 

@@ -37,9 +37,10 @@ struct BuildResult {
 };
 
 // Makes every item of `manifest` whose recipe, inputs or files changed since the last build, then the
-// data of all converters of the folder and the report. Each item is swept and fitted by one thread. Throws
-// what sweeping, fitting and lowering throw, opened by the item's id; finished items stay. If a renderer is
-// not installed, even `force` reuses a table made by the same recipe, and throws if there is none. Pruning
+// data of all converters of the folder and the report. Each item is swept and fitted by one thread. An item
+// that fails does not stop the others; then throws what sweeping, fitting and lowering threw, each opened by
+// its item's id, and makes neither the data of converters nor the report. Finished items stay. If a renderer
+// is not installed, even `force` reuses a table made by the same recipe, and throws if there is none. Pruning
 // deletes only files that have not been changed after their build.
 BuildResult build(const Renderer& renderer, const Manifest& manifest, const BuildFolders& folders,
                   const BuildExecution& execution);

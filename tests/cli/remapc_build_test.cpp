@@ -239,6 +239,22 @@ TEST_CASE("remapc build: a faulty manifest is refused with the place", "[slow]")
           "unknown item mitsuba_ward_to_mitsuba_ward_duer");
 }
 
+TEST_CASE("remapc build: items that fail do not stop the others, and all are named", "[slow]") {
+  const Session session;
+  auto items = quick_manifest();
+  items["sweeps"][0]["models"] = {"mitsuba/ward", "mitsuba/ward-duer", "mitsuba/wart"};
+  session.write("fits/manifest.json", items.dump());
+  const ProcessResult failed = session.remapc(build_of(session));
+  CHECK(failed.exit_code == 2);
+  CHECK_THAT(failed.last_error(), Catch::Matchers::Contains("4 of 8 items failed") &&
+                                      Catch::Matchers::Contains("mitsuba_ward_to_mitsuba_wart: ") &&
+                                      Catch::Matchers::Contains("mitsuba_wart_to_mitsuba_ward_duer: "));
+  CHECK(std::filesystem::exists(session.path("generated/a_b_to_mitsuba_ward_duer.hpp")));
+  CHECK_FALSE(std::filesystem::exists(session.path("generated/converters.json")));
+  session.write("fits/manifest.json", quick_manifest().dump());
+  CHECK(built_ids(session.remapc(build_of(session))).empty());
+}
+
 TEST_CASE("remapc build: an interrupted build continues where it stopped", "[slow]") {
   const Session session;
   session.write("fits/manifest.json", quick_manifest(200).dump());

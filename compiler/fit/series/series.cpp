@@ -8,6 +8,7 @@
 
 #include "fit/rows/folds.hpp"
 #include "model/evaluate.hpp"
+#include "remap/error.hpp"
 
 namespace remapc {
 namespace {
@@ -112,6 +113,9 @@ remap::TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t wi
   const double bound = error_bound(scores);
   const auto chosen =
       std::ranges::find_if(scores, [&](const CrossValidated& score) { return score.rms <= bound; });
+  if (chosen == scores.end())
+    throw remap::Error(remap::ErrorKind::kNumeric,
+                       "series: no degree follows the rows (errors are not finite)");
   return fit_series(rows, output, box, tried[static_cast<std::size_t>(chosen - scores.begin())]);
 }
 

@@ -25,7 +25,8 @@ remap::TexelSeries fit_series(const std::vector<TableRow>& rows, double TableRow
                               remap::TexelSeries series, const SeriesShape& shape);
 
 // The first of `shapes` that counts as equal to the best in cross-validation (folds.hpp). `widths`: the
-// number of different alpha1 among the rows, which a degree stays below.
+// number of different alpha1 among the rows, which a degree stays below. Throws kNumeric if none has finite
+// errors, as over a box without extent.
 remap::TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t widths,
                                double TableRow::*output, const remap::TexelSeries& box,
                                const std::vector<SeriesShape>& shapes, std::uint64_t seed);

@@ -123,3 +123,23 @@ TEST_CASE("regime fit: too few rows of a regime leave the mapping cut off at the
   CHECK(end.alpha <= 0.9);
   CHECK(end.specular == Approx(made_regimes::free_specular(fit.domain.alpha.max, 0.3)).margin(0.01));
 }
+
+TEST_CASE("regime fit: a model that reaches its limits at the last rows alone has no regimes of its own") {
+  Table table = regime_table(1, 1);
+  table.rows.clear();
+  table.comments = {{kAlphaLimitComment, "1"}, {kSpecularLimitComment, "1"}};
+  for (int i = 0; i < 30; ++i)
+    for (int j = 1; j <= 30; ++j) {
+      const double alpha = 0.01 + 0.99 * i / 29, specular = j / 30.0;
+      const RowStatus status = alpha == 1.0 || specular == 1.0 ? RowStatus::kClamped : RowStatus::kOk;
+      table.rows.push_back({alpha, specular, alpha, specular, 0.0, status, table.rows.size() + 2});
+    }
+  const remap::Fit fit = fit_of(table, Regressor::kSeries);
+  CHECK_FALSE(fit.regimes.wide.has_value());
+  CHECK_FALSE(fit.regimes.bright.has_value());
+  CHECK(fit.domain == remap::Domain{{0.01, 1.0}, {0.0, 1.0}});
+  for (const double value : {0.013, 0.3, 0.99, 1.0}) {
+    CHECK(evaluate_fit(fit, value, 1.0).alpha == Approx(value).margin(1e-5));
+    CHECK(evaluate_fit(fit, 1.0, value).specular == Approx(value).margin(1e-5));
+  }
+}
