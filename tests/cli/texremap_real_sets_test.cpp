@@ -110,7 +110,8 @@ TEST_CASE("texremap real sets: the domains of the hub take every texel with alph
                        "--only", "roughness", "--roughness-encoding", "roughness", "--format", "tif",
                        "--json", "-o", tree.path("out")});
     REQUIRE(result.exit_code == 0);
-    for (const auto& set : nlohmann::json::parse(result.output)["sets"]) {
+    const auto report = nlohmann::json::parse(result.output);
+    for (const auto& set : report["sets"]) {
       const std::string map = set["roughness"];
       CAPTURE(map);
       CHECK(set["out_of_domain"] == (map.find("BoomBox") == std::string::npos ? 0 : narrow));
