@@ -2,15 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
-#include <utility>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_tree.hpp"
-#include "remap/shipped_converters.hpp"
-#include "support/campaign.hpp"
 #include "support/shared_data.hpp"
 
 using namespace remap;
@@ -69,55 +65,7 @@ std::size_t count_of(const std::string& text, const std::string& word) {
   return count;
 }
 
-// Source and target of every converter between two models of the hub.
-std::vector<std::pair<std::string, std::string>> hub_pairs() {
-  std::set<std::pair<std::string, std::string>> pairs;
-  const auto in_hub = [](const std::string& model) { return model.rfind("mitsuba/", 0) == 0; };
-  for (const auto& converter : shipped_converters())
-    if (in_hub(converter->info().source.model) && in_hub(converter->info().target.model))
-      pairs.emplace(converter->info().source.model, converter->info().target.model);
-  return {pairs.begin(), pairs.end()};
-}
-
-// The texels of channel `channel` whose alpha, the square of the stored roughness, is below `least`.
-std::size_t narrow_texels(const TestImage& image, std::size_t channel, float least) {
-  std::size_t count = 0;
-  const auto channels = static_cast<std::size_t>(image.spec.nchannels);
-  for (std::size_t i = channel; i < image.bytes.size(); i += channels) {
-    const float roughness = image.bytes[i] / 255.0f;
-    count += roughness * roughness < least ? 1 : 0;
-  }
-  return count;
-}
-
 }  // namespace
-
-TEST_CASE("texremap real sets: the domains of the hub take every texel with alpha from 0.01",
-          "[needs][slow][campaign]") {
-  const fs::path folder = shared_data("textures");
-  if (folder.empty()) return;
-  const auto pairs = hub_pairs();
-  REQUIRE(pairs.size() == 42);
-  const std::size_t narrow =
-      narrow_texels(read_image(folder / "BoomBox_occlusionRoughnessMetallic.png"), 1, 0.01f);
-  const auto step = pairs.size() / static_cast<std::size_t>(campaign_length(static_cast<int>(pairs.size())));
-  for (std::size_t i = 0; i < pairs.size(); i += step) {
-    const auto& [source, target] = pairs[i];
-    CAPTURE(source, target);
-    const Tree tree;
-    const ProcessResult result =
-        tree.texremap({"convert", folder.string(), "--from", source, "--to", target, "--specular", "0.04",
-                       "--only", "roughness", "--roughness-encoding", "roughness", "--format", "tif",
-                       "--json", "-o", tree.path("out")});
-    REQUIRE(result.exit_code == 0);
-    const auto report = nlohmann::json::parse(result.output);
-    for (const auto& set : report["sets"]) {
-      const std::string map = set["roughness"];
-      CAPTURE(map);
-      CHECK(set["out_of_domain"] == (map.find("BoomBox") == std::string::npos ? 0 : narrow));
-    }
-  }
-}
 
 TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[needs][slow]") {
   const fs::path folder = shared_data("textures");
