@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // mitsuba/ggx to threejs-r187/standard-metal: which parameters of the second give the same picture as those of the first.
-// Table mitsuba_ggx_to_threejs_r187_standard_metal.csv, sha256 4922104e1a18af542c5ec9b41d90b31ecef0f7ca590d4461cd1e912b60a548ab;
+// Table mitsuba_ggx_to_threejs_r187_standard_metal.csv, sha256 c3ffff1e21803cd73d4af68a42e18fac586f5c7f451f331bd0ed2e0252b8ca44;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by remapc 0.1.0; three.js r0.187.0 (HeadlessChrome/156.0.8078.79).
-// Fit: svr, seed 1, 480 rows trained, 120 held out.
-// Error on the rows held out: alpha rms 0.00058, 99 % 0.0025, max 0.0026;
-// color rms 4e-04, 99 % 8e-04, max 0.002.
-// Lowered from the fit. Target alpha: degree 6 on 8 pieces, 3 in specular, proven within 7.5e-06 (sampled 6.4e-06), rising with alpha.
-// Target specular: degree 7 on 4 pieces, 7 in specular, proven within 8e-05 (sampled 7.2e-05), rising with specular.
+// Fit: series, seed 1, 720 rows trained, 180 held out.
+// Error on the rows held out: alpha rms 0.00078, 99 % 0.0039, max 0.0045;
+// color rms 0.00031, 99 % 0.0012, max 0.0016.
+// Lowered from the fit. Target alpha: degree 10, proven within 2.1e-06 (sampled 2.9e-08), rising with alpha.
+// Target specular: degree 11, 4 in specular, proven within 9.7e-05 (sampled 8.7e-05), rising with specular.
 // Covers alpha 0.01 to 1, f0 0 to 1.
 #ifndef REMAP_GENERATED_MITSUBA_GGX_TO_THREEJS_R187_STANDARD_METAL_HPP
 #define REMAP_GENERATED_MITSUBA_GGX_TO_THREEJS_R187_STANDARD_METAL_HPP
@@ -37,8 +37,8 @@ inline constexpr const char* kTargetRoughness = "roughness";
 inline constexpr const char* kTargetSpecular = "color";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00058f;
-inline constexpr float kSpecularRmsError = 4e-04f;
+inline constexpr float kAlphaRmsError = 0.00078f;
+inline constexpr float kSpecularRmsError = 0.00031f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
 inline constexpr float kImageRmsError = 0.025f;
@@ -75,71 +75,43 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 // A row of a block stays in the first-level cache between the loops over it.
 inline constexpr std::size_t kBlock = 128;
 
-// x rounded down, held in [0, last]. Masks in place of comparisons: compilers would branch on them.
-inline std::int32_t cell_of(float x, std::int32_t last) noexcept {
-  const std::int32_t cell = static_cast<std::int32_t>(x);
-  const std::int32_t below = (cell & ~(cell >> 31)) - last;
-  return last + (below & (below >> 31));
-}
-
-inline constexpr float kAlphaTable[8][20] = {
-    {0.07197791f, 0.1262996f, -0.008652589f, -0.006721862f, 0.027731434f, -0.013921562f, -0.004616281f, -2.4328654e-05f, 0.0001278156f, -0.00085626973f, -0.0012335387f, 0.0005732956f, 0.0007629864f, 0.00034120854f, -0.0012762261f, 0.005415586f, -0.0013968234f, -3.2274213e-05f, 3.2198661e-06f, 3.1532036e-05f},
-    {0.19499275f, 0.12508874f, 0.0017376668f, -0.0053549f, -0.00052358635f, 0.004889502f, -0.0010411307f, -0.0008467105f, -0.0006680157f, 0.0018818617f, 0.0013301444f, -0.0014213683f, -0.0009067043f, 0.0023712632f, 0.0027774968f, -0.0008406062f, -0.0008802072f, -3.960885e-06f, -1.1384358e-06f, -7.755842e-05f},
-    {0.31907395f, 0.123525925f, 0.0015254706f, 0.001153f, -0.0030971435f, -0.0007890809f, 0.0017075468f, -0.00014855908f, 0.00026541244f, -0.0021517058f, -0.00014278304f, 0.0023476686f, 0.00020929068f, 0.003944025f, 0.000652752f, -0.0005284751f, 0.00036556667f, -7.7304205e-05f, -0.00010780898f, -2.079942e-06f},
-    {0.4429253f, 0.12228251f, -0.0024273505f, 0.0012378253f, 0.0020185614f, -0.001256859f, -0.0010939115f, -0.00035138935f, 0.0011571951f, 0.0014228758f, -0.0026532374f, -0.0019172078f, 0.0017894014f, 0.004261332f, -0.000110423425f, -0.00062490866f, -0.00018928797f, -0.00022482494f, -0.00021362188f, -5.4858734e-05f},
-    {0.5641206f, 0.12004773f, -0.002800617f, -0.0019457637f, 0.0018722368f, 0.0017969677f, -0.0010509174f, -0.00021180652f, -0.0010443041f, 0.0014471599f, 0.0037678678f, -0.0019184418f, -0.0033957218f, 0.0035351915f, -0.0010204308f, -1.8831088e-05f, 0.00011573398f, -0.00041696336f, -0.000116151896f, 5.4147386e-05f},
-    {0.68176305f, 0.116733775f, -0.00059456454f, -0.0024482023f, -0.0024366912f, 0.00235662f, 0.0019362719f, -9.886241e-05f, -0.0021806357f, -0.0049937763f, 0.0026930869f, 0.0072818105f, -0.00036183486f, 0.0022030016f, -0.0024920797f, -0.0018364057f, -0.00035835974f, -0.00043227806f, 0.00020239395f, 0.00028789023f},
-    {0.7961232f, 0.112511136f, -0.00024349088f, -0.0011762745f, -0.006730815f, -0.00033803025f, 0.0053235637f, -0.0005054868f, 0.004821883f, -0.0017263413f, -0.01853391f, -0.0032721416f, 0.013484763f, -0.0018099096f, -0.0041516777f, 0.0017099349f, 0.0019227805f, -0.00010853396f, 0.00037191622f, 0.00014153446f},
-    {0.90539473f, 0.10952579f, 0.017233714f, 0.030036712f, 0.0015362834f, -0.022261523f, -0.009891703f, -0.0043635634f, 0.005432735f, 0.05549895f, 0.063193046f, -0.0074501587f, -0.030207368f, -0.0031336271f, 0.0007887409f, -0.00070123427f, -0.0038831136f, 0.0004134678f, -0.00047197452f, -0.0021465903f},
-};
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float x = alpha * 8.0807905f - 0.08080762f;
-  const std::int32_t cell = cell_of(x, 7);
-  const float u = x - (static_cast<float>(cell) + 0.5f);
-  const float* row = kAlphaTable[cell];
+  const float u = alpha - 0.50500107f;
   const float u_2 = u * u;
-  float c0 = row[6];
-  float c0_next = row[5];
-  c0 = c0 * u_2 + row[4];
-  c0_next = c0_next * u_2 + row[3];
-  c0 = c0 * u_2 + row[2];
-  c0_next = c0_next * u_2 + row[1];
-  c0 = c0 * u_2 + row[0];
+  float c0 = 75.70181f;
+  float c0_next = 7.8457985f;
+  c0 = c0 * u_2 + -52.758274f;
+  c0_next = c0_next * u_2 + -7.414053f;
+  c0 = c0 * u_2 + 12.123745f;
+  c0_next = c0_next * u_2 + 2.026485f;
+  c0 = c0 * u_2 + -1.0162067f;
+  c0_next = c0_next * u_2 + -0.2774829f;
+  c0 = c0 * u_2 + -0.05675847f;
+  c0_next = c0_next * u_2 + 0.98480636f;
+  c0 = c0 * u_2 + 0.5039524f;
   c0 = c0_next * u + c0;
-  float c1 = row[12];
-  float c1_next = row[11];
-  c1 = c1 * u_2 + row[10];
-  c1_next = c1_next * u_2 + row[9];
-  c1 = c1 * u_2 + row[8];
-  c1_next = c1_next * u_2 + row[7];
+  float c1 = 66.93436f;
+  float c1_next = 47.816303f;
+  c1 = c1 * u_2 + -19.481855f;
+  c1_next = c1_next * u_2 + -18.716373f;
+  c1 = c1 * u_2 + 0.6538293f;
+  c1_next = c1_next * u_2 + 2.2297218f;
+  c1 = c1 * u_2 + 0.1273271f;
+  c1_next = c1_next * u_2 + -0.09017662f;
+  c1 = c1 * u_2 + -0.0065786038f;
+  c1_next = c1_next * u_2 + 0.00038552092f;
   c1 = c1 * u + c1_next;
-  float c2 = row[16];
-  c2 = c2 * u + row[15];
-  c2 = c2 * u + row[14];
-  c2 = c2 * u + row[13];
-  float c3 = row[19];
-  c3 = c3 * u + row[18];
-  c3 = c3 * u + row[17];
-  const float w = specular - 0.500001f;
-  float sum = c3;
-  sum = sum * w + c2;
-  sum = sum * w + c1;
-  sum = sum * w + c0;
+  float sum = c1;
+  sum = sum * specular + c0;
   return sum;
 }
 
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock], c5[kBlock], c6[kBlock], c7[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
 };
 
-inline constexpr float kSpecularTable[4][40] = {
-    {0.4904097f, -0.032885693f, -0.028974636f, 0.02484067f, 0.01638356f, -0.034525484f, -0.016416494f, 0.025480324f, 0.96960634f, -0.115801744f, -0.10966898f, 0.038427353f, 0.045072485f, 0.0099426685f, -0.04442005f, 0.011155239f, -0.029371804f, -0.11747743f, -0.09431555f, 0.102656364f, 0.007603262f, -0.01342509f, -0.020583395f, -0.077299364f, 0.24880077f, 0.1144528f, -0.26908287f, 0.043379657f, -0.034691434f, -0.0175682f, 0.16938062f, -0.15839803f, 0.22318807f, 0.2785241f, -0.47844166f, 0.14081883f, 0.17763901f, -0.16165094f, -0.6915121f, -0.24314798f},
-    {0.44355923f, -0.056606043f, -0.0009902356f, 0.017935468f, -0.01307758f, -0.041242175f, 0.010166663f, 0.036759533f, 0.8029909f, -0.17375255f, 0.009719169f, -0.0015613454f, -0.019567603f, -0.0027463264f, 0.026965102f, 0.020974072f, -0.13919409f, -0.053791966f, 0.02475383f, -0.05983511f, 0.02018542f, 0.045856755f, 0.056657407f, 0.093622334f, -0.0211884f, 0.0077205384f, -0.036187816f, -0.015658246f, -0.10015413f, -0.18560763f, 0.015633175f, 0.13990483f, 0.15181838f, -0.105330944f, 0.1534235f, 0.3149734f, 0.21341927f, -0.07615272f, -0.74918157f, 0.12780917f},
-    {0.38528523f, -0.058758f, 0.009382438f, -0.007778031f, -0.041142143f, 0.020771062f, 0.045590848f, -0.014908845f, 0.63942343f, -0.14449015f, 0.010155122f, -0.057145543f, -0.011450641f, 0.14090666f, 0.040242027f, -0.09796977f, -0.17579594f, -0.007815588f, 0.003991497f, -0.019260267f, 0.06187901f, 0.002274663f, 0.09854913f, 0.0107449675f, 0.049940713f, 0.08400944f, -0.061167568f, -0.16153017f, -0.21300767f, -0.11030201f, -0.011993708f, 0.08565161f, 0.25951517f, 0.19486418f, -0.0982972f, 0.41499564f, 0.024846287f, 0.0002895818f, -0.77896047f, -0.18736708f},
-    {0.32764333f, -0.053625137f, -0.017246053f, -0.050820764f, 0.11256955f, 0.29043084f, -0.007976353f, -0.20751353f, 0.5062796f, -0.124399364f, -0.069347575f, -0.019056186f, 0.495211f, 0.5928409f, -0.19346924f, -0.40948984f, -0.17382467f, 0.009282736f, 0.073617026f, 0.23829488f, 0.1361776f, -0.13320522f, 0.12188087f, 0.060465924f, 0.22614266f, 0.09336793f, -0.6441263f, -0.6970397f, -0.29334342f, -0.18513712f, -0.4243765f, -0.37134656f, 0.31117326f, -0.18781209f, -0.29082543f, 0.5042162f, 0.44747218f, 0.58804446f, -0.7308813f, 0.28352565f},
-};
 template <class Count>
 inline void specular_terms(Count count, Terms& terms) noexcept {
   const std::size_t size = count;
@@ -152,72 +124,74 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float x = alpha * 4.0403953f - 0.04040381f;
-    const std::int32_t cell = cell_of(x, 3);
-    const float u = x - (static_cast<float>(cell) + 0.5f);
-    const float* row = kSpecularTable[cell];
+    const float u = alpha - 0.50500107f;
     const float u_2 = u * u;
-    float c0 = row[7];
-    float c0_next = row[6];
-    c0 = c0 * u_2 + row[5];
-    c0_next = c0_next * u_2 + row[4];
-    c0 = c0 * u_2 + row[3];
-    c0_next = c0_next * u_2 + row[2];
-    c0 = c0 * u_2 + row[1];
-    c0_next = c0_next * u_2 + row[0];
+    float c0 = 468.42157f;
+    float c0_next = 113.29834f;
+    c0 = c0 * u_2 + -277.11804f;
+    c0_next = c0_next * u_2 + -54.9919f;
+    c0 = c0 * u_2 + 60.39569f;
+    c0_next = c0_next * u_2 + 8.373594f;
+    c0 = c0 * u_2 + -5.641105f;
+    c0_next = c0_next * u_2 + -0.500767f;
+    c0 = c0 * u_2 + 0.32577854f;
+    c0_next = c0_next * u_2 + -0.035162173f;
+    c0 = c0 * u_2 + -0.23946323f;
+    c0_next = c0_next * u_2 + 0.4152311f;
     c0 = c0 * u + c0_next;
-    float c1 = row[15];
-    float c1_next = row[14];
-    c1 = c1 * u_2 + row[13];
-    c1_next = c1_next * u_2 + row[12];
-    c1 = c1 * u_2 + row[11];
-    c1_next = c1_next * u_2 + row[10];
-    c1 = c1 * u_2 + row[9];
-    c1_next = c1_next * u_2 + row[8];
+    float c1 = 1115.2003f;
+    float c1_next = 477.57584f;
+    c1 = c1 * u_2 + -629.2452f;
+    c1_next = c1_next * u_2 + -236.65665f;
+    c1 = c1 * u_2 + 131.46036f;
+    c1_next = c1_next * u_2 + 37.359676f;
+    c1 = c1 * u_2 + -11.222521f;
+    c1_next = c1_next * u_2 + -2.6798232f;
+    c1 = c1 * u_2 + 0.6686481f;
+    c1_next = c1_next * u_2 + 0.24263382f;
+    c1 = c1 * u_2 + -0.678258f;
+    c1_next = c1_next * u_2 + 0.7178345f;
     c1 = c1 * u + c1_next;
-    float c2 = row[21];
-    float c2_next = row[20];
-    c2 = c2 * u_2 + row[19];
-    c2_next = c2_next * u_2 + row[18];
-    c2 = c2 * u_2 + row[17];
-    c2_next = c2_next * u_2 + row[16];
-    c2 = c2 * u + c2_next;
-    float c3 = row[27];
-    float c3_next = row[26];
-    c3 = c3 * u_2 + row[25];
-    c3_next = c3_next * u_2 + row[24];
-    c3 = c3 * u_2 + row[23];
-    c3_next = c3_next * u_2 + row[22];
-    c3 = c3 * u + c3_next;
-    float c4 = row[31];
-    c4 = c4 * u + row[30];
-    c4 = c4 * u + row[29];
-    c4 = c4 * u + row[28];
-    float c5 = row[34];
-    c5 = c5 * u + row[33];
-    c5 = c5 * u + row[32];
-    float c6 = row[37];
-    c6 = c6 * u + row[36];
-    c6 = c6 * u + row[35];
-    float c7 = row[39];
-    c7 = c7 * u + row[38];
+    float c2 = 535.44666f;
+    float c2_next = 79.90639f;
+    c2 = c2 * u_2 + -295.35562f;
+    c2_next = c2_next * u_2 + -36.081802f;
+    c2 = c2 * u_2 + 53.523434f;
+    c2_next = c2_next * u_2 + 7.9872494f;
+    c2 = c2 * u_2 + -4.3589063f;
+    c2_next = c2_next * u_2 + -0.9822125f;
+    c2 = c2 * u_2 + 0.68416363f;
+    c2_next = c2_next * u_2 + -0.13198687f;
+    c2 = c2 * u_2 + -0.16959073f;
+    c2 = c2_next * u + c2;
+    float c3 = -46.266552f;
+    float c3_next = -8.846226f;
+    c3 = c3 * u_2 + 17.347857f;
+    c3_next = c3_next * u_2 + 3.5271153f;
+    c3 = c3 * u_2 + -1.3959587f;
+    c3_next = c3_next * u_2 + -0.93192625f;
+    c3 = c3 * u_2 + -0.05915308f;
+    c3_next = c3_next * u_2 + 0.3129678f;
+    c3 = c3 * u_2 + 0.091943845f;
+    c3 = c3_next * u + c3;
+    float c4 = -3.9490807f;
+    float c4_next = 0.0007594455f;
+    c4 = c4 * u_2 + 1.4546804f;
+    c4_next = c4_next * u_2 + -0.28905678f;
+    c4 = c4 * u_2 + -0.4055752f;
+    c4_next = c4_next * u_2 + -0.06915613f;
+    c4 = c4 * u + c4_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
     terms.c3[i] = c3;
     terms.c4[i] = c4;
-    terms.c5[i] = c5;
-    terms.c6[i] = c6;
-    terms.c7[i] = c7;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
   const float w = specular - 0.500001f;
-  float sum = terms.c7[i];
-  sum = sum * w + terms.c6[i];
-  sum = sum * w + terms.c5[i];
-  sum = sum * w + terms.c4[i];
+  float sum = terms.c4[i];
   sum = sum * w + terms.c3[i];
   sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
@@ -540,19 +514,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.01f, 1.0f}, {0.1007914f, 0.99797356f}, {3.8e-05f, 8.1e-05f}},
-      {{0.13375f, 0.9375f}, {0.36523786f, 0.908469f}, {1.1e-05f, 8e-05f}},
-      {{0.2575f, 0.875f}, {0.5075821f, 0.79133654f}, {8.1e-06f, 8e-05f}},
-      {{0.38125f, 0.8125f}, {0.61761177f, 0.6822004f}, {6.8e-06f, 8e-05f}},
-      {{0.505f, 0.75f}, {0.70991325f, 0.58572924f}, {6.1e-06f, 8e-05f}},
-      {{0.62875f, 0.6875f}, {0.7895799f, 0.49945113f}, {5.6e-06f, 8e-05f}},
-      {{0.7525f, 0.625f}, {0.8598978f, 0.42414084f}, {5.3e-06f, 8e-05f}},
-      {{0.87625f, 0.5625f}, {0.92291325f, 0.35861295f}, {5e-06f, 8e-05f}},
-      {{1.0f, 0.5f}, {0.9835968f, 0.30450046f}, {4.8e-06f, 8e-05f}},
-      {{0.005f, 0.5f}, {0.09799629f, 0.49814525f}, {3.9e-05f, 8e-05f}},
-      {{1.5f, 0.25f}, {0.98111105f, 0.17589076f}, {4.8e-06f, 8e-05f}},
-      {{0.505f, 0.0f}, {0.71037894f, 0.00015942282f}, {6.1e-06f, 8e-05f}},
-      {{0.505f, 2.0f}, {0.71045005f, 1.4795703f}, {6.1e-06f, 0.00016f}},
+      {{0.01f, 1.0f}, {0.100071885f, 0.998388f}, {1.1e-05f, 9.7e-05f}},
+      {{0.13375f, 0.9375f}, {0.36552185f, 0.9084455f}, {3.5e-06f, 9.7e-05f}},
+      {{0.2575f, 0.875f}, {0.50731623f, 0.79138845f}, {2.8e-06f, 9.7e-05f}},
+      {{0.38125f, 0.8125f}, {0.6176611f, 0.68251973f}, {2.5e-06f, 9.7e-05f}},
+      {{0.505f, 0.75f}, {0.7100989f, 0.58526975f}, {2.3e-06f, 9.7e-05f}},
+      {{0.62875f, 0.6875f}, {0.78963816f, 0.49950948f}, {2.2e-06f, 9.7e-05f}},
+      {{0.7525f, 0.625f}, {0.8599779f, 0.42365277f}, {2.2e-06f, 9.7e-05f}},
+      {{0.87625f, 0.5625f}, {0.9226649f, 0.35765904f}, {2.1e-06f, 9.7e-05f}},
+      {{1.0f, 0.5f}, {0.983521f, 0.30499363f}, {2.1e-06f, 9.7e-05f}},
+      {{0.005f, 0.5f}, {0.100075014f, 0.49809164f}, {1.1e-05f, 9.7e-05f}},
+      {{1.5f, 0.25f}, {0.98118496f, 0.17580615f}, {2.1e-06f, 9.7e-05f}},
+      {{0.505f, 0.0f}, {0.7098953f, 0.0f}, {2.3e-06f, 9.7e-05f}},
+      {{0.505f, 2.0f}, {0.7101668f, 1.4778829f}, {2.3e-06f, 2e-04f}},
   }};
   std::array<float, kGolden.size()> alpha{}, f0{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // threejs-r187/standard-metal to mitsuba/ggx: which parameters of the second give the same picture as those of the first.
-// Table threejs_r187_standard_metal_to_mitsuba_ggx.csv, sha256 2d8bfb7bc52454198b4471845644f06119bc565f0ef72b04c86d8d369ae2243f;
+// Table threejs_r187_standard_metal_to_mitsuba_ggx.csv, sha256 66a5ed3524909a12d29a8bd6b2f81ad0ce405d039dce2bdb7a8a86ac29428b2f;
 // objective natural (lights 60, weighting relative), 512 pixels squared, by three.js r0.187.0 (HeadlessChrome/156.0.8078.79); remapc 0.1.0.
-// Fit: parametric, seed 1, 224 rows trained, 56 held out.
-// Error on the rows held out: alpha rms 0.00011, 99 % 0.00049, max 0.00049;
-// f0 rms 0.00021, 99 % 0.00053, max 0.00053.
-// Lowered from the fit. Target alpha: degree 6, 4 in specular, proven within 3.7e-07 (sampled 1.8e-08), rising with alpha.
-// Target specular: degree 7, 2 in specular, proven within 8.2e-05 (sampled 7.5e-05), rising with specular.
-// Covers alpha 0.01 to 0.931724138, color 0 to 0.5.
+// Fit: series, seed 1, 817 rows trained, 204 held out.
+// Error on the rows held out: alpha rms 0.00091, 99 % 0.0034, max 0.0089;
+// f0 rms 0.0064, 99 % 0.031, max 0.034.
+// Lowered from the fit. Target alpha: degree 8, 4 in specular, proven within 4.9e-07 (sampled 2.4e-08), rising with alpha.
+// Target specular: degree 10 in alpha / (alpha + 1), 4 in specular, proven within 1e-04 (sampled 9.5e-05), rising with specular.
+// Where alpha is at its limit, target specular: degree 2, 2 in specular, proven within 1.6e-06 (sampled 6e-08), rising with specular.
+// Where specular is at its limit, target alpha: degree 8, 8 in specular, proven within 4.6e-05 (sampled 4.3e-07).
+// All together within 6e-04 in alpha, 0.00011 in specular.
+// Covers alpha 0.01 to 1, color 0 to 1.
 #ifndef REMAP_GENERATED_THREEJS_R187_STANDARD_METAL_TO_MITSUBA_GGX_HPP
 #define REMAP_GENERATED_THREEJS_R187_STANDARD_METAL_TO_MITSUBA_GGX_HPP
 
@@ -36,11 +39,11 @@ inline constexpr const char* kTargetRoughness = "alpha";
 inline constexpr const char* kTargetSpecular = "f0";
 
 // Root mean square error of the fit on rows it was not trained on; -1 where it is not known.
-inline constexpr float kAlphaRmsError = 0.00011f;
-inline constexpr float kSpecularRmsError = 0.00021f;
+inline constexpr float kAlphaRmsError = 0.00091f;
+inline constexpr float kSpecularRmsError = 0.0064f;
 // How alike the two models can be at all: root mean square difference of their pictures at the best parameters, relative
 // to the source's. Negative where no pictures were compared.
-inline constexpr float kImageRmsError = 0.022f;
+inline constexpr float kImageRmsError = 0.13f;
 
 struct Input {
   float roughness;  // perceptual roughness, square root of the microfacet width, (0, 1]
@@ -55,7 +58,7 @@ struct Output {
 // proportion: all channels by the same factor, so that color is kept; below 0 it is held at 0. Such texels count as out
 // of domain. f0 is held at 0 from below too. NaN makes the outputs that depend on it NaN.
 inline constexpr Input kDomainMin{0.1f, 0.0f};
-inline constexpr Input kDomainMax{0.9652586f, 0.5f};
+inline constexpr Input kDomainMax{1.0f, 1.0f};
 
 namespace detail {
 
@@ -75,33 +78,49 @@ inline float float_from_bits(std::uint32_t value) noexcept {
 inline constexpr std::size_t kBlock = 128;
 
 inline float target_alpha(float alpha, float specular) noexcept {
-  const float u = alpha - 0.47086304f;
+  const float u = alpha - 0.4948891f;
   const float u_2 = u * u;
-  float c0 = 0.14631428f;
-  float c0_next = -0.08257294f;
-  c0 = c0 * u_2 + -0.054201953f;
-  c0_next = c0_next * u_2 + 0.097990476f;
-  c0 = c0 * u_2 + 0.06553376f;
-  c0_next = c0_next * u_2 + 1.0121007f;
-  c0 = c0 * u_2 + 0.47141954f;
+  float c0 = 0.71071726f;
+  float c0_next = 1.1726044f;
+  c0 = c0 * u_2 + 0.49098557f;
+  c0_next = c0_next * u_2 + -0.2938698f;
+  c0 = c0 * u_2 + -0.18348081f;
+  c0_next = c0_next * u_2 + 0.078389905f;
+  c0 = c0 * u_2 + 0.06305654f;
+  c0_next = c0_next * u_2 + 1.0105577f;
+  c0 = c0 * u_2 + 0.4952104f;
   c0 = c0_next * u + c0;
-  float c1 = -0.08264124f;
-  c1 = c1 * u + -0.07317345f;
-  c1 = c1 * u + -0.01898744f;
-  c1 = c1 * u + -0.0013444648f;
-  float c2 = 0.046138946f;
-  c2 = c2 * u + 0.016400281f;
-  c2 = c2 * u + -0.012251351f;
-  c2 = c2 * u + -0.0045881267f;
-  float c3 = -0.29756972f;
-  c3 = c3 * u + 0.26520774f;
-  c3 = c3 * u + 0.3723453f;
-  c3 = c3 * u + 0.085458815f;
-  float c4 = 1.3829819f;
-  c4 = c4 * u + -0.6432966f;
-  c4 = c4 * u + -1.1826099f;
-  c4 = c4 * u + -0.26984292f;
-  const float w = specular - 0.2500005f;
+  float c1 = 1.9819902f;
+  float c1_next = 1.4650098f;
+  c1 = c1 * u_2 + -0.43369776f;
+  c1_next = c1_next * u_2 + -0.42769074f;
+  c1 = c1 * u_2 + -0.015773766f;
+  c1_next = c1_next * u_2 + -0.009450801f;
+  c1 = c1 * u_2 + -0.019066392f;
+  c1_next = c1_next * u_2 + -0.0033519464f;
+  c1 = c1 * u + c1_next;
+  float c2 = -1.6532397f;
+  float c2_next = -1.1336651f;
+  c2 = c2 * u_2 + 0.20166987f;
+  c2_next = c2_next * u_2 + 0.35782996f;
+  c2 = c2 * u_2 + 0.14426151f;
+  c2_next = c2_next * u_2 + 0.035923474f;
+  c2 = c2 * u_2 + 0.0042254594f;
+  c2 = c2_next * u + c2;
+  float c3 = 0.3714793f;
+  float c3_next = 0.06303854f;
+  c3 = c3 * u_2 + -0.16192582f;
+  c3_next = c3_next * u_2 + 0.025058446f;
+  c3 = c3 * u_2 + 0.07074491f;
+  c3_next = c3_next * u_2 + 0.016411992f;
+  c3 = c3 * u + c3_next;
+  float c4 = 0.3432952f;
+  float c4_next = 0.019608991f;
+  c4 = c4 * u_2 + -0.33837473f;
+  c4_next = c4_next * u_2 + -0.20237781f;
+  c4 = c4 * u_2 + -0.035238463f;
+  c4 = c4_next * u + c4;
+  const float w = specular - 0.500001f;
   float sum = c4;
   sum = sum * w + c3;
   sum = sum * w + c2;
@@ -113,7 +132,9 @@ inline float target_alpha(float alpha, float specular) noexcept {
 // Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
 // channels: one row of a block for each power.
 struct Terms {
-  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock];
+  float alpha[kBlock], c0[kBlock], c1[kBlock], c2[kBlock], c3[kBlock], c4[kBlock];
+  float source_alpha[kBlock], width[kBlock];  // of the source, and of the target
+  float wide[kBlock], bright[kBlock];         // shares of the regimes
 };
 
 template <class Count>
@@ -128,39 +149,155 @@ inline void specular_terms(Count count, Terms& terms) noexcept {
   #endif
   for (std::size_t i = 0; i < size; ++i) {
     const float alpha = terms.alpha[i];
-    const float u = alpha - 0.47086304f;
+    const float t = alpha / (alpha + 1.0f);
+    const float u = t - 0.25239694f;
     const float u_2 = u * u;
-    float c0 = -0.50444263f;
-    float c0_next = 0.25875068f;
-    c0 = c0 * u_2 + 0.045175254f;
-    c0_next = c0_next * u_2 + 0.011371472f;
-    c0 = c0 * u_2 + 0.112264685f;
-    c0_next = c0_next * u_2 + 0.15625374f;
-    c0 = c0 * u_2 + 0.115048274f;
-    c0_next = c0_next * u_2 + 0.278604f;
-    c0 = c0 * u + c0_next;
-    float c1 = 1.082005f;
-    float c1_next = -0.6034588f;
-    c1 = c1 * u_2 + -0.0052349814f;
-    c1_next = c1_next * u_2 + 0.58861774f;
-    c1 = c1 * u_2 + 1.0690459f;
-    c1_next = c1_next * u_2 + 0.87269855f;
-    c1 = c1 * u_2 + 1.207196f;
+    float c0 = -57355.504f;
+    float c0_next = -24246.383f;
+    c0 = c0 * u_2 + 79.90616f;
+    c0_next = c0_next * u_2 + 531.7484f;
+    c0 = c0 * u_2 + -110.27403f;
+    c0_next = c0_next * u_2 + 44.00104f;
+    c0 = c0 * u_2 + 39.672745f;
+    c0_next = c0_next * u_2 + 6.5527453f;
+    c0 = c0 * u_2 + 1.5588226f;
+    c0_next = c0_next * u_2 + 0.5518846f;
+    c0 = c0 * u_2 + 0.5587091f;
+    c0 = c0_next * u + c0;
+    float c1 = -156672.33f;
+    float c1_next = -64621.402f;
+    c1 = c1 * u_2 + -1184.5215f;
+    c1_next = c1_next * u_2 + 632.49493f;
+    c1 = c1 * u_2 + -429.6327f;
+    c1_next = c1_next * u_2 + 65.15308f;
+    c1 = c1 * u_2 + 93.03483f;
+    c1_next = c1_next * u_2 + 25.256664f;
+    c1 = c1 * u_2 + 8.183352f;
+    c1_next = c1_next * u_2 + 2.2096727f;
+    c1 = c1 * u_2 + 1.214703f;
     c1 = c1_next * u + c1;
-    float c2 = 1.7383072f;
-    c2 = c2 * u + 1.6677781f;
-    c2 = c2 * u + 0.4026268f;
+    float c2 = -7330.691f;
+    float c2_next = -3113.2915f;
+    c2 = c2 * u_2 + -308.08566f;
+    c2_next = c2_next * u_2 + -4.2889514f;
+    c2 = c2 * u_2 + 17.25223f;
+    c2_next = c2_next * u_2 + 22.795689f;
+    c2 = c2 * u_2 + 8.742877f;
+    c2_next = c2_next * u_2 + 1.8519766f;
+    c2 = c2 * u_2 + 0.19437243f;
+    c2 = c2_next * u + c2;
+    float c3 = 1.2090818f;
+    float c3_next = -17.7478f;
+    c3 = c3 * u_2 + -18.30429f;
+    c3_next = c3_next * u_2 + -10.069222f;
+    c3 = c3 * u_2 + -1.3627437f;
+    c3_next = c3_next * u_2 + -0.009477513f;
+    c3 = c3 * u + c3_next;
+    float c4 = -143.1094f;
+    float c4_next = -79.962845f;
+    c4 = c4 * u_2 + -30.090279f;
+    c4_next = c4_next * u_2 + -12.067737f;
+    c4 = c4 * u_2 + -1.2736992f;
+    c4_next = c4_next * u_2 + 0.0045958f;
+    c4 = c4 * u + c4_next;
     terms.c0[i] = c0;
     terms.c1[i] = c1;
     terms.c2[i] = c2;
+    terms.c3[i] = c3;
+    terms.c4[i] = c4;
   }
 }
 
 inline float target_specular(const Terms& terms, std::size_t i, float specular) noexcept {
-  const float w = specular - 0.2500005f;
-  float sum = terms.c2[i];
+  const float w = specular - 0.500001f;
+  float sum = terms.c4[i];
+  sum = sum * w + terms.c3[i];
+  sum = sum * w + terms.c2[i];
   sum = sum * w + terms.c1[i];
   sum = sum * w + terms.c0[i];
+  return sum;
+}
+
+// Target specular where target alpha is at its limit.
+inline float wide_specular(float alpha, float specular) noexcept {
+  const float u = alpha - 0.9829158f;
+  float c0 = -219.85551f;
+  c0 = c0 * u + 1.8321835f;
+  c0 = c0 * u + 0.94286346f;
+  float c1 = 3.8791506f;
+  c1 = c1 * u + 2.1937687f;
+  const float c2 = 0.83070713f;
+  const float w = specular - 0.500001f;
+  float sum = c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
+  return sum;
+}
+
+// Target alpha where target specular is at its limit.
+inline float bright_alpha(float alpha, float specular) noexcept {
+  const float u = alpha - 0.50500107f;
+  const float u_2 = u * u;
+  float c0 = 16.11466f;
+  float c0_next = 6.2235475f;
+  c0 = c0 * u_2 + 17.827826f;
+  c0_next = c0_next * u_2 + -25.88315f;
+  c0 = c0 * u_2 + 8.24659f;
+  c0_next = c0_next * u_2 + 0.3951836f;
+  c0 = c0 * u_2 + -0.99519217f;
+  c0_next = c0_next * u_2 + 0.72056854f;
+  c0 = c0 * u_2 + 0.4981441f;
+  c0 = c0_next * u + c0;
+  float c1 = 49.423084f;
+  float c1_next = -202.37476f;
+  c1 = c1 * u_2 + 213.79532f;
+  c1_next = c1_next * u_2 + -100.04216f;
+  c1 = c1 * u_2 + 22.630924f;
+  c1_next = c1_next * u_2 + -1.4771432f;
+  c1 = c1 * u_2 + -0.9209976f;
+  c1_next = c1_next * u_2 + -0.40933055f;
+  c1 = c1 * u + c1_next;
+  float c2 = 433.3239f;
+  float c2_next = -750.8729f;
+  c2 = c2 * u_2 + 464.16833f;
+  c2_next = c2_next * u_2 + -131.48943f;
+  c2 = c2 * u_2 + 24.269567f;
+  c2_next = c2_next * u_2 + -4.3458967f;
+  c2 = c2 * u_2 + 1.484533f;
+  c2 = c2_next * u + c2;
+  float c3 = 681.87384f;
+  float c3_next = -430.8225f;
+  c3 = c3 * u_2 + -251.92706f;
+  c3_next = c3_next * u_2 + 175.89845f;
+  c3 = c3 * u_2 + -9.570025f;
+  c3_next = c3_next * u_2 + -4.2863317f;
+  c3 = c3 * u + c3_next;
+  float c4 = -1017.1642f;
+  float c4_next = 3736.6077f;
+  c4 = c4 * u_2 + -2935.3083f;
+  c4_next = c4_next * u_2 + 703.2407f;
+  c4 = c4 * u_2 + -38.26046f;
+  c4 = c4_next * u + c4;
+  float c5 = -7160.4844f;
+  c5 = c5 * u + 11747.169f;
+  c5 = c5 * u + -5029.8438f;
+  c5 = c5 * u + 525.44543f;
+  float c6 = -15173.788f;
+  c6 = c6 * u + 14094.925f;
+  c6 = c6 * u + -2611.4785f;
+  float c7 = -14065.464f;
+  c7 = c7 * u + 6401.1177f;
+  const float c8 = -6569.9595f;
+  const float w = specular - 0.7567713f;
+  float sum = c8;
+  sum = sum * w + c7;
+  sum = sum * w + c6;
+  sum = sum * w + c5;
+  sum = sum * w + c4;
+  sum = sum * w + c3;
+  sum = sum * w + c2;
+  sum = sum * w + c1;
+  sum = sum * w + c0;
   return sum;
 }
 
@@ -230,10 +367,26 @@ inline Float held_channel(Float given) noexcept {
 // The value, or NaN where `nan` has all bits.
 inline Float with_nan(Float value, Bits nan) noexcept { return float_from_bits(bits(value) | nan); }
 
+// A number from 0, held at the least and at the largest that it may be.
+inline Float held_above(Float value, Float least) noexcept {
+  return float_from_bits(larger(bits(value), bits(least)));
+}
+inline Float held_below(Float value, Float limit) noexcept {
+  return float_from_bits(smaller(bits(value), bits(limit)));
+}
+
+// The share of the regime that takes over where `value` passes `limit`: from 0, to 1 after a two-hundredth of it.
+// `inverse`: 200 / limit.
+inline Float share_beyond(Float value, Float limit, Float inverse) noexcept {
+  return held_below(held_channel((value - limit) * inverse), 1.0f);
+}
+
+inline Float between(Float from, Float to, Float share) noexcept { return from + share * (to - from); }
+
 // What is this converter's own: its domain, the conventions of its widths and its functions.
 struct Mapping {
   static constexpr Domain domain{kDomainMin.roughness, kDomainMax.roughness, kDomainMin.color,
-                                 kDomainMax.color, 2.0f};
+                                 kDomainMax.color, 1.0f};
   static float alpha_of(float own) noexcept { return own * own; }
   static float own_of(float alpha) noexcept { return alpha; }
   static constexpr bool alpha_by_specular = true;  // whether target alpha depends on specular
@@ -247,6 +400,20 @@ struct Mapping {
   static void find_terms(Count count, Terms& terms) noexcept {
     specular_terms(count, terms);
   }
+  static constexpr bool has_wide = true, has_bright = true;  // regimes of the table
+  static constexpr float alpha_limit = 1.0f, specular_limit = 1.0f;
+  static constexpr float alpha_inverse = 200.0f / alpha_limit, specular_inverse = 200.0f / specular_limit;
+  static constexpr float mapping_to = 0.9797762f;  // the mapping has reached the limit of alpha before
+  static float wide_specular(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::wide_specular(held_above(terms.source_alpha[i], 0.9658315f), held_above(specular, 0.0f));
+  }
+  static float bright_alpha(const Terms& terms, std::size_t i, float specular) noexcept {
+    return detail::bright_alpha(held_above(terms.source_alpha[i], 0.01f), held_above(specular, 0.51354164f));
+  }
+  template <class Count>
+  static void find_wide_terms(Count, Terms&) noexcept {}
+  template <class Count>
+  static void find_bright_terms(Count, Terms&) noexcept {}
 };
 
 template <class Count>
@@ -354,8 +521,13 @@ inline void scale_texels(Count count, Domain domain, Block& block) noexcept {
   }
 }
 
+// The target takes alpha and specular up to its limits. Where the mapping reaches one, the other parameter is that of
+// a regime of its own: specular where alpha is at its limit (wide), alpha where specular of the largest channel is at
+// its limit (bright). A block without such texels does not look at them.
+
+// The widths that the polynomials are evaluated at.
 template <class Count>
-inline void convert_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+inline void hold_alphas(Count count, const Mapping& mapping, Terms& terms) noexcept {
   const std::size_t size = count;
   #if defined(__clang__)
   #pragma clang loop vectorize(assume_safety)
@@ -365,13 +537,102 @@ inline void convert_widths(Count count, const Mapping& mapping, float* out, cons
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
-    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
-    store(out + i, with_nan(mapping.own_of(mapping.target_alpha(block.terms, i, top)), nan));
+    const Float alpha = load(terms.alpha + i);
+    store(terms.source_alpha + i, alpha);
+    store(terms.alpha + i, held_below(alpha, mapping.mapping_to));
   }
 }
 
-template <bool kInside, class Count>
+// Target alpha of the mapping, held at its limit. Returns with its sign bit whether any is there.
+template <class Count>
+inline Bits find_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float top = mapping.alpha_by_specular ? load(block.top + i) : 0.0f;
+    const Float width = mapping.target_alpha(terms, i, top);
+    store(terms.width + i, held_below(width, mapping.alpha_limit));
+    store(terms.wide + i, share_beyond(width, mapping.alpha_limit, mapping.alpha_inverse));
+    any = any | above(bits(width), bits(mapping.alpha_limit));
+  }
+  return any;
+}
+
+// Target specular of a channel, without its limit.
+template <bool kAnyWide>
+inline Float free_specular(const Mapping& mapping, const Terms& terms, std::size_t i, Float specular) noexcept {
+  const Float inside = mapping.target_specular(terms, i, specular);
+  if constexpr (kAnyWide)
+    return between(inside, mapping.wide_specular(terms, i, specular), load(terms.wide + i));
+  else
+    return inside;
+}
+
+// Where specular of the largest channel is beyond its limit. Returns with its sign bit whether any is.
+template <bool kAnyWide, class Count>
+inline Bits find_bright(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  Bits any = 0;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float specular = free_specular<kAnyWide>(mapping, terms, i, load(block.top + i));
+    store(terms.bright + i, share_beyond(specular, mapping.specular_limit, mapping.specular_inverse));
+    any = any | above(bits(specular), bits(mapping.specular_limit));
+  }
+  return any;
+}
+
+template <class Count>
+inline void use_bright_widths(Count count, const Mapping& mapping, Block& block) noexcept {
+  const std::size_t size = count;
+  Terms& terms = block.terms;
+  mapping.find_bright_terms(count, terms);
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Float bright = held_channel(mapping.bright_alpha(terms, i, load(block.top + i)));
+    const Float free = held_below(bright, mapping.alpha_limit);
+    store(terms.width + i, between(load(terms.width + i), free, load(terms.bright + i)));
+  }
+}
+
+template <class Count>
+inline void store_widths(Count count, const Mapping& mapping, float* out, const Block& block) noexcept {
+  const std::size_t size = count;
+  #if defined(__clang__)
+  #pragma clang loop vectorize(assume_safety)
+  #elif defined(__GNUC__)
+  #pragma GCC ivdep
+  #elif defined(_MSC_VER)
+  #pragma loop(ivdep)
+  #endif
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const Bits nan = above(bits(load(block.scale + i)) & 0x7fffffffu, 0x7f800000u);
+    store(out + i, with_nan(mapping.own_of(load(block.terms.width + i)), nan));
+  }
+}
+
+template <bool kInside, bool kAnyWide, class Count>
 inline void convert_channel(Count count, const Mapping& mapping, const float* in, float* out,
                             const Block& block) noexcept {
   const std::size_t size = count;
@@ -383,15 +644,22 @@ inline void convert_channel(Count count, const Mapping& mapping, const float* in
   #pragma loop(ivdep)
   #endif
   for (std::size_t i = 0; i < size; i += kLanes) {
-    if constexpr (kInside) {
-      const Float mapped = mapping.target_specular(block.terms, i, load(in + i) + 0.0f);  // -0 becomes 0
-      store(out + i, held_channel(mapped) * load(block.scale + i));
-    } else {
-      const Float held = held_channel(load(in + i));
-      const Float mapped = mapping.target_specular(block.terms, i, held * load(block.inverse + i));
-      store(out + i, kept_or_mapped(held, held_channel(mapped)) * load(block.scale + i));
-    }
+    const Float held = kInside ? load(in + i) + 0.0f : held_channel(load(in + i));  // -0 becomes 0
+    const Float given = kInside ? held : held * load(block.inverse + i);
+    const Float mapped = held_channel(free_specular<kAnyWide>(mapping, block.terms, i, given));
+    const Float limited = held_below(mapped, mapping.specular_limit);
+    store(out + i, (kInside ? limited : kept_or_mapped(held, limited)) * load(block.scale + i));
   }
+}
+
+template <std::size_t Channels, bool kInside, bool kAnyWide, class Count>
+inline void convert_regimes(Count count, const Mapping& mapping, const float* const* specular, float* width_out,
+                            float* const* specular_out, Block& block) noexcept {
+  if (mapping.has_bright && any_sign(find_bright<kAnyWide>(count, mapping, block)))
+    use_bright_widths(count, mapping, block);
+  store_widths(count, mapping, width_out, block);
+  for (std::size_t c = 0; c < Channels; ++c)
+    convert_channel<kInside, kAnyWide>(count, mapping, specular[c], specular_out[c], block);
 }
 
 template <std::size_t Channels, class Count>
@@ -399,16 +667,19 @@ inline void convert_block(Count count, const Mapping& mapping, const float* widt
                           float* width_out, float* const* specular_out, Block& block) noexcept {
   constexpr auto kChannels = std::make_index_sequence<Channels>();
   const bool inside = !any_sign(look_at_texels(count, mapping, width, specular, block, kChannels));
-  if (!inside || mapping.alpha_by_specular) find_tops(count, specular, block, kChannels);
+  if (!inside || mapping.alpha_by_specular || mapping.has_bright) find_tops(count, specular, block, kChannels);
   if (!inside) scale_texels(count, mapping.domain, block);
+  hold_alphas(count, mapping, block.terms);
   mapping.find_terms(count, block.terms);
-  convert_widths(count, mapping, width_out, block);
-  for (std::size_t c = 0; c < Channels; ++c) {
-    if (inside)
-      convert_channel<true>(count, mapping, specular[c], specular_out[c], block);
-    else
-      convert_channel<false>(count, mapping, specular[c], specular_out[c], block);
-  }
+  const bool any_wide = any_sign(find_widths(count, mapping, block)) && mapping.has_wide;
+  if (any_wide) mapping.find_wide_terms(count, block.terms);
+  const auto convert = [&](auto is_inside, auto is_wide) {
+    convert_regimes<Channels, is_inside, is_wide>(count, mapping, specular, width_out, specular_out, block);
+  };
+  if (inside)
+    any_wide ? convert(std::true_type(), std::true_type()) : convert(std::true_type(), std::false_type());
+  else
+    any_wide ? convert(std::false_type(), std::true_type()) : convert(std::false_type(), std::false_type());
 }
 
 }  // namespace detail
@@ -479,19 +750,19 @@ inline bool self_test() noexcept {
     Output out, within;
   };
   constexpr std::array<Golden, 13> kGolden = {{
-      {{0.1f, 0.5f}, {0.009972163f, 0.5016001f}, {8.5e-07f, 8.2e-05f}},
-      {{0.20815733f, 0.46875f}, {0.04326835f, 0.47055376f}, {8.7e-07f, 8.2e-05f}},
-      {{0.31631464f, 0.4375f}, {0.10004577f, 0.44249877f}, {9e-07f, 8.2e-05f}},
-      {{0.42447197f, 0.40625f}, {0.18022111f, 0.41858143f}, {9.4e-07f, 8.2e-05f}},
-      {{0.5326293f, 0.375f}, {0.28362268f, 0.3988627f}, {9.9e-07f, 8.2e-05f}},
-      {{0.64078665f, 0.34375f}, {0.41061258f, 0.38352287f}, {1.1e-06f, 8.2e-05f}},
-      {{0.7489439f, 0.3125f}, {0.56293267f, 0.3734706f}, {1.2e-06f, 8.2e-05f}},
-      {{0.85710126f, 0.28125f}, {0.74400425f, 0.37055287f}, {1.3e-06f, 8.2e-05f}},
-      {{0.9652586f, 0.25f}, {0.9586081f, 0.37750244f}, {1.4e-06f, 8.2e-05f}},
-      {{0.05f, 0.25f}, {0.009980452f, 0.25209725f}, {8.5e-07f, 8.2e-05f}},
-      {{1.4478879f, 0.125f}, {0.96203446f, 0.16513444f}, {1.4e-06f, 8.2e-05f}},
-      {{0.5326293f, 0.0f}, {0.2826893f, 0.001901247f}, {9.8e-07f, 8.2e-05f}},
-      {{0.5326293f, 1.0f}, {0.28362727f, 1.0813392f}, {9.9e-07f, 0.00017f}},
+      {{0.1f, 1.0f}, {0.009987266f, 0.9949004f}, {6e-04f, 0.00011f}},
+      {{0.2125f, 0.9375f}, {0.045152064f, 0.9382604f}, {6e-04f, 0.00011f}},
+      {{0.325f, 0.875f}, {0.10568943f, 0.8905896f}, {6e-04f, 0.00011f}},
+      {{0.4375f, 0.8125f}, {0.19156037f, 0.8618013f}, {6e-04f, 0.00011f}},
+      {{0.55f, 0.75f}, {0.3024025f, 0.851807f}, {6e-04f, 0.00011f}},
+      {{0.6625f, 0.6875f}, {0.4385282f, 0.8584086f}, {6e-04f, 0.00011f}},
+      {{0.775f, 0.625f}, {0.6023301f, 0.890261f}, {6e-04f, 0.00011f}},
+      {{0.8875f, 0.5625f}, {0.79635626f, 0.9506677f}, {6e-04f, 0.00011f}},
+      {{1.0f, 0.5f}, {1.0f, 0.90999347f}, {6e-04f, 0.00011f}},
+      {{0.05f, 0.5f}, {0.00998839f, 0.50566894f}, {6e-04f, 0.00011f}},
+      {{1.5f, 0.25f}, {1.0f, 0.39690283f}, {6e-04f, 0.00011f}},
+      {{0.55f, 0.0f}, {0.30158508f, 0.0015098681f}, {6e-04f, 0.00011f}},
+      {{0.55f, 2.0f}, {0.2996223f, 2.0f}, {6e-04f, 0.00021f}},
   }};
   std::array<float, kGolden.size()> roughness{}, color{}, widths{}, speculars{};
   for (std::size_t i = 0; i < kGolden.size(); ++i) {
