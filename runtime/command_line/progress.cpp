@@ -41,8 +41,12 @@ Progress::Progress(std::string label, std::size_t total, bool shown)
       start_(Clock::now()),
       last_shown_(start_) {}
 
-Progress::~Progress() {
+Progress::~Progress() { hide(); }
+
+void Progress::hide() {
+  const std::lock_guard lock(mutex_);
   if (line_is_up_) std::fputs("\r\033[K", stderr);  // to the start of the line, erase to its end
+  line_is_up_ = false;
 }
 
 void Progress::advance_to(std::size_t done) {

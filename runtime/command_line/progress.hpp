@@ -34,6 +34,8 @@ class Progress {
   void advance(std::size_t count = 1);
   // Changes the label.
   void relabel(std::string label);
+  // Erases the line, for other output; it comes back in time.
+  void hide();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -29,7 +29,7 @@ struct SpecularBlock {
 struct Scratch {
   std::array<Row, 3> first_diffuse, first_specular;  // of equation (2)
   std::array<Row, 3> diffuse, specular, scaled;      // after the converter, and scaled for the target
-  Row width, alpha, ignored, residual, metallic_width, doubts;
+  Row dielectric, mapped_dielectric, width, alpha, ignored, residual, metallic_width, doubts;
   std::array<Row, 3> base_color;
   Row metallic;
 };
@@ -115,6 +115,7 @@ class WorkflowConverter final : public Converter {
                      Scratch& scratch) const;
   std::size_t convert_brdf(std::size_t count, SpecularBlock& block, Scratch& scratch,
                            std::uint8_t* outside) const;
+  void keep_dielectrics(std::size_t count, const float* width, const float* metallic, Scratch& scratch) const;
   void write_specular(std::size_t count, std::size_t start, const SpecularBlock& block,
                       const MaterialRows<float>& out, Scratch& scratch) const;
   void write_metallic(std::size_t count, std::size_t start, const SpecularBlock& block,
@@ -161,8 +162,12 @@ std::size_t WorkflowConverter::convert_rows(std::size_t count, const MaterialRow
   for (std::size_t start = 0; start < count; start += kBlock) {
     const std::size_t size = std::min(kBlock, count - start);
     SpecularBlock block = read(size, start, in, *scratch);
-    if (stages_.brdf != nullptr)
+    if (stages_.brdf != nullptr) {
+      const float* const source_width = block.width;
       outside_count += convert_brdf(size, block, *scratch, outside == nullptr ? nullptr : outside + start);
+      if (to_specular_ && to_metallic_)
+        keep_dielectrics(size, source_width, in[Parameter::kMetallic].row[0] + start, *scratch);
+    }
     if (to_metallic_)
       write_metallic(size, start, block, in, out, *scratch);
     else
@@ -208,6 +213,26 @@ std::size_t WorkflowConverter::convert_brdf(std::size_t count, SpecularBlock& bl
   block.width = scratch.width.data();
   for (std::size_t c = 0; c < 3; ++c) block.specular[c] = mapped[block.is_grey ? 0 : c].data();
   return outside_count;
+}
+
+// Between two metallic workflows the dielectric of one is the dielectric of the other, whose F0 is fixed:
+// only the metal's share of specular follows the BRDF. Without this, a dielectric whose F0 the BRDF maps to
+// another would become a little metallic. Where the law of specular is affine, metallic comes out as it was.
+void WorkflowConverter::keep_dielectrics(std::size_t count, const float* width, const float* metallic,
+                                         Scratch& scratch) const {
+  const auto f0_of = [](const WorkflowEnd& end) {
+    return static_cast<float>(std::get<MetallicWorkflow>(end).dielectric_f0);
+  };
+  std::fill_n(scratch.dielectric.data(), count, f0_of(stages_.source));
+  const std::array<const float*, 1> in = {scratch.dielectric.data()};
+  const std::array<float*, 1> out = {scratch.mapped_dielectric.data()};
+  stages_.brdf->convert(count, width, in, scratch.ignored.data(), out);
+  const float target = f0_of(stages_.target);
+  for (Row& specular : scratch.specular)
+    for (std::size_t i = 0; i < count; ++i) {
+      const float share = 1.0f - std::clamp(metallic[i], 0.0f, 1.0f);
+      specular[i] = std::max(specular[i] - share * (scratch.mapped_dielectric[i] - target), 0.0f);
+    }
 }
 
 void WorkflowConverter::write_specular(std::size_t count, std::size_t start, const SpecularBlock& block,

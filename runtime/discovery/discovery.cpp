@@ -84,7 +84,11 @@ void judge(FoundSet& set) {
   set.specular = single_use(set, is<Role::kSpecular>, "specular");
   if (set.state == SetState::kFaulty || set.width) return;
   set.state = SetState::kSkipped;
-  set.remarks.push_back(place_of(set) + ": no roughness or glossiness map found");
+  std::string squared;
+  for (const MapUse& use : uses(set, is<Role::kGlossinessSquared>))
+    squared = " (" + shown(set.maps[use.map].path.filename()) +
+              " holds the square of glossiness, which is not converted; take its root, or export glossiness)";
+  set.remarks.push_back(place_of(set) + ": no roughness or glossiness map found" + squared);
 }
 
 // Adds the sets of one folder.

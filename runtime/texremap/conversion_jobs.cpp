@@ -131,7 +131,7 @@ JobList TreeJobs::list() {
       add(set);
     else
       for (const std::string& remark : set.remarks)
-        jobs_.left_out.push_back({remark, set.state == SetState::kFaulty});
+        jobs_.left_out.push_back({shown(root_) + "/" + remark, set.state == SetState::kFaulty});
   }
   require_no_collisions();
   if (jobs_.jobs.empty() && jobs_.left_out.empty())
@@ -172,7 +172,8 @@ bool TreeJobs::find_source(const FoundSet& set, Parameter parameter, const std::
     return false;
   }
   job.request.parameters[parameter].source = MapName{root_ / *file, channel_names(use.channels)};
-  if (parameter == Parameter::kWidth && options_.encoding.empty() && convention_of(use.role))
+  // --roughness-encoding speaks of maps that are found as roughness.
+  if (parameter == Parameter::kWidth && convention_of(use.role))
     job.request.convention = convention_of(use.role);
   return true;
 }

@@ -28,23 +28,72 @@ std::optional<RoughnessConvention> convention_of(const std::string& option, cons
   return chosen_value(kConventions, option, "encoding", word);
 }
 
-// Finds the color space of `parameter` in a list such as `srgb` or `specular=linear,diffuse=srgb`.
-std::optional<Transfer> transfer_of(const std::string& words, Parameter parameter) {
-  static const std::vector<std::string> kColors = {"specular", "diffuse", "base_color"};
-  std::optional<Transfer> chosen;
+constexpr std::array kColors = {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor};
+
+// One word of a list such as `srgb` or `specular=linear,diffuse=srgb`; without a parameter it is for all
+// colors.
+struct ColorSpaceWord {
+  std::optional<Parameter> parameter;
+  Transfer transfer;
+};
+
+ColorSpaceWord color_space_word(const std::string& option, const std::string& word) {
+  const std::size_t sign = word.find('=');
+  // Without a sign, npos + 1 is 0: the whole word.
+  const Transfer transfer = chosen_value(kTransfers, option, "color space", word.substr(sign + 1));
+  if (sign == std::string::npos) return {std::nullopt, transfer};
+  const std::string name = word.substr(0, sign);
+  std::vector<std::string> known;
+  for (const Parameter color : kColors) {
+    known.emplace_back(parameter_name(color));
+    if (known.back() == name) return {color, transfer};
+  }
+  fail_unknown(option, "color", name, known);
+}
+
+// The color space of each of `colors`, as far as `words` say one. Throws kUsage for a word that applies to
+// none of them; `reason` is why another color is not among them.
+std::map<Parameter, Transfer> color_spaces(const std::string& option, const std::string& words,
+                                           const std::vector<Parameter>& colors, const std::string& reason) {
+  std::map<Parameter, Transfer> chosen;
   for (std::size_t begin = 0; begin < words.size();) {
     const std::size_t end = std::min(words.find(',', begin), words.size());
-    const std::string word = words.substr(begin, end - begin);
+    const ColorSpaceWord word = color_space_word(option, words.substr(begin, end - begin));
     begin = end + 1;
-    const std::size_t sign = word.find('=');
-    const std::string name = sign == std::string::npos ? "" : word.substr(0, sign);
-    if (sign != std::string::npos && std::find(kColors.begin(), kColors.end(), name) == kColors.end())
-      fail_unknown("--color-space", "color", name, kColors);
-    // Without a sign, npos + 1 is 0: the whole word.
-    const Transfer transfer = chosen_value(kTransfers, "--color-space", "color space", word.substr(sign + 1));
-    if (sign == std::string::npos || name == parameter_name(parameter)) chosen = transfer;
+    bool applies = false;
+    for (const Parameter color : colors) {
+      if (word.parameter.value_or(color) != color) continue;
+      chosen[color] = word.transfer;
+      applies = true;
+    }
+    if (!applies)
+      throw Error(ErrorKind::kUsage,
+                  option + ": applies to nothing, because " +
+                      (word.parameter ? std::string(parameter_name(*word.parameter)) : "no color") + " " +
+                      reason);
   }
   return chosen;
+}
+
+// The colors that may be read from maps: with a folder all of the source.
+std::map<Parameter, Transfer> color_spaces_read(const ConvertOptions& options,
+                                                const WorkflowChoice& workflow) {
+  std::vector<Parameter> colors;
+  for (const Parameter color : kColors) {
+    const std::string& word = workflow.has_source(color) ? word_of(options, color) : "";
+    const bool is_map =
+        !word.empty() && std::holds_alternative<MapName>(parameter_source(parameter_option(color), word));
+    if (workflow.has_source(color) && (is_map || !options.folder.empty())) colors.push_back(color);
+  }
+  return color_spaces("--color-space", options.color_space, colors,
+                      "is read from a map (--output-color-space is for results)");
+}
+
+std::vector<Parameter> written_colors(const std::vector<Parameter>& written) {
+  std::vector<Parameter> colors;
+  for (const Parameter parameter : written)
+    if (is_color(parameter)) colors.push_back(parameter);
+  return colors;
 }
 
 std::optional<PixelType> chosen_type(const std::string& name) {
@@ -79,6 +128,27 @@ void require_parameters(const ConvertOptions& options, const WorkflowChoice& wor
   }
 }
 
+// Refuses maps and numbers that the conversion does not read.
+void require_read(const ConvertOptions& options, const WorkflowChoice& workflow) {
+  const auto refuse = [&](const std::string& option, bool is_result) {
+    throw Error(ErrorKind::kUsage,
+                option + ": applies to nothing, because the source material has no " +
+                    option.substr(2, option.find("-factor") - 2) +
+                    (is_result ? " (it is a result of this conversion)" : " (remove this option)"));
+  };
+  const std::vector<Parameter> targets = workflow.targets();
+  for (const Parameter parameter :
+       {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor, Parameter::kMetallic}) {
+    const bool is_result = std::find(targets.begin(), targets.end(), parameter) != targets.end();
+    // Without a workflow, colors are copied and metallic has a place in some layouts.
+    const bool has_place = !workflow.is_material() || (parameter == Parameter::kMetallic && !is_result);
+    if (!workflow.has_source(parameter) && !has_place && !word_of(options, parameter).empty())
+      refuse(parameter_option(parameter), is_result);
+  }
+  if (!workflow.has_source(Parameter::kSpecular) && !options.specular_factor.empty())
+    refuse("--specular-factor", false);
+}
+
 // Refuses options of a single set with a folder, and options of a folder with a single set.
 void require_one_way(const ConvertOptions& options, const WorkflowChoice& workflow) {
   const bool glossy = !options.glossiness.empty(), is_tree = !options.folder.empty();
@@ -94,6 +164,7 @@ void require_one_way(const ConvertOptions& options, const WorkflowChoice& workfl
     if (is_tree && !workflow.has_source(parameter) && !word_of(options, parameter).empty())
       throw Error(ErrorKind::kUsage,
                   parameter_option(parameter) + " cannot be used with a folder (use --copy-others)");
+  require_read(options, workflow);
   if (!is_tree) require_parameters(options, workflow);
   if (glossy && !options.encoding.empty())
     throw Error(ErrorKind::kUsage, "--roughness-encoding cannot be used with --glossiness (use --roughness)");
@@ -121,6 +192,7 @@ std::optional<RoughnessConvention> given_convention(const ConvertOptions& option
 
 TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoice& workflow) {
   require_one_way(options, workflow);
+  const std::map<Parameter, Transfer> transfers = color_spaces_read(options, workflow);
   TextureSetRequest request;
   std::vector<Parameter> parameters = workflow.sources();
   if (!options.metal_mask.empty()) parameters.push_back(Parameter::kMetalMask);
@@ -137,7 +209,8 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
       asked.factors = factors_of("--roughness-factor", options.roughness_factor);
     if (parameter == Parameter::kSpecular)
       asked.factors = factors_of("--specular-factor", options.specular_factor);
-    if (is_color(parameter)) asked.transfer = transfer_of(options.color_space, parameter);
+    if (const auto found = transfers.find(parameter); found != transfers.end())
+      asked.transfer = found->second;
     request.parameters[parameter] = std::move(asked);
   }
   const auto carry = [&](const std::string& name, const std::string& text) {
@@ -161,6 +234,45 @@ std::vector<CopiedFile> copied_files(const ConvertOptions& options, const Workfl
   return files;
 }
 
+namespace {
+
+// Refuses an encoding of the results that their names contradict or that nothing is written in.
+void require_encoding(const ConvertOptions& options, const TargetChoice& choice) {
+  const auto asked = convention_of("--output-encoding", options.output_encoding);
+  if (!asked) return;
+  const bool is_glossiness = *asked == RoughnessConvention::kGlossiness;
+  const bool is_orm = choice.layout == Layout::kOrm || choice.layout == Layout::kArm;
+  if ((is_glossiness && is_orm) || (!is_glossiness && choice.layout == Layout::kSpecGloss))
+    throw Error(ErrorKind::kUsage, "--output-encoding " + options.output_encoding +
+                                       " cannot be used with --layout " +
+                                       std::string(name_of(kLayouts, choice.layout)) + ", which holds " +
+                                       (is_orm ? "roughness" : "glossiness"));
+  if (options.only == "specular")
+    throw Error(ErrorKind::kUsage,
+                "--output-encoding: applies to nothing, because --only specular writes no roughness");
+}
+
+}  // namespace
+
+RoughnessConvention written_width(const ConvertOptions& options, const TargetChoice& choice,
+                                  const WidthSource& source, RoughnessConvention usual) {
+  constexpr auto kGlossiness = RoughnessConvention::kGlossiness, kRoughness = RoughnessConvention::kRoughness;
+  if (choice.layout == Layout::kSpecGloss) return kGlossiness;
+  const auto asked = convention_of("--output-encoding", options.output_encoding);
+  const RoughnessConvention wanted = asked.value_or(usual);
+  if (choice.layout == Layout::kSeparate) return wanted;
+  const bool keeps_name = choice.layout == Layout::kAsInputs && !source.file.empty();
+  if (!keeps_name) return choice.layout != Layout::kAsInputs && wanted == kGlossiness ? kRoughness : wanted;
+  const bool is_glossy = source.convention == kGlossiness;
+  if (asked && is_glossy != (*asked == kGlossiness))
+    throw Error(ErrorKind::kUsage, "--output-encoding " + options.output_encoding +
+                                       ": the result keeps the name " + source.file.filename().string() +
+                                       ", which holds " + (is_glossy ? "glossiness" : "roughness") +
+                                       " (use --layout separate)");
+  if (is_glossy) return kGlossiness;
+  return wanted == kGlossiness ? kRoughness : wanted;
+}
+
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow) {
   if (!options.only.empty() && options.only != "roughness" && options.only != "specular")
     fail_unknown("--only", "parameter", options.only, {"roughness", "specular"});
@@ -182,12 +294,12 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
   add_diagnosis(ConvertedChannel{Parameter::kDoubts}, options.doubts);
   choice.parameters = workflow.targets();
   choice.colors_stay_grey = !workflow.is_material();
-  if (workflow.is_material() && width_of(*workflow.target) == RoughnessConvention::kGlossiness &&
-      options.output_encoding.empty())
-    choice.width_name = "glossiness";
   if (!options.only.empty())
     choice.parameters = {options.only == "specular" ? Parameter::kSpecular : Parameter::kWidth};
+  choice.color_transfers = color_spaces("--output-color-space", options.output_color_space,
+                                        written_colors(choice.parameters), "is a result");
   choice.force = options.force;
+  require_encoding(options, choice);
   return choice;
 }
 
@@ -197,25 +309,58 @@ PassOptions pass_options(const ConvertOptions& options) {
   pass.bad_texels = chosen_value(kBadTexels, "--bad-texels", "treatment", options.bad_texels);
   pass.dither = options.dither;
   pass.value_statistics = options.json;
+  if (options.histograms && !options.json) throw Error(ErrorKind::kUsage, "--histograms requires --json");
+  if (options.allow_skips && options.folder.empty())
+    throw Error(ErrorKind::kUsage, "--allow-skips requires a folder of sets (give DIR)");
   pass.metallic_statistics = options.json || !options.quiet;
   pass.smooth_metallic = options.smooth_metallic;
   return pass;
 }
 
 std::string result_options_text(const ConvertOptions& options) {
+  using O = ConvertOptions;
+  constexpr std::pair<const char*, std::string O::*> kWords[] = {
+      {"--specular", &O::specular},
+      {"--roughness", &O::roughness},
+      {"--glossiness", &O::glossiness},
+      {"--occlusion", &O::occlusion},
+      {"--metallic", &O::metallic},
+      {"--diffuse", &O::diffuse},
+      {"--base-color", &O::base_color},
+      {"--metal-mask", &O::metal_mask},
+      {"--roughness-factor", &O::roughness_factor},
+      {"--specular-factor", &O::specular_factor},
+      {"--roughness-encoding", &O::encoding},
+      {"--output-encoding", &O::output_encoding},
+      {"--color-space", &O::color_space},
+      {"--output-color-space", &O::output_color_space},
+      {"--only", &O::only},
+      {"--layout", &O::layout},
+      {"--format", &O::format},
+      {"--type", &O::type},
+      {"--names", &O::names},
+      {"--from-workflow", &O::from_workflow},
+      {"--to-workflow", &O::to_workflow},
+      {"--dielectric-f0", &O::dielectric_f0},
+      {"--diffuse-convention", &O::diffuse_convention},
+      {"--formula", &O::formula},
+      {"--prior", &O::prior},
+      {"--mask", &O::mask},
+      {"--residual", &O::residual},
+      {"--metallic-width", &O::metallic_width},
+      {"--doubts", &O::doubts}};
+  constexpr std::pair<const char*, bool O::*> kFlags[] = {{"--copy-others", &O::copy_others},
+                                                          {"--dither", &O::dither},
+                                                          {"--resample", &O::resample},
+                                                          {"--smooth-metallic", &O::smooth_metallic}};
   std::string text;
-  for (const std::string* word :
-       {&options.specular,        &options.roughness,     &options.glossiness,
-        &options.occlusion,       &options.metallic,      &options.roughness_factor,
-        &options.specular_factor, &options.encoding,      &options.output_encoding,
-        &options.color_space,     &options.only,          &options.bad_texels,
-        &options.layout,          &options.format,        &options.type,
-        &options.diffuse,         &options.base_color,    &options.from_workflow,
-        &options.to_workflow,     &options.dielectric_f0, &options.diffuse_convention,
-        &options.formula,         &options.prior,         &options.metal_mask})
-    text += *word + '\n';
-  return text + (options.dither ? "dither\n" : "") + (options.resample ? "resample\n" : "") +
-         (options.smooth_metallic ? "smooth-metallic\n" : "");
+  const auto add = [&text](const std::string& words) { text += (text.empty() ? "" : " ") + words; };
+  for (const auto& [name, member] : kWords)
+    if (!(options.*member).empty()) add(std::string(name) + " " + options.*member);
+  for (const auto& [name, member] : kFlags)
+    if (options.*member) add(name);
+  if (options.bad_texels != "keep") add("--bad-texels " + options.bad_texels);
+  return text;
 }
 
 InstructionSet chosen_instructions(const ConvertOptions& options) {

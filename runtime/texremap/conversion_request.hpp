@@ -1,6 +1,8 @@
 // Translates the options of `texremap convert` into requests of the texture library.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +19,18 @@ TextureSetRequest set_request(const ConvertOptions& options, const WorkflowChoic
 // The files to copy with the one set that the options name.
 std::vector<CopiedFile> copied_files(const ConvertOptions& options, const WorkflowChoice& workflow);
 TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& workflow);
+// The roughness of a set before the conversion.
+struct WidthSource {
+  std::filesystem::path file;                     // empty for a number
+  std::optional<RoughnessConvention> convention;  // where an option or the name of the file says it
+};
+// What the roughness results of a set hold: `usual`, or what --output-encoding says, but what a name says
+// stays true: a map of glossiness that keeps its name stays glossiness, orm and arm hold roughness, specgloss
+// holds glossiness. Throws kUsage if --output-encoding contradicts a name that stays.
+RoughnessConvention written_width(const ConvertOptions& options, const TargetChoice& choice,
+                                  const WidthSource& source, RoughnessConvention usual);
 PassOptions pass_options(const ConvertOptions& options);
-// All options that the results depend on, as one text to hash.
+// All options that the results depend on, as on a command line.
 std::string result_options_text(const ConvertOptions& options);
 InstructionSet chosen_instructions(const ConvertOptions& options);
 int thread_count(const ConvertOptions& options);

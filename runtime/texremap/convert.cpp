@@ -168,19 +168,64 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
   if (options.output.empty()) throw Error(ErrorKind::kUsage, "--output is required");
   const JobList list = conversion_jobs(options, chosen.workflow, request);
   warn_of_encoding(options, list, chosen.info().source);
-  Outcome outcome{chosen, list, run_jobs(list, chosen, options), options.dry_run, 0.0, {}};
+  Outcome outcome{chosen, list, {}, options.dry_run, options.histograms, 0.0, {}};
+  // What a run says of a set, it says as soon as the set is finished: a killed run has told what it did.
+  const bool as_lines = options.json && list.is_tree;
+  if (!options.quiet) print_left_out(kProgram, list);
+  if (as_lines) print_json_start(outcome);
+  outcome.reports = run_jobs(list, chosen, options, [&](const JobReport& report) {
+    if (list.is_tree && !options.quiet) print_job(kProgram, outcome, report);
+    if (as_lines) print_json_set(outcome, report);
+  });
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.used = resource_use();
   if (!list.is_tree) outcome.reports.front().seconds = outcome.seconds;
   if (!options.quiet) {
-    for (const JobReport& report : outcome.reports) print_job(kProgram, outcome, report);
+    if (!list.is_tree) print_job(kProgram, outcome, outcome.reports.front());
+    print_colors(kProgram, outcome);
     print_summary(kProgram, outcome);
   }
-  if (options.json) print_json(outcome);
+  if (as_lines)
+    print_json_end(outcome);
+  else if (options.json)
+    print_json(outcome);
+  const std::string of_all =
+      " of " + std::to_string(outcome.reports.size() + list.left_out.size()) + " sets ";
   if (const std::size_t failed = outcome.failed_count(); failed > 0)
-    throw Error(ErrorKind::kInput, std::to_string(failed) + " of " +
-                                       std::to_string(outcome.reports.size() + list.left_out.size()) +
-                                       " sets failed");
+    throw Error(ErrorKind::kInput, std::to_string(failed) + of_all + "failed");
+  if (!list.left_out.empty() && !options.allow_skips)
+    throw Error(ErrorKind::kInput,
+                std::to_string(list.left_out.size()) + of_all +
+                    "skipped, because there is nothing to convert in them (--allow-skips accepts "
+                    "this)");
+}
+
+// Refuses options that speak of files where there are none.
+void require_files(const ConvertOptions& options) {
+  const std::pair<const char*, bool> entries[] = {
+      {"--output", !options.output.empty()},
+      {"--layout", !options.layout.empty()},
+      {"--format", !options.format.empty()},
+      {"--type", !options.type.empty()},
+      {"--only", !options.only.empty()},
+      {"--color-space", !options.color_space.empty()},
+      {"--output-color-space", !options.output_color_space.empty()},
+      {"--mask", !options.mask.empty()},
+      {"--residual", !options.residual.empty()},
+      {"--metallic-width", !options.metallic_width.empty()},
+      {"--doubts", !options.doubts.empty()},
+      {"--smooth-metallic", options.smooth_metallic},
+      {"--resample", options.resample},
+      {"--dither", options.dither},
+      {"--force", options.force},
+      {"--resume", options.resume},
+      {"--dry-run", options.dry_run},
+      {"--histograms", options.histograms}};
+  for (const auto& [option, given] : entries)
+    if (given)
+      throw Error(ErrorKind::kUsage, std::string(option) +
+                                         ": applies to nothing, because all maps are numbers "
+                                         "(give a file, or remove this option)");
 }
 
 void convert(const ConvertOptions& options) {
@@ -193,10 +238,12 @@ void convert(const ConvertOptions& options) {
   const ChosenConverter chosen = choose_converter(options, fit, std::move(workflow));
   for (const std::string& assumption : chosen.workflow.assumptions) warn(options, assumption);
   print_notes(options, chosen);
-  if (options.folder.empty() && are_constants(request))
+  if (options.folder.empty() && are_constants(request)) {
+    require_files(options);
     convert_values(options, chosen, request);
-  else
+  } else {
     convert_maps_of(options, chosen, request);
+  }
 }
 
 }  // namespace

@@ -33,9 +33,11 @@ Json paths_json(const std::vector<std::filesystem::path>& paths) {
   return names;
 }
 
-Json values_json(const ParameterStatistics& statistics) {
+Json values_json(const ParameterStatistics& statistics, bool histograms) {
   if (statistics.finite_count == 0) return {};
-  return {{"min", statistics.min}, {"max", statistics.max}, {"histogram", statistics.histogram}};
+  Json json = {{"min", statistics.min}, {"max", statistics.max}};
+  if (histograms) json["histogram"] = statistics.histogram;
+  return json;
 }
 
 Json end_json(const WorkflowEnd& end) {
@@ -88,10 +90,11 @@ Json f0_json(const std::optional<DielectricF0>& f0) {
   return {{"value", f0->f0}, {"residual", f0->residual}, {"is_certain", f0->is_certain}};
 }
 
-void print(const Json& json) {
-  // File names need not be UTF-8.
-  std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+// File names need not be UTF-8.
+void print(const Json& json, int indent = 2) {
+  std::cout << json.dump(indent, ' ', false, Json::error_handler_t::replace) << std::endl;
 }
+void print_line(const Json& json) { print(json, -1); }
 
 Json counts_json(const MapStatistics& counts) {
   return {{"texels", counts.texel_count},
@@ -103,7 +106,8 @@ Json counts_json(const MapStatistics& counts) {
           {"clipped_values", counts.clipped_count}};
 }
 
-Json job_json(const ChosenConverter& chosen, const JobReport& report) {
+Json job_json(const Outcome& outcome, const JobReport& report) {
+  const ChosenConverter& chosen = outcome.chosen;
   const MapStatistics& counts = report.statistics;
   Json json, values;
   std::vector<Parameter> named = chosen.converter().targets();
@@ -115,9 +119,9 @@ Json job_json(const ChosenConverter& chosen, const JobReport& report) {
   json.update(counts_json(counts));
   for (const Parameter parameter : chosen.converter().sources())
     if (std::find(named.begin(), named.end(), parameter) == named.end()) named.push_back(parameter);
-  const auto of = [](const auto& all, Parameter parameter) {
+  const auto of = [&](const auto& all, Parameter parameter) {
     const auto found = all.find(parameter);
-    return found == all.end() ? Json() : values_json(found->second);
+    return found == all.end() ? Json() : values_json(found->second, outcome.histograms);
   };
   for (const Parameter parameter : named)
     if (parameter != Parameter::kDoubts)
@@ -145,39 +149,73 @@ std::string_view state_text(const JobReport& report, bool dry_run) {
   return dry_run ? "planned" : "converted";
 }
 
+Json colors_json(const ColorNotes& colors) {
+  constexpr NamedValues<TransferReason, 3> kReasons = {
+      {{TransferReason::kUsual, "usual"}, {TransferReason::kFile, "file"}, {TransferReason::kUser, "user"}}};
+  Json notes = Json::array();
+  for (const auto& [note, count] : colors)
+    notes.push_back({{"color", parameter_name(note.color)},
+                     {"use", note.is_written ? "written" : "read"},
+                     {"color_space", name_of(kTransfers, note.transfer)},
+                     {"reason", name_of(kReasons, note.reason)},
+                     {"maps", count}});
+  return notes;
+}
+
 // One set of a tree.
-Json set_json(const ChosenConverter& chosen, const JobReport& report, bool dry_run) {
+Json set_json(const Outcome& outcome, const JobReport& report) {
   Json json = {{"name", report.name},
-               {"state", state_text(report, dry_run)},
+               {"state", state_text(report, outcome.dry_run)},
                {"failure", report.failure ? Json(*report.failure) : Json()},
                {"tiles", report.tiles},
                {"results", Json::array()},
                {"inputs", paths_json(report.inputs)}};
   for (const JobReport::Result& result : report.results) json["results"].push_back(result.path.string());
-  json.update(job_json(chosen, report));
+  json.update(job_json(outcome, report));
   return json;
 }
 
-Json tree_json(const Outcome& outcome) {
-  Json sets = Json::array(), left_out = Json::array();
-  for (const JobReport& report : outcome.reports)
-    sets.push_back(set_json(outcome.chosen, report, outcome.dry_run));
-  for (const LeftOut& entry : outcome.list.left_out)
-    left_out.push_back({{"message", entry.message}, {"is_failure", entry.is_failure}});
-  return {{"sets", sets}, {"left_out", left_out}, {"unrecognised_images", outcome.list.unrecognised_count}};
+// What the run took, and what it assumed.
+Json run_json(const Outcome& outcome) {
+  return {{"colors", colors_json(outcome.colors())},
+          {"instructions", std::string(instruction_set_name(outcome.chosen.info().instructions))},
+          {"seconds", outcome.seconds},
+          {"processor_seconds", outcome.used.processor_seconds},
+          {"peak_memory_bytes", outcome.used.peak_memory_bytes}};
 }
 
 }  // namespace
 
 void print_json(const Outcome& outcome) {
   Json result = converter_json(outcome.chosen);
-  result.update(outcome.list.is_tree ? tree_json(outcome)
-                                     : job_json(outcome.chosen, outcome.reports.front()));
-  result["instructions"] = std::string(instruction_set_name(outcome.chosen.info().instructions));
-  result["seconds"] = outcome.seconds;
-  result["processor_seconds"] = outcome.used.processor_seconds;
-  result["peak_memory_bytes"] = outcome.used.peak_memory_bytes;
+  result.update(job_json(outcome, outcome.reports.front()));
+  result.update(run_json(outcome));
   print(result);
+}
+
+void print_json_start(const Outcome& outcome) {
+  print_line({{"conversion", converter_json(outcome.chosen)}});
+  for (const LeftOut& entry : outcome.list.left_out)
+    print_line({{"left_out", {{"message", entry.message}, {"is_failure", entry.is_failure}}}});
+}
+
+void print_json_set(const Outcome& outcome, const JobReport& report) {
+  print_line({{"set", set_json(outcome, report)}});
+}
+
+void print_json_end(const Outcome& outcome) {
+  std::map<std::string_view, std::size_t> states = {
+      {"converted", 0}, {"done before", 0}, {"failed", 0}, {"planned", 0}};
+  for (const JobReport& report : outcome.reports) ++states[state_text(report, outcome.dry_run)];
+  Json summary = {{"sets", outcome.reports.size()},
+                  {"converted", states["converted"]},
+                  {"done_before", states["done before"]},
+                  {"planned", states["planned"]},
+                  {"failed", outcome.failed_count()},
+                  {"left_out", outcome.list.left_out.size()},
+                  {"unrecognised_images", outcome.list.unrecognised_count}};
+  summary.update(run_json(outcome));
+  print_line({{"summary", summary}});
 }
 
 void print_values(const ChosenConverter& chosen, const ConvertedValues& values, bool json) {

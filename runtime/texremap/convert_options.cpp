@@ -64,11 +64,11 @@ void add_map_options(Command& command, ConvertOptions& options) {
         "Metallic of a metallic workflow; else --layout places it unconverted"},
        {"--occlusion", &O::occlusion, "MAP", "Ambient occlusion; --layout places it unconverted"},
        {"--roughness-encoding", &O::encoding, "NAME",
-        "What the roughness map holds: alpha, roughness (its square root), squared, glossiness or exponent "
-        "(default: what the source model takes)"},
+        "What roughness maps hold: alpha, roughness (its square root), squared, glossiness or exponent "
+        "(default: what the source model takes); maps named glossiness or smoothness hold that"},
        {"--color-space", &O::color_space, "NAME",
-        "srgb or linear, or per map: specular=linear,diffuse=srgb (default: srgb for integer color that the "
-        "file tags as sRGB, else linear)"},
+        "How color maps are read: srgb or linear, or per map: specular=linear,diffuse=srgb (default: as the "
+        "file says, else srgb for whole numbers and linear for half and float)"},
        {"--resample", &O::resample, "", "Enlarge smaller maps of a set to the largest size, bilinearly"},
        {"--names", &O::names, "FILE", "More file-name habits for the maps in DIR (JSON)"}});
   command.option("--glossiness")->excludes(command.option("--roughness"));
@@ -76,23 +76,33 @@ void add_map_options(Command& command, ConvertOptions& options) {
 
 void add_output_options(Command& command, ConvertOptions& options) {
   using O = ConvertOptions;
-  add_group(command, options, "Output",
-            {{"-o,--output", &O::output, "DIR", "Folder for the results, which keep the names of the inputs"},
-             {"--layout", &O::layout, "NAME",
-              "Files to write: as-inputs, separate, orm, arm or specgloss (default: as-inputs; separate "
-              "between workflows)"},
-             {"--format", &O::format, "EXT", "File extension of the results: exr, tif, png, ..."},
-             {"--type", &O::type, "NAME", "Pixel type of the results: uint8, uint16, half or float"},
-             {"--only", &O::only, "NAME", "Write only roughness or only specular"},
-             {"--copy-others", &O::copy_others, "",
-              "With DIR, also copy the maps that are not converted (normal, height, ...)"},
-             {"--force", &O::force, "",
-              "Overwrite existing results (never an input); accept maps that were already converted"},
-             {"--resume", &O::resume, "",
-              "Skip sets whose results exist and were made from the same inputs and options"},
-             {"--dry-run", &O::dry_run, "", "List the files that would be written; write nothing"},
-             {"--json", &O::json, "", "Print a report with histograms as JSON"},
-             {"--quiet", &O::quiet, "", "Print nothing but errors to standard error"}});
+  add_group(
+      command, options, "Output",
+      {{"-o,--output", &O::output, "DIR", "Folder for the results, which keep the names of the inputs"},
+       {"--layout", &O::layout, "NAME",
+        "Files to write: as-inputs, separate, orm, arm or specgloss (default: as-inputs; separate "
+        "between workflows)"},
+       {"--format", &O::format, "EXT", "File extension of the results: exr, tif, png, ..."},
+       {"--type", &O::type, "NAME", "Pixel type of the results: uint8, uint16, half or float"},
+       {"--output-color-space", &O::output_color_space, "NAME",
+        "How colors are written: srgb or linear, or per map (default: whole numbers as the map that they "
+        "follow, else srgb; half and float linear)"},
+       {"--only", &O::only, "NAME", "Write only roughness or only specular"},
+       {"--copy-others", &O::copy_others, "",
+        "With DIR, also copy the maps that are not converted (normal, height, ...)"},
+       {"--force", &O::force, "",
+        "Overwrite existing results (never an input); accept maps that were already converted and a folder "
+        "of "
+        "another conversion"},
+       {"--resume", &O::resume, "",
+        "Skip sets that are done; make anew those whose inputs, options, converter or results changed"},
+       {"--allow-skips", &O::allow_skips, "",
+        "With DIR, sets that are found and not converted do not make the exit code 1"},
+       {"--dry-run", &O::dry_run, "", "List the files that would be written; write nothing"},
+       {"--json", &O::json, "",
+        "Print a report as JSON; of a folder a line for each set as it is finished, then a summary"},
+       {"--histograms", &O::histograms, "", "With --json, also histograms of the values"},
+       {"--quiet", &O::quiet, "", "Print nothing but errors to standard error"}});
 }
 
 void add_workflow_options(Command& command, ConvertOptions& options) {
@@ -127,7 +137,7 @@ void add_rare_options(Command& command, ConvertOptions& options) {
   add_group(command, options, "Rare: encodings and factors",
             {{"--output-encoding", &O::output_encoding, "NAME",
               "What the roughness results hold (default: as the inputs where that is known, else what the "
-              "target model takes)"},
+              "target model takes; a file named glossiness holds glossiness)"},
              {"--roughness-factor", &O::roughness_factor, "NUMBER",
               "Multiply the roughness or glossiness map before it is decoded"},
              {"--specular-factor", &O::specular_factor, "NUMBERS",

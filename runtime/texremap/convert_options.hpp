@@ -41,6 +41,7 @@ struct ConvertOptions {
   std::string encoding;
   std::string output_encoding;
   std::string color_space;
+  std::string output_color_space;
   std::string only;
   std::string bad_texels = "keep";
   std::string mask;
@@ -55,6 +56,8 @@ struct ConvertOptions {
   bool dither = false;
   bool smooth_metallic = false;
   bool force = false;
+  bool allow_skips = false;
+  bool histograms = false;
   bool json = false;
   bool quiet = false;
 };

@@ -104,12 +104,20 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   results.insert(results.end(), other.results.begin(), other.results.end());
   was_done = was_done && other.was_done;
   if (other.failure) failure = failure ? *failure + "; " + *other.failure : other.failure;
+  for (const auto& [note, count] : other.colors) colors[note] += count;
   if (!estimated_f0) estimated_f0 = other.estimated_f0;
   statistics += other.statistics;
   seconds += other.seconds;
   bytes_read += other.bytes_read;
   bytes_written += other.bytes_written;
   return *this;
+}
+
+ColorNotes Outcome::colors() const {
+  ColorNotes all;
+  for (const JobReport& report : reports)
+    for (const auto& [note, count] : report.colors) all[note] += count;
+  return all;
 }
 
 std::size_t Outcome::failed_count() const {
@@ -191,6 +199,28 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
   line(counts.clipped_count, " values clipped to [0, 1] by an integer pixel type");
 }
 
+void print_colors(const std::string& program, const Outcome& outcome) {
+  std::string text;
+  for (const bool is_written : {false, true})
+    for (const auto& [note, count] : outcome.colors()) {
+      if (note.is_written != is_written) continue;
+      const std::string option = is_written ? "--output-color-space" : "--color-space";
+      const std::string file = is_written ? "as the map that it follows" : "tagged so by the file";
+      text += (text.empty() ? "" : ", ") + std::string(parameter_name(note.color)) +
+              (is_written ? " written as " : " read as ") + std::string(name_of(kTransfers, note.transfer));
+      if (note.reason == TransferReason::kUser) text += " (" + option + ")";
+      if (note.reason == TransferReason::kFile && note.transfer != Transfer::kSrgb) text += " (" + file + ")";
+      if (outcome.list.is_tree) text += " in " + counted(count, "map");
+    }
+  if (text.empty()) return;
+  print_message(program, "color: " + text + "; --color-space and --output-color-space change this");
+}
+
+void print_left_out(const std::string& program, const JobList& list) {
+  for (const LeftOut& entry : list.left_out)
+    print_message(program, (entry.is_failure ? "failed: " : "skipped: ") + entry.message);
+}
+
 void print_summary(const std::string& program, const Outcome& outcome) {
   if (!outcome.list.is_tree) return;
   std::size_t texels = 0, done = 0, done_before = 0;
@@ -199,8 +229,6 @@ void print_summary(const std::string& program, const Outcome& outcome) {
     done_before += report.was_done;
     texels += report.statistics.texel_count;
   }
-  for (const LeftOut& entry : outcome.list.left_out)
-    print_message(program, (entry.is_failure ? "failed: " : "skipped: ") + entry.message);
   std::string text = counted(done, "set") + (outcome.dry_run ? " would be converted by " : " converted by ") +
                      converter_text(outcome.chosen) + ", " + std::to_string(outcome.failed_count()) +
                      " failed";

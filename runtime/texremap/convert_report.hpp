@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,17 @@ WorkflowStages stages_of(const ChosenConverter& chosen);
 // The text that results carry as `remap:converter`: the ids of the steps, and the formula of a workflow.
 std::string converter_ids(const ChosenConverter& chosen);
 
+// The color space in which maps of a color are read or written, and why: the user's word, the file's (its
+// tag, or for a result the map that it follows), or the usual one.
+struct ColorNote {
+  Parameter color;
+  bool is_written;
+  Transfer transfer;
+  TransferReason reason;
+  auto operator<=>(const ColorNote&) const = default;
+};
+using ColorNotes = std::map<ColorNote, std::size_t>;  // with the number of maps
+
 // The outcome of one set with all its tiles.
 struct JobReport {
   struct Result {
@@ -51,6 +63,7 @@ struct JobReport {
   std::vector<Result> results;                // the planned ones in a dry run and after a failure
   std::vector<std::filesystem::path> copies;  // files that are not converted; also planned ones
   Transfer specular_transfer = Transfer::kLinear;
+  ColorNotes colors;                         // of whole numbers, and of what a file or the user says
   std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
   std::vector<std::string> warnings;
   std::optional<std::string> failure;
@@ -70,17 +83,30 @@ struct Outcome {
   const JobList& list;
   std::vector<JobReport> reports;  // one per set
   bool dry_run = false;
+  bool histograms = false;  // in the JSON
   double seconds = 0.0;
   ResourceUse used;  // threads waited for the rest of seconds x threads
 
+  ColorNotes colors() const;         // of all sets
   std::size_t failed_count() const;  // failed sets and the failures among `list.left_out`
 };
 
+// Prints a line about each set that is not converted.
+void print_left_out(const std::string& program, const JobList& list);
 // Prints the lines about one set to standard error.
 void print_job(const std::string& program, const Outcome& outcome, const JobReport& report);
+// Prints one line about the color spaces of the run: `color: specular read as srgb, base_color written as
+// srgb`; nothing where all colors are floating-point numbers that nobody spoke of.
+void print_colors(const std::string& program, const Outcome& outcome);
 // Prints the line about the whole run: sets, texels, time.
 void print_summary(const std::string& program, const Outcome& outcome);
+// The report on one set that is no folder, as one object.
 void print_json(const Outcome& outcome);
+// The report on a folder, an object a line: `{"conversion": ...}` first, `{"set": ...}` for each set as it is
+// finished, `{"left_out": ...}` before them for each that is not converted, `{"summary": ...}` last.
+void print_json_start(const Outcome& outcome);
+void print_json_set(const Outcome& outcome, const JobReport& report);
+void print_json_end(const Outcome& outcome);
 
 // The result of a conversion of numbers, without maps.
 struct ConvertedValues {

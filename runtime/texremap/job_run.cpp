@@ -1,6 +1,7 @@
 #include "texremap/job_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "system/files.hpp"
 #include "system/parallel.hpp"
 #include "texremap/conversion_request.hpp"
+#include "texremap/journal.hpp"
 #include "texture/content_hash.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_pass.hpp"
@@ -42,32 +44,95 @@ std::uintmax_t size_of(const std::vector<std::filesystem::path>& files) {
   return bytes;
 }
 
-// A hash of everything that the results of a set depend on: the bytes of its files, the converter, the
-// options.
-std::string hash_of(const std::vector<std::filesystem::path>& files, const ChosenConverter& chosen,
-                    const ConvertOptions& options) {
+// The texels that a converter is known by: a change of any of its numbers that the hash of their results
+// misses would have to lie between them.
+constexpr std::size_t kProbed = 4096;
+
+// Term `index` of the additive recurrence of dimension `row` (Weyl 1916, with roots of primes): evenly spread
+// in [0, 1).
+double spread(std::size_t index, std::size_t row) {
+  constexpr std::array kPrimes = {2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0};
+  const double step = std::sqrt(kPrimes[row % kPrimes.size()]);
+  const double value = static_cast<double>(index + 1) * step;
+  return value - std::floor(value);
+}
+
+// Adds what the converter makes of texels all over its domain and a little beyond: its numbers and its code.
+void add_behaviour(const Converter& converter, ContentHash& hash) {
+  const ConverterInfo& info = converter.info();
+  std::array<std::vector<float>, 3 * kParameterCount> in, out;
+  MaterialRows<const float> sources;
+  MaterialRows<float> targets;
+  std::size_t row = 0;
+  for (const Parameter parameter : converter.sources()) {
+    const std::size_t count = is_color(parameter) ? 3 : 1;
+    Range range{0.0, 1.0};
+    if (parameter == Parameter::kWidth) range = info.roughness;
+    if (parameter == Parameter::kSpecular) range = {0.0, info.specular.max};
+    sources[parameter].count = count;
+    for (std::size_t c = 0; c < count; ++c, ++row) {
+      for (std::size_t i = 0; i < kProbed; ++i)
+        in[row].push_back(static_cast<float>(range.min + 1.02 * (range.max - range.min) * spread(i, row)));
+      sources[parameter].row[c] = in[row].data();
+    }
+  }
+  row = 0;
+  for (const Parameter parameter : converter.targets()) {
+    if (is_measure(parameter)) continue;
+    targets[parameter].count = converter.target_channels(parameter, 3);
+    for (std::size_t c = 0; c < targets[parameter].count; ++c, ++row) {
+      out[row].resize(kProbed);
+      targets[parameter].row[c] = out[row].data();
+    }
+  }
+  converter.convert(kProbed, sources, targets);
+  for (const std::vector<float>& values : out)
+    hash.add({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
+}
+
+// Everything besides the inputs that results depend on.
+ConversionNote conversion_note(const ChosenConverter& chosen, const ConvertOptions& options) {
+  const ConverterInfo& info = chosen.info();
+  ConversionNote note{info.source.model, info.target.model, "", {}};
+  note.details = {
+      {"converter", converter_ids(chosen)}, {"options", result_options_text(options)}, {"version", kVersion}};
+  ContentHash hash;
+  hash.add(note.source);
+  hash.add(note.target);
+  for (const auto& [name, value] : note.details) hash.add(value);
+  add_behaviour(chosen.converter(), hash);
+  note.hash = hash.hex();
+  return note;
+}
+
+// A hash of the files of a set, and of what is taken from where.
+std::string inputs_hash(const std::vector<std::filesystem::path>& files, const ConversionJob& job) {
   ContentHash hash;
   for (const std::filesystem::path& file : files) hash.add_file(file);
-  for (const Converter* step : chosen.path.steps) hash.add(step->info().id);
-  if (chosen.workflow.is_material()) hash.add(converter_ids(chosen));
-  if (!options.fit.empty()) hash.add_file(options.fit);
-  hash.add(result_options_text(options));
-  hash.add(kVersion);
+  const auto add = [&](const std::string& name, const ParameterRequest& asked) {
+    hash.add(name);
+    if (const auto* map = std::get_if<MapName>(&asked.source)) {
+      hash.add(map->file.filename().string());
+      for (const std::string& channel : map->channels) hash.add(channel);
+    }
+  };
+  for (const auto& [parameter, asked] : job.request.parameters) add(plain_name(parameter), asked);
+  for (const CarriedRequest& carried : job.request.carried) add(carried.name, carried.parameter);
+  hash.add(job.request.convention ? convention_name(*job.request.convention) : "");
+  for (const CopiedFile& copy : job.copies) hash.add_file(copy.source);
   return hash.hex();
 }
 
-Metadata metadata_of(const ChosenConverter& chosen, const std::string& hash) {
+Metadata metadata_of(const ChosenConverter& chosen) {
   const ConverterInfo& info = chosen.info();
   return {{"remap:converter", converter_ids(chosen)},
           {"remap:source", info.source.model},
           {"remap:target", info.target.model},
-          {"remap:version", kVersion},
-          {"remap:inputs", hash}};
+          {"remap:version", kVersion}};
 }
 
 // Refuses maps that were converted before to another model than the source of this conversion.
-void require_not_converted(const TextureSet& set, const ChosenConverter& chosen, bool force) {
-  if (force) return;
+void require_not_converted(const TextureSet& set, const ChosenConverter& chosen, JournalLookup& journals) {
   const std::string& source = chosen.info().source.model;
   const WorkflowChoice& workflow = chosen.workflow;
   const WorkflowEnd end =
@@ -76,50 +141,63 @@ void require_not_converted(const TextureSet& set, const ChosenConverter& chosen,
           : workflow_over(source, WorkflowKind::kSpecular, RoughnessConvention::kAlpha).end;
   const std::string& brdf = workflow.is_material() ? workflow.source_brdf : source;
   for (const ImageReader& map : set.maps) {
-    const std::optional<std::string> model = map.noted_metadata("remap:target");
+    std::optional<std::string> model = map.noted_metadata("remap:target");
+    if (!model) model = journals.target_of(map.path());
     if (model && *model != source && !holds_materials_of(*model, end, brdf))
       throw Error(ErrorKind::kUsage, map.path().string() + ": already converted to " + *model +
                                          ", but the source is " + source + " (--force converts it anyway)");
   }
 }
 
-// Whether `path` is a result of these inputs and options. Without metadata the answer is no.
-bool is_made_of(const std::filesystem::path& path, const std::string& hash) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  try {
-    return ImageReader(path).noted_metadata("remap:inputs") == hash;
-  } catch (const Error&) {
-    return false;  // an incomplete image is not ours
-  }
+std::vector<std::filesystem::path> results_of(const TargetPlan& plan) {
+  std::vector<std::filesystem::path> files;
+  for (const PlannedMap& map : plan.maps) files.push_back(map.path);
+  for (const PlannedCopy& copy : plan.copies) files.push_back(copy.path);
+  return files;
 }
 
-bool is_copy_of(const std::filesystem::path& path, const std::filesystem::path& source) {
+// Refuses to replace files that this conversion did not write.
+void require_replaceable(const std::vector<std::filesystem::path>& files, const Journal& journal) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored) ||
-      std::filesystem::file_size(path, ignored) != std::filesystem::file_size(source, ignored))
-    return false;
-  const auto hash_of_file = [](const std::filesystem::path& file) {
-    ContentHash hash;
-    hash.add_file(file);
-    return hash.hex();
-  };
-  return hash_of_file(path) == hash_of_file(source);
-}
-
-// Whether all results exist already. Throws kOutput for an existing file of other inputs or options.
-bool all_done(const TargetPlan& plan, const std::string& hash, bool force) {
-  bool all = true;
-  const auto look = [&](const std::filesystem::path& path, bool is_ours) {
-    std::error_code ignored;
-    if (!is_ours && !force && std::filesystem::exists(path, ignored))
+  for (const std::filesystem::path& file : files)
+    if (std::filesystem::exists(file, ignored) && !journal.is_own(file))
       throw Error(ErrorKind::kOutput,
-                  path.string() + ": already exists, made from other inputs or options (--force overwrites)");
-    all = all && is_ours;
-  };
-  for (const PlannedMap& map : plan.maps) look(map.path, is_made_of(map.path, hash));
-  for (const PlannedCopy& copy : plan.copies) look(copy.path, is_copy_of(copy.path, copy.source));
-  return all;
+                  file.string() + ": already exists, and is not of this conversion (--force overwrites)");
+}
+
+FinishedFile finished_file(const std::filesystem::path& path, const std::filesystem::path& content) {
+  ContentHash hash;
+  hash.add_file(content);
+  return {path, std::filesystem::file_size(content), hash.hex()};
+}
+
+WidthSource width_source(const TextureSet& set) {
+  const SetParameter* map = set.map_of(Parameter::kWidth);
+  if (map == nullptr) return {{}, set.convention};
+  return {set.maps[map->channels.front().map].path(), set.convention};
+}
+
+// Notes in which color spaces the set is read and written.
+void note_colors(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) {
+  for (const auto& [parameter, values] : set.parameters)
+    if (is_color(parameter) && values.is_map() &&
+        (values.is_whole_numbers || values.transfer_reason != TransferReason::kUsual))
+      ++report.colors[{parameter, false, values.transfer, values.transfer_reason}];
+  for (const TargetMap& target : targets)
+    for (std::size_t p = 0; p < target.parts.size(); ++p) {
+      const TargetPart& part = target.parts[p];
+      for (std::size_t c = 0; c < part.channels.size(); ++c) {
+        const auto* channel = std::get_if<ConvertedChannel>(&part.channels[c]);
+        if (channel == nullptr || !is_color(channel->parameter) || channel->index > 0) continue;
+        const PixelType type = target.writer.layout(static_cast<int>(p)).channels[c].type;
+        const ColorStorage& storage = *part.changes.colors;
+        if (!is_integer(type) && !storage.chosen) continue;
+        const TransferReason reason = storage.chosen     ? TransferReason::kUser
+                                      : storage.followed ? TransferReason::kFile
+                                                         : TransferReason::kUsual;
+        ++report.colors[{channel->parameter, true, storage.of(type), reason}];
+      }
+    }
 }
 
 JobReport::Result result_of(const PlannedMap& planned) {
@@ -135,26 +213,41 @@ JobReport::Result result_of(const PlannedMap& planned) {
 
 class JobRunner {
  public:
-  JobRunner(const ChosenConverter& chosen, const ConvertOptions& options, int threads_a_job)
+  // `is_tree`: the output folder is of this conversion alone.
+  JobRunner(const ChosenConverter& chosen, const ConvertOptions& options, int threads_a_job, bool is_tree)
       : chosen_(chosen),
         options_(options),
         choice_(target_choice(options, chosen.workflow)),
-        pass_(pass_options(options)) {
+        pass_(pass_options(options)),
+        is_tree_(is_tree),
+        journal_(options.output, conversion_note(chosen, options)) {
+    if (!options.force) journal_.require_own();
     pass_.thread_count = threads_a_job;
     pass_.cancelled = &interruption();
   }
 
   // `progress` receives the finished share of the set, 0 to 1.
-  void run(const ConversionJob& job, const std::function<void(double)>& progress, JobReport& report) const;
+  void run(const ConversionJob& job, const std::function<void(double)>& progress, JobReport& report);
 
  private:
+  void commit(const ConversionJob& job, const TargetPlan& plan, const std::string& inputs,
+              std::vector<TargetMap>& finished);
   std::unique_ptr<Converter> survey(TextureSet& set, JobReport& report) const;
   void note_doubts(const TextureSet& set, const std::vector<TargetMap>& targets, JobReport& report) const;
+  // What the roughness results hold where neither a name nor an option says it: what the target model of a
+  // workflow takes, else what the inputs hold where that is known, else what the target model takes.
+  RoughnessConvention usual_width(const TextureSet& set) const {
+    if (chosen_.workflow.is_material()) return width_of(*chosen_.workflow.target);
+    return set.convention.value_or(chosen_.info().target.roughness);
+  }
 
   const ChosenConverter& chosen_;
   const ConvertOptions& options_;
   TargetChoice choice_;  // without the members that differ between sets
   PassOptions pass_;
+  bool is_tree_;
+  Journal journal_;         // of the output folder
+  JournalLookup journals_;  // of the inputs
 };
 
 // Samples the maps of a workflow and notes warnings. Returns a converter for this set alone if its dielectric
@@ -199,44 +292,62 @@ void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>&
   }
 }
 
+// Gives the finished files of a set, and its copies, their names.
+void JobRunner::commit(const ConversionJob& job, const TargetPlan& plan, const std::string& inputs,
+                       std::vector<TargetMap>& finished) {
+  if (is_tree_) journal_.claim(options_.force);
+  journal_.begin(results_of(plan));
+  std::vector<FinishedFile> files;
+  for (const TargetMap& target : finished)
+    files.push_back(finished_file(target.writer.path(), target.writer.finished_file()));
+  for (const PlannedCopy& copy : plan.copies) files.push_back(finished_file(copy.path, copy.source));
+  journal_.commit(job.name + (job.tile.empty() ? "" : " " + job.tile), inputs, files, options_.force, [&] {
+    for (TargetMap& target : finished) target.writer.commit();
+    for (const PlannedCopy& copy : plan.copies) copy_whole_file(copy.source, copy.path);
+  });
+}
+
 void JobRunner::run(const ConversionJob& job, const std::function<void(double)>& progress,
-                    JobReport& report) const {
+                    JobReport& report) {
   const auto start = std::chrono::steady_clock::now();
   TextureSet set = open_texture_set(job.request);
   report.inputs = files_of(set);
   if (const SetParameter* specular = set.map_of(Parameter::kSpecular))
     report.specular_transfer = specular->transfer;
-  require_not_converted(set, chosen_, options_.force);
+  if (!options_.force) require_not_converted(set, chosen_, journals_);
 
   TargetChoice choice = choice_;
   choice.folder = job.folder;
   choice.names = job.names;
-  const bool needs_hash = options_.resume || !options_.dry_run;
-  const std::string hash = needs_hash ? hash_of(report.inputs, chosen_, options_) : "";
-  choice.metadata = metadata_of(chosen_, hash);
+  choice.metadata = metadata_of(chosen_);
   choice.force = options_.force || options_.resume;  // existing files are checked below
   choice.copies = job.copies;
+  const RoughnessConvention width = written_width(options_, choice, width_source(set), usual_width(set));
+  choice.width_name = width == RoughnessConvention::kGlossiness ? "glossiness" : "roughness";
   const TargetPlan plan = plan_targets(set, choice);
   for (const PlannedMap& map : plan.maps) report.results.push_back(result_of(map));
   for (const PlannedCopy& copy : plan.copies) report.copies.push_back(copy.path);
-  if (options_.resume && all_done(plan, hash, options_.force)) {
-    report.was_done = true;
-    return;
+  const bool needs_hash = options_.resume || !options_.dry_run;
+  const std::string inputs = needs_hash ? inputs_hash(report.inputs, job) : "";
+  if (options_.resume) {
+    const std::vector<std::filesystem::path> files = results_of(plan);
+    if (journal_.is_done(inputs, files)) {
+      report.was_done = true;
+      return;
+    }
+    if (!options_.force) require_replaceable(files, journal_);
   }
   if (options_.dry_run) return;
 
   const std::unique_ptr<Converter> own = survey(set, report);
   std::vector<TargetMap> targets = open_targets(set, plan, choice);
   note_doubts(set, targets, report);
+  note_colors(set, targets, report);
   PassOptions pass = pass_;
-  // Results have the encoding of the inputs if that was given. Those of a workflow follow its model.
-  if (choice.layout == Layout::kSpecGloss) pass.target_convention = RoughnessConvention::kGlossiness;
-  if (!pass.target_convention)
-    pass.target_convention =
-        chosen_.workflow.is_material() ? width_of(*chosen_.workflow.target) : job.request.convention;
+  pass.target_convention = width;
   pass.progress = progress;
+  pass.commit = [&](std::vector<TargetMap>& finished) { commit(job, plan, inputs, finished); };
   report.statistics = run_texture_pass(set, targets, own ? *own : chosen_.converter(), pass);
-  for (const PlannedCopy& copy : plan.copies) copy_whole_file(copy.source, copy.path);
   report.bytes_read = size_of(report.inputs);
   for (const JobReport::Result& result : report.results) report.bytes_written += size_of({result.path});
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -249,6 +360,7 @@ class JobProgress {
       : list_(list), line_(list.is_tree ? text() : converter, list.jobs.size() * kSetProgress, shown) {}
 
   void advance(std::size_t count) { line_.advance(count); }
+  void hide() { line_.hide(); }
   void finish(std::size_t texels) {
     const std::lock_guard lock(mutex_);
     ++done_;
@@ -268,32 +380,66 @@ class JobProgress {
   Progress line_;  // declared after the counts that its first text needs
 };
 
-// Merges the reports of the tiles of each set, which follow one another.
-std::vector<JobReport> merged(std::vector<JobReport> tiles) {
-  std::vector<JobReport> sets;
-  for (JobReport& tile : tiles) {
-    if (!sets.empty() && !tile.name.empty() && sets.back().name == tile.name)
-      sets.back() += tile;
-    else
-      sets.push_back(std::move(tile));
+// The sets of a run: the jobs of a set, its tiles, follow one another. Merges and hands over the report of a
+// set when the last of its jobs is finished.
+class Sets {
+ public:
+  Sets(const std::vector<ConversionJob>& jobs, std::function<void(const JobReport&)> finished)
+      : finished_(std::move(finished)), set_of_(jobs.size()) {
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      const bool continues = i > 0 && !jobs[i].name.empty() && jobs[i].name == jobs[i - 1].name;
+      if (!continues) sets_.emplace_back();
+      sets_.back().jobs.emplace_back();
+      set_of_[i] = {sets_.size() - 1, sets_.back().jobs.size() - 1};
+    }
   }
-  return sets;
-}
+
+  void finish(std::size_t job, JobReport report) {
+    const std::lock_guard lock(mutex_);
+    Set& set = sets_[set_of_[job].first];
+    set.jobs[set_of_[job].second] = std::move(report);
+    if (++set.finished_count < set.jobs.size()) return;
+    for (std::size_t i = 1; i < set.jobs.size(); ++i) set.jobs.front() += set.jobs[i];
+    set.jobs.resize(1);
+    finished_(set.jobs.front());
+  }
+
+  std::vector<JobReport> reports() {
+    std::vector<JobReport> all;
+    for (Set& set : sets_) all.push_back(std::move(set.jobs.front()));
+    return all;
+  }
+
+ private:
+  struct Set {
+    std::vector<JobReport> jobs;
+    std::size_t finished_count = 0;
+  };
+  const std::function<void(const JobReport&)> finished_;
+  std::mutex mutex_;
+  std::vector<Set> sets_;
+  std::vector<std::pair<std::size_t, std::size_t>> set_of_;  // index of the set, and of the job in it
+};
 
 }  // namespace
 
 std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chosen,
-                                const ConvertOptions& options) {
+                                const ConvertOptions& options,
+                                const std::function<void(const JobReport&)>& finished) {
   const int threads = thread_count(options);
   const int at_once =
       static_cast<int>(std::clamp<std::size_t>(list.jobs.size(), 1, static_cast<std::size_t>(threads)));
-  const JobRunner runner(chosen, options, threads / at_once);
+  JobRunner runner(chosen, options, threads / at_once, !options.folder.empty());
   set_image_thread_count(threads / at_once);
   JobProgress line(list, chosen.info().id, !options.quiet);
-  std::vector<JobReport> reports(list.jobs.size());
+  Sets sets(list.jobs, [&](const JobReport& report) {
+    line.hide();
+    finished(report);
+  });
   run_parallel(list.jobs.size(), static_cast<unsigned>(at_once), [&](std::size_t i) {
-    reports[i].name = list.jobs[i].name;
-    if (!list.jobs[i].tile.empty()) reports[i].tiles = {list.jobs[i].tile};
+    JobReport report;
+    report.name = list.jobs[i].name;
+    if (!list.jobs[i].tile.empty()) report.tiles = {list.jobs[i].tile};
     std::size_t shown = 0;
     const auto advance = [&](double share) {
       const auto now = static_cast<std::size_t>(share * kSetProgress);
@@ -301,18 +447,19 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
       shown = now;
     };
     try {
-      runner.run(list.jobs[i], advance, reports[i]);
+      runner.run(list.jobs[i], advance, report);
     } catch (const Error& error) {
       if (!list.is_tree) throw;
       if (error.kind() == ErrorKind::kInterrupted)
         throw Error(error.kind(), "interrupted: finished sets are complete (--resume converts the others)");
-      reports[i].failure = error.what();
-      reports[i].tiles.clear();
+      report.failure = error.what();
+      report.tiles.clear();
     }
     advance(1.0);
-    line.finish(reports[i].statistics.texel_count);
+    line.finish(report.statistics.texel_count);
+    sets.finish(i, std::move(report));
   });
-  return merged(std::move(reports));
+  return sets.reports();
 }
 
 }  // namespace remap

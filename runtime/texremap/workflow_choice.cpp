@@ -75,20 +75,33 @@ void set_f0(std::optional<WorkflowEnd>& end, double f0) {
   if (auto* metallic = end ? std::get_if<MetallicWorkflow>(&*end) : nullptr) metallic->dielectric_f0 = f0;
 }
 
-// Sets the diffuse convention of the source, and of a target whose model leaves it open.
+// Sets the diffuse convention of each end whose model leaves it open: that of the other end, so that there
+// and back changes nothing, or the option's. With an option where both models say it, the source's is
+// overridden.
 void choose_diffuse(const ConvertOptions& options, const WorkflowModel& source, const WorkflowModel& target,
                     WorkflowChoice& choice) {
+  std::vector<WorkflowEnd*> open;
+  if (!source.conventions_known) open.push_back(&*choice.source);
+  if (!target.conventions_known) open.push_back(&*choice.target);
   if (!options.diffuse_convention.empty()) {
-    set_diffuse(*choice.source, chosen_value(kDiffuseConventions, "--diffuse-convention", "convention",
-                                             options.diffuse_convention));
-  } else if (!source.conventions_known) {
-    const std::string other = diffuse_of(*choice.source) == DiffuseConvention::kPlain ? "scaled" : "plain";
-    choice.assumptions.push_back(
-        "diffuse of " + model_of(*choice.source) + " is assumed to be " +
-        std::string(diffuse_convention_name(diffuse_of(*choice.source))) + " (--diffuse-convention " + other +
-        (other == "scaled" ? " excludes the light that specular reflects, as in glTF)" : " changes that)"));
+    if (open.empty()) open.push_back(&*choice.source);
+    for (WorkflowEnd* end : open)
+      set_diffuse(*end, chosen_value(kDiffuseConventions, "--diffuse-convention", "convention",
+                                     options.diffuse_convention));
+    return;
   }
-  if (!target.conventions_known) set_diffuse(*choice.target, diffuse_of(*choice.source));
+  if (open.empty()) return;
+  const WorkflowEnd& known = source.conventions_known ? *choice.source : *choice.target;
+  std::string models;
+  for (WorkflowEnd* end : open) {
+    set_diffuse(*end, diffuse_of(known));
+    models += (models.empty() ? "" : " and ") + model_of(*end);
+  }
+  const bool is_plain = diffuse_of(known) == DiffuseConvention::kPlain;
+  choice.assumptions.push_back(
+      "diffuse of " + models + " is assumed to be " + (is_plain ? "plain" : "scaled") +
+      (open.size() == 1 ? ", as in " + model_of(known) : "") + " (--diffuse-convention " +
+      (is_plain ? "scaled" : "plain") + " changes that)");
 }
 
 // The number from 0 to `highest` in `text`; `allowed` tells the user what the option takes.

@@ -29,12 +29,12 @@ struct ImageLayout {
   int x = 0;  // position of the first texel: the corner of the data window of an EXR
   int y = 0;
   std::vector<Channel> channels;
-  std::size_t texel_bytes = 0;       // texels are interleaved and packed
-  int alpha_channel = -1;            // index; -1 for none
-  int tile_height = 0;               // 0 for a file that is stored by rows
-  std::string format;                // name in OpenImageIO: "openexr", "tiff", "png", "jpeg", ...
-  std::string lossy_compression;     // empty for a lossless file
-  bool is_tagged_nonlinear = false;  // the file tags its values as sRGB or gamma-encoded
+  std::size_t texel_bytes = 0;              // texels are interleaved and packed
+  int alpha_channel = -1;                   // index; -1 for none
+  int tile_height = 0;                      // 0 for a file that is stored by rows
+  std::string format;                       // name in OpenImageIO: "openexr", "tiff", "png", "jpeg", ...
+  std::string lossy_compression;            // empty for a lossless file
+  std::optional<Transfer> tagged_transfer;  // of colors, where the file has a tag for it
 
   std::size_t row_bytes() const noexcept { return static_cast<std::size_t>(width) * texel_bytes; }
 };
@@ -94,11 +94,22 @@ class ImageReader {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;  // name and text
 
+// How a new image stores its colors, by the pixel type that it has.
+struct ColorStorage {
+  std::optional<Transfer> chosen;    // by the user
+  std::optional<Transfer> followed;  // by the whole numbers of the map that the colors follow
+
+  Transfer of(PixelType type) const {
+    const Transfer usual = usual_color_transfer(type);
+    return chosen.value_or(is_integer(type) ? followed.value_or(usual) : usual);
+  }
+};
+
 // The differences of a new image from the image that it follows.
 struct ImageChanges {
   std::optional<PixelType> type;                     // of all channels
   std::optional<std::vector<std::string>> channels;  // new channels, all of the type of the first old one
-  std::optional<Transfer> transfer;                  // curve of the values
+  std::optional<ColorStorage> colors;                // none: all channels are data
   Metadata metadata;                                 // added; TIFF and JPEG hold it in the tag Software
 };
 
@@ -133,6 +144,8 @@ class ImageWriter {
 
   // Closes and checks the file. Afterwards the system has accepted every byte.
   void finish();
+  // The finished file, under its temporary name.
+  const std::filesystem::path& finished_file() const noexcept;
 
   // Renames the finished file to its final name and replaces an existing file.
   void commit();

@@ -19,6 +19,12 @@ inline constexpr const char* kUnassociatedAlpha = "oiio:UnassociatedAlpha";
 // The first line of a message of OpenImageIO, or `otherwise` if the message is empty.
 std::string first_line(const std::string& text, const std::string& otherwise);
 
+// The note of results whose format has no tag for linear colors in whole numbers.
+inline constexpr const char* kNotedColorSpace = "remap:color_space";
+
+// The metadata that an earlier run wrote under `name`, as an attribute or in the tag Software.
+std::optional<std::string> noted_metadata(const OIIO::ImageSpec& spec, const std::string& name);
+
 // The type for passing rows without conversion. Channels of several types need TypeUnknown, which the TIFF
 // writer of OpenImageIO 2.4 gets wrong at the right and lower edge of tiled images.
 OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec);
@@ -33,9 +39,8 @@ struct ImageReader::State {
   int part = 0;
   int part_count = 0;
   int level = 0;
-  std::vector<OIIO::ImageSpec> levels;   // of the levels of the part, at the size of reading
-  bool has_assumed_color_space = false;  // OpenImageIO reports sRGB although the file does not
-  ImageLayout layout;                    // of `level`
+  std::vector<OIIO::ImageSpec> levels;  // of the levels of the part, at the size of reading
+  ImageLayout layout;                   // of `level`
   std::unique_ptr<ResampledRows> resampled;
 
   const OIIO::ImageSpec& spec() const { return levels[static_cast<std::size_t>(level)]; }

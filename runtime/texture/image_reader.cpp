@@ -7,6 +7,8 @@
 #include <cstring>
 #include <string_view>
 
+#include <OpenImageIO/strutil.h>
+
 #include "remap/error.hpp"
 #include "texture/image_library.hpp"
 
@@ -49,6 +51,15 @@ bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format, s
 // No valid file has more parts, but a damaged one may claim so.
 constexpr int kMostParts = 4096;
 
+// Gamma curves are read as sRGB, which the usual 2.2 differs little from.
+std::optional<Transfer> tagged_transfer(const OIIO::ImageSpec& spec) {
+  if (const auto noted = noted_metadata(spec, kNotedColorSpace)) return value_named(kTransfers, *noted);
+  const std::string color_space = spec.get_string_attribute("oiio:ColorSpace");
+  if (color_space.empty()) return std::nullopt;
+  const bool is_linear = OIIO::Strutil::iequals(color_space, "linear");
+  return is_linear ? Transfer::kLinear : Transfer::kSrgb;
+}
+
 std::optional<PixelType> pixel_type(OIIO::TypeDesc type) {
   return type.is_array() ? std::nullopt : value_named(kPixelTypes, type.c_str());
 }
@@ -74,8 +85,7 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format, co
   layout.tile_height = spec.tile_width > 0 ? spec.tile_height : 0;
   layout.format = format;
   layout.lossy_compression = lossy_compression(spec, format);
-  const std::string color_space = spec.get_string_attribute("oiio:ColorSpace", "Linear");
-  layout.is_tagged_nonlinear = color_space == "sRGB" || color_space.starts_with("Gamma");
+  layout.tagged_transfer = tagged_transfer(spec);
   for (int c = 0; c < spec.nchannels; ++c) {
     const std::string name = spec.channel_name(c);
     const auto type = pixel_type(spec.channelformat(c));
@@ -116,7 +126,9 @@ void ImageReader::State::open() {
   if (!input) fail("cannot be read as an image: " + first_line(OIIO::geterror(), "unknown format"));
   (void)input->geterror();  // discards remarks on unusual headers
   find_planes();
-  has_assumed_color_space = !tells_color_space(spec(), input->format_name(), file.get());
+  // A color space that OpenImageIO assumed is neither read nor written.
+  if (!tells_color_space(spec(), input->format_name(), file.get()))
+    for (OIIO::ImageSpec& level_spec : levels) level_spec.erase_attribute("oiio:ColorSpace");
   layout = layout_of(spec(), input->format_name(), path);
 }
 
@@ -199,7 +211,10 @@ void ImageReader::State::read_rows(int first_row, int row_count, std::byte* texe
 }
 
 std::optional<std::string> ImageReader::noted_metadata(const std::string& name) const {
-  const OIIO::ImageSpec& spec = state_->levels.front();
+  return remap::noted_metadata(state_->levels.front(), name);
+}
+
+std::optional<std::string> noted_metadata(const OIIO::ImageSpec& spec, const std::string& name) {
   if (const std::string value = spec.get_string_attribute(name); !value.empty()) return value;
   const std::string software = spec.get_string_attribute("Software"), key = name + "=";
   const std::size_t begin = software.find(key);

@@ -184,12 +184,7 @@ ImageWriter::ImageWriter(const fs::path& path, const std::vector<ImagePart>& par
     : state_(std::make_unique<State>()) {
   state_->path = path;
   std::vector<std::vector<OIIO::ImageSpec>> models;
-  for (const ImagePart& part : parts) {
-    models.push_back(part.model->state_->levels);
-    // A color space that only OpenImageIO assumed is not written: sRGB would be wrong for data.
-    for (OIIO::ImageSpec& model : models.back())
-      if (part.model->state_->has_assumed_color_space) model.erase_attribute("oiio:ColorSpace");
-  }
+  for (const ImagePart& part : parts) models.push_back(part.model->state_->levels);
   state_->plan(models, parts.front().model->layout().format, parts);
 }
 ImageWriter::~ImageWriter() = default;
@@ -232,6 +227,8 @@ void ImageWriter::finish() {
   state_->check(true);
   state_->check_finished();
 }
+
+const fs::path& ImageWriter::finished_file() const noexcept { return state_->unfinished; }
 
 void ImageWriter::commit() {
   commit_file(state_->unfinished, state_->path);

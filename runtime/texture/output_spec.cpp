@@ -123,6 +123,27 @@ void suit_format(OIIO::ImageSpec& spec, std::string_view format) {
   if (format == "targa") suit_targa(spec);
 }
 
+// Tags the colors of a new file. One that stores them as the file that it follows keeps that file's tag.
+// glTF and most readers take the colors of PNG for sRGB and ignore its gamma, so data has no tag, and linear
+// colors have one only because they were asked for.
+void tag_colors(OIIO::ImageSpec& spec, std::string_view format, PixelType type, bool follows,
+                const ImageChanges& changes, Metadata& metadata) {
+  const auto forget = [&spec] {
+    for (const char* name : {"oiio:ColorSpace", "oiio:Gamma", "Exif:ColorSpace"}) spec.erase_attribute(name);
+  };
+  if (!changes.colors) {
+    if (!follows) forget();
+    return;
+  }
+  const Transfer transfer = changes.colors->of(type);
+  if (follows && (!is_integer(type) || transfer == changes.colors->followed)) return;
+  forget();
+  spec.attribute("oiio:ColorSpace", transfer == Transfer::kSrgb ? "sRGB" : "Linear");
+  const bool is_usual = transfer == usual_color_transfer(type);
+  if (!is_usual && format != "png")
+    metadata.emplace_back(kNotedColorSpace, std::string(name_of(kTransfers, transfer)));
+}
+
 void note_metadata(OIIO::ImageSpec& spec, std::string_view format, const Metadata& metadata) {
   std::string all;
   for (const auto& [name, value] : metadata) {
@@ -160,14 +181,13 @@ OIIO::ImageSpec output_spec(const OIIO::ImageSpec& model, const std::string& mod
   if (!is_mixed && type_desc(*stored) != model.format) spec.erase_attribute("oiio:BitsPerSample");
   if (!is_mixed) spec.set_format(type_desc(*stored));
 
-  // Integers may have a transfer curve; floats are linear.
-  const bool loses_curve = !is_mixed && is_integer(pixel_type(model.format)) && !is_integer(*stored);
-  if (changes.transfer)
-    spec.attribute("oiio:ColorSpace", *changes.transfer == Transfer::kSrgb ? "sRGB" : "Linear");
-  if (loses_curve) spec.attribute("oiio:ColorSpace", "Linear");
+  const bool follows = format == model_format && !changes.channels &&
+                       (is_mixed || is_integer(pixel_type(model.format)) == is_integer(*stored));
+  Metadata metadata = changes.metadata;
+  tag_colors(spec, format, *stored, follows, changes, metadata);
   if (format != model_format) leave_coding_behind(spec, output);
   suit_format(spec, format);
-  note_metadata(spec, format, changes.metadata);
+  note_metadata(spec, format, metadata);
   return spec;
 }
 

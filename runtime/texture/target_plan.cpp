@@ -117,20 +117,21 @@ const SetParameter* model_of(const TextureSet& set, Parameter parameter) {
   return nullptr;
 }
 
-// The curve of a color: that of the map that it follows; sRGB for a color that is made from other parameters
-// and follows no map.
-Transfer color_transfer(const TextureSet& set, Parameter parameter) {
-  if (const SetParameter* model = model_of(set, parameter)) return model->transfer;
-  return set.parameters.count(parameter) > 0 ? Transfer::kLinear : Transfer::kSrgb;
+// Colors in whole numbers follow the map that they are made from.
+ColorStorage color_storage(const TextureSet& set, Parameter parameter, const TargetChoice& choice) {
+  ColorStorage storage;
+  if (const auto chosen = choice.color_transfers.find(parameter); chosen != choice.color_transfers.end())
+    storage.chosen = chosen->second;
+  if (const SetParameter* model = model_of(set, parameter); model != nullptr && model->is_whole_numbers)
+    storage.followed = model->transfer;
+  return storage;
 }
 
 // A new map, for a parameter that is a constant in the set or is in another file there.
 PlannedMap new_map(const std::string& name, const std::vector<std::string>& channel_names,
                    std::vector<TargetChannel> channels, const TextureSet& set, const TargetChoice& choice) {
   TargetPart part{set.first_map(), changes_of(choice), std::move(channels)};
-  const std::optional<Parameter> color = color_of(part.channels);
   part.changes.channels = channel_names;
-  part.changes.transfer = color ? color_transfer(set, *color) : Transfer::kLinear;
   return {choice.folder / own_name(name, channel_names.size() == 1, set, choice), {part}};
 }
 
@@ -347,7 +348,8 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
   }
   for (PlannedMap& map : plan.maps)
     for (TargetPart& part : map.parts)
-      if (const auto color = color_of(part.channels)) part.color_transfer = color_transfer(set, *color);
+      if (const auto color = color_of(part.channels))
+        part.changes.colors = color_storage(set, *color, choice);
   for (const CopiedFile& file : choice.copies) {
     const bool keeps_name = file.name.empty() || choice.layout == Layout::kAsInputs;
     const std::string name =

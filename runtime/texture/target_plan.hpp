@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,8 +65,9 @@ struct DiagnosisMap {
 struct TargetChoice {
   std::filesystem::path folder;
   std::vector<Parameter> parameters = {Parameter::kWidth, Parameter::kSpecular};  // to write
-  std::string width_name = "roughness";  // name of a separate roughness file
-  bool colors_stay_grey = true;          // colors that are grey in the set stay grey in a separate file
+  std::string width_name = "roughness";           // name of a separate roughness file
+  std::map<Parameter, Transfer> color_transfers;  // chosen by the user
+  bool colors_stay_grey = true;  // colors that are grey in the set stay grey in a separate file
   std::vector<DiagnosisMap> diagnoses;
   std::string extension;          // of all files; empty for those of the inputs
   std::optional<PixelType> type;  // of all files

@@ -301,8 +301,7 @@ void Pass::add_target(const Target& target, const ConvertedChannel& channel, con
   const std::size_t place = is_copy ? parameter.channels.size() : channel.index;
   parameter.channels.resize(std::max(parameter.channels.size(), place + 1));
   parameter.channels[place] = view;
-  // Only integers have a curve.
-  if (is_color(channel.parameter) && is_integer(view.type)) parameter.transfer = target.part->color_transfer;
+  if (is_color(channel.parameter)) parameter.transfer = target.part->changes.colors->of(view.type);
 }
 
 MapConversion Pass::sources_of(const Band& band) const {
@@ -401,7 +400,10 @@ MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
     }
   }
   for (TargetMap& target : targets) target.writer.finish();
-  for (TargetMap& target : targets) target.writer.commit();
+  if (options.commit)
+    options.commit(targets);
+  else
+    for (TargetMap& target : targets) target.writer.commit();
   return statistics;
 }
 

@@ -31,8 +31,7 @@ inline bool is_converted(const TargetChannel& channel) noexcept { return channel
 struct TargetPart {
   std::size_t model = 0;  // index of the map of the set that the part follows
   ImageChanges changes;
-  std::vector<TargetChannel> channels;          // all channels of the part
-  Transfer color_transfer = Transfer::kLinear;  // of the converted colors, where the file holds integers
+  std::vector<TargetChannel> channels;  // all channels of the part
 };
 
 // One result file.
@@ -50,6 +49,8 @@ struct PassOptions : MapTreatment {
   // twice. The converter must be able to diagnose.
   bool smooth_metallic = false;
   std::function<void(double share_done)> progress;
+  // Gives the finished files their names; by default by ImageWriter::commit() of each.
+  std::function<void(std::vector<TargetMap>& finished)> commit;
   const std::atomic<bool>* cancelled = nullptr;  // checked between bands
 };
 

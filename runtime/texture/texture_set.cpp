@@ -200,18 +200,20 @@ std::vector<ChannelPlace> find_channels(const MapName& name, const std::string& 
                                      "FILE:PART.R,PART.G,PART.B)");
 }
 
-// Integer color follows the curve that its file is tagged with. A single channel is data, except that grey
-// diffuse and base color are colors.
-Transfer guessed_transfer(const TextureSet& set, const SetParameter& parameter, bool grey_is_color) {
-  const ChannelPlace first = parameter.channels.front();
+// The user's word comes before the tag of the file, which speaks of whole numbers alone.
+void choose_transfer(const TextureSet& set, std::optional<Transfer> asked, SetParameter& color) {
+  const ChannelPlace first = color.channels.front();
   const ImageLayout& layout = set.maps[first.map].layout();
-  const bool is_color =
-      (parameter.channels.size() == 3 || grey_is_color) && is_integer(layout.channels[first.channel].type);
-  return is_color && layout.is_tagged_nonlinear ? Transfer::kSrgb : Transfer::kLinear;
+  const PixelType type = layout.channels[first.channel].type;
+  color.is_whole_numbers = is_integer(type);
+  const std::optional<Transfer> tagged = color.is_whole_numbers ? layout.tagged_transfer : std::nullopt;
+  color.transfer = asked.value_or(tagged.value_or(usual_color_transfer(type)));
+  color.transfer_reason = asked    ? TransferReason::kUser
+                          : tagged ? TransferReason::kFile
+                                   : TransferReason::kUsual;
 }
 
-SetParameter open_parameter(const ParameterRequest& request, const std::string& expected, TextureSet& set,
-                            bool grey_is_color = false) {
+SetParameter open_parameter(const ParameterRequest& request, const std::string& expected, TextureSet& set) {
   SetParameter parameter;
   parameter.factors = request.factors;
   if (const auto* constants = std::get_if<ConstantValues>(&request.source)) {
@@ -219,8 +221,6 @@ SetParameter open_parameter(const ParameterRequest& request, const std::string& 
     return parameter;
   }
   parameter.channels = find_channels(std::get<MapName>(request.source), expected, set);
-  parameter.transfer = request.transfer.value_or(guessed_transfer(set, parameter, grey_is_color));
-  parameter.transfer_is_guessed = !request.transfer;
   return parameter;
 }
 
@@ -305,10 +305,8 @@ TextureSet open_texture_set(const TextureSetRequest& request) {
   for (const auto& [parameter, asked] : request.parameters) {
     const bool color = is_color(parameter);
     SetParameter opened =
-        open_parameter(asked, color ? "R, G and B, or one channel" : "one channel, Y, or R, G and B", set,
-                       parameter == Parameter::kDiffuse || parameter == Parameter::kBaseColor);
-    if (!color && !asked.transfer)
-      opened.transfer = Transfer::kLinear;  // data, even if the file is tagged as color
+        open_parameter(asked, color ? "R, G and B, or one channel" : "one channel, Y, or R, G and B", set);
+    if (color && opened.is_map()) choose_transfer(set, asked.transfer, opened);
     if (!color && !opened.is_map() && opened.constants.size() != 1)
       throw Error(ErrorKind::kUsage, parameter_option(parameter) + ": has three values (give one)");
     require_factors(parameter_option(parameter) + "-factor", opened);
@@ -342,11 +340,6 @@ std::vector<std::string> remarks(const TextureSet& set) {
   for (const ImageReader& map : set.maps)
     if (map.is_resampled())
       messages.push_back(map.path().string() + ": resampled to " + window_text(map.layout()));
-  for (const auto& [parameter, values] : set.parameters)
-    if (values.transfer == Transfer::kSrgb && values.transfer_is_guessed)
-      messages.push_back(set.maps[values.channels.front().map].path().string() + ": " +
-                         std::string(parameter_name(parameter)) +
-                         " is read as sRGB color (--color-space linear reads it as data)");
   return messages;
 }
 

@@ -31,7 +31,7 @@ struct MapName {
 struct ParameterRequest {
   std::variant<MapName, ConstantValues> source;
   std::vector<float> factors;        // of the linear values: none, one, or one per channel
-  std::optional<Transfer> transfer;  // of the stored values; by default as the file says
+  std::optional<Transfer> transfer;  // of a color; by default as the file says, else the usual one
 };
 
 // Parses the value of an option: `0.5` and `0.9,0.6,0.2` are constants; `maps.png:G` and `maps.exr:R,G,B`
@@ -62,11 +62,19 @@ struct ChannelPlace {
   bool operator==(const ChannelPlace&) const = default;
 };
 
+// Who decided the transfer curve of a color.
+enum class TransferReason {
+  kUsual,  // nobody: usual_color_transfer()
+  kFile,
+  kUser,
+};
+
 // One parameter of an open set.
 struct SetParameter : ParameterValues {
   // Empty for a constant. Several channels of a parameter other than a color are equal.
   std::vector<ChannelPlace> channels;
-  bool transfer_is_guessed = false;
+  TransferReason transfer_reason = TransferReason::kUsual;
+  bool is_whole_numbers = false;  // the file holds integers
 
   bool is_map() const noexcept { return !channels.empty(); }
   std::size_t channel_count() const noexcept { return is_map() ? channels.size() : constants.size(); }

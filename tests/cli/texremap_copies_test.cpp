@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cli/texremap_session.hpp"
+#include "cli/texremap_tree.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -101,7 +101,7 @@ TEST_CASE("texremap copies: a tree with all maps is copied, resumed, and never o
   const auto states = [&] {
     const ProcessResult result = convert(session, resumed);
     require_success(result);
-    const nlohmann::json report = nlohmann::json::parse(result.output);
+    const nlohmann::json report = tree_report(result.output);
     return report.at("sets").at(0).at("state").get<std::string>() + ", " +
            report.at("sets").at(1).at("state").get<std::string>();
   };

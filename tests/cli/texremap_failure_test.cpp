@@ -52,7 +52,7 @@ void check_others_whole(const Tree& tree, const ProcessResult& result, const std
   INFO(result.errors);
   CHECK(result.exit_code == 1);
   CHECK(result.signal == 0);
-  const auto sets = nlohmann::json::parse(result.output)["sets"];
+  const auto sets = tree_report(result.output)["sets"];
   REQUIRE(sets.size() == 3);
   CHECK(sets[0]["state"] == "converted");
   CHECK(sets[1]["state"] == "failed");

@@ -50,12 +50,18 @@ void check_converted(const TestImage& roughness, const TestImage& specular, cons
                      const TestImage& specular_out) {
   for (int y = 0; y < specular.spec.height; ++y) {
     for (int x = 0; x < specular.spec.width; ++x) {
-      const std::array<float, 4> expected = converted_texel(
-          roughness.at(x, y, 0), {specular.at(x, y, 0), specular.at(x, y, 1), specular.at(x, y, 2)});
-      REQUIRE(roughness_out.at(x, y, 0) == as_stored(expected[0], roughness_out.spec.format));
-      for (int c = 0; c < 3; ++c)
-        REQUIRE(specular_out.at(x, y, c) ==
-                as_stored(expected[static_cast<std::size_t>(c) + 1], specular_out.spec.format));
+      const auto read = [&](int c) { return color_read(specular.at(x, y, c), specular.spec.format); };
+      const std::array<float, 4> expected =
+          converted_texel(roughness.at(x, y, 0), {read(0), read(1), read(2)});
+      REQUIRE(roughness_out.at(x, y, 0) ==
+              Approx(as_stored(expected[0], roughness_out.spec.format)).margin(1e-4));
+      for (int c = 0; c < 3; ++c) {
+        INFO(x << " " << y << " " << c << ": " << specular.at(x, y, c) << " to " << specular_out.at(x, y, c)
+               << ", expected "
+               << linear_to_srgb(static_cast<double>(expected[static_cast<std::size_t>(c) + 1])));
+        REQUIRE(is_color_stored(specular_out.at(x, y, c), expected[static_cast<std::size_t>(c) + 1],
+                                specular_out.spec.format));
+      }
     }
   }
 }
@@ -92,7 +98,7 @@ TEST_CASE("texremap: every format keeps its storage and all unconverted channels
     write_image(session.path(r), spec_of(format, {"Y"}), noise);
     write_image(session.path(s), spec_of(format, format.channels),
                 [](int x, int y, int c) { return noise(x, y, c + 1); });
-    const ProcessResult result = session.convert(r, s, {"--color-space", "linear"});
+    const ProcessResult result = session.convert(r, s);
     INFO(result.errors);
     REQUIRE(result.exit_code == 0);
     const TestImage roughness = read_image(session.path(r)), specular = read_image(session.path(s));
@@ -111,6 +117,7 @@ TEST_CASE("texremap: metadata records the conversion") {
   session.write_pair("exr");
   REQUIRE(session.convert("r.exr", "s.exr", {"--format", GENERATE("exr", "png")}).exit_code == 0);
   for (const auto& entry : fs::directory_iterator(session.path("out"))) {
+    if (entry.path().filename() == kJournal) continue;
     const OIIO::ImageSpec spec = read_image(entry.path()).spec;
     CHECK(spec.get_string_attribute("remap:converter") == "mitsuba_ward_to_mitsuba_as");
     CHECK(spec.get_string_attribute("remap:source") == "mitsuba/ward");
@@ -128,7 +135,7 @@ TEST_CASE("texremap: the tag Software records the conversion in formats without 
   CHECK_THAT(
       std::string(spec.get_string_attribute("Software")),
       Catch::Matchers::StartsWith("remap:converter=mitsuba_ward_to_mitsuba_as; remap:source=mitsuba/ward; "
-                                  "remap:target=mitsuba/as; remap:version=" REMAP_VERSION "; remap:inputs="));
+                                  "remap:target=mitsuba/as; remap:version=" REMAP_VERSION));
 }
 
 TEST_CASE("texremap: Exif in a TIFF survives") {
@@ -247,7 +254,7 @@ TEST_CASE("texremap: a JPEG stays one, with a warning") {
   session.write_pair("jpg", 64, OIIO::TypeUInt8);
   const ProcessResult result = session.convert("r.jpg", "s.jpg");
   REQUIRE(result.exit_code == 0);
-  CHECK_THAT(result.errors, Contains("jpeg compression changes values") && Contains("read as sRGB color"));
+  CHECK_THAT(result.errors, Contains("jpeg compression changes values") && Contains("specular read as srgb"));
   const TestImage in = read_image(session.path("r.jpg")), color = read_image(session.path("s.jpg")),
                   out = read_image(session.path("out/r.jpg"));
   const auto linear = [](float stored) {  // IEC 61966-2-1
@@ -280,8 +287,8 @@ TEST_CASE("texremap: a taken roughness map with a constant specular", "[needs][s
       const std::array<float, 4> expected = converted_texel(in.at(x, y, 0), {0.9f, 0.6f, 0.2f});
       REQUIRE(out.at(x, y, 0) == as_stored(expected[0], OIIO::TypeUInt16));
       for (int c = 0; c < 3; ++c)
-        REQUIRE(specular.at(x, y, c) ==
-                as_stored(expected[static_cast<std::size_t>(c) + 1], OIIO::TypeUInt16));
+        REQUIRE(is_color_stored(specular.at(x, y, c), expected[static_cast<std::size_t>(c) + 1],
+                                OIIO::TypeUInt16));
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Imath/half.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -18,6 +19,9 @@
 #include "system/files.hpp"
 
 namespace remap {
+
+// Beside the results of a run.
+inline constexpr const char* kJournal = ".texremap.jsonl";
 
 class Session {
  public:
@@ -43,7 +47,7 @@ class Session {
     write_image(path("r." + extension), test_spec(size, size, {"Y"}, type), noise);
     write_image(path("s." + extension), test_spec(size, size, {"R", "G", "B"}, type), noise);
   }
-  // The number of files in `out`, without and with hidden ones.
+  // The number of files in `out` besides the journal, without and with hidden ones.
   std::size_t result_count() const { return count(false); }
   std::size_t file_count() const { return count(true); }
 
@@ -52,7 +56,8 @@ class Session {
     std::size_t files = 0;
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(path("out"), none))
-      files += hidden_too || entry.path().filename().string().front() != '.';
+      files += entry.path().filename() != kJournal &&
+               (hidden_too || entry.path().filename().string().front() != '.');
     return files;
   }
   TemporaryFolder folder_;
@@ -82,6 +87,27 @@ inline float as_stored(float value, OIIO::TypeDesc type) {
   if (type == OIIO::TypeUInt16) return whole(65535.0);
   if (type == OIIO::TypeHalf) return static_cast<float>(Imath::half(value));
   return value;
+}
+
+inline bool is_whole(OIIO::TypeDesc type) { return type == OIIO::TypeUInt8 || type == OIIO::TypeUInt16; }
+
+// IEC 61966-2-1, in doubles and apart from the code under test.
+inline double srgb_to_linear(double stored) {
+  return stored <= 0.04045 ? stored / 12.92 : std::pow((stored + 0.055) / 1.055, 2.4);
+}
+inline double linear_to_srgb(double value) {
+  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+}
+// The linear value of a color: whole numbers are sRGB.
+inline float color_read(float stored, OIIO::TypeDesc type) {
+  return is_whole(type) ? static_cast<float>(srgb_to_linear(static_cast<double>(stored))) : stored;
+}
+// Whether `stored` is the color `value` to half a step, and what floats leave open of 16 bits.
+inline bool is_color_stored(float stored, float value, OIIO::TypeDesc type) {
+  if (!is_whole(type)) return stored == as_stored(value, type);
+  const double step = 1.0 / (type == OIIO::TypeUInt8 ? 255.0 : 65535.0);
+  const double expected = std::clamp(linear_to_srgb(static_cast<double>(value)), 0.0, 1.0);
+  return std::fabs(static_cast<double>(stored) - expected) <= (type == OIIO::TypeUInt8 ? 0.51 : 0.6) * step;
 }
 
 }  // namespace remap

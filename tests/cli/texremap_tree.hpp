@@ -3,12 +3,32 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
 
 namespace remap {
+
+// The lines of a folder's report as one object: the sets by name, what was left out, the conversion and the
+// summary.
+inline nlohmann::json tree_report(const std::string& output) {
+  nlohmann::json report = {{"sets", nlohmann::json::array()}, {"left_out", nlohmann::json::array()}};
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);) {
+    const auto json = nlohmann::json::parse(line);
+    if (json.contains("set")) report["sets"].push_back(json["set"]);
+    if (json.contains("left_out")) report["left_out"].push_back(json["left_out"]);
+    for (const char* name : {"conversion", "summary"})
+      if (json.contains(name)) report[name] = json[name];
+  }
+  auto& sets = report["sets"];
+  std::sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a["name"] < b["name"]; });
+  return report;
+}
 
 inline constexpr int kTreeMapSize = 24;
 
@@ -26,12 +46,12 @@ class Tree : public Session {
     words.insert(words.end(), more.begin(), more.end());
     return texremap(words, limits);
   }
-  // Every file below `out`, relative to it.
+  // Every file below `out` besides the journal, relative to it.
   std::vector<std::string> results() const {
     std::vector<std::string> names;
     std::error_code none;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path("out"), none))
-      if (entry.is_regular_file())
+      if (entry.is_regular_file() && entry.path().filename() != kJournal)
         names.push_back(std::filesystem::relative(entry.path(), path("out")).string());
     std::sort(names.begin(), names.end());
     return names;

@@ -37,7 +37,7 @@ TEST_CASE("texremap tree: sets of every habit are converted by the meaning of th
   const ProcessResult flat = tree.convert_tree({"--specular", "0.04", "--dry-run", "--json"});
   INFO(flat.errors);
   REQUIRE(flat.exit_code == 0);
-  CHECK(nlohmann::json::parse(flat.output)["sets"].size() == 1);
+  CHECK(tree_report(flat.output)["sets"].size() == 1);
   CHECK(tree.results().empty());
 
   const ProcessResult result = tree.convert_tree({"--recursive", "--specular", "0.04", "--json"});
@@ -48,7 +48,7 @@ TEST_CASE("texremap tree: sets of every habit are converted by the meaning of th
               "gltf/lamp_specular.png", "hero_Roughness.png", "hero_Specular.png", "quixel/abc_4K_Gloss.tga",
               "quixel/abc_4K_Specular.tga", "stone/Stone 012_2K-PNG_Roughness.png",
               "stone/Stone 012_specular.png", "wood/planks_rough_4k.png", "wood/planks_spec_4k.png"});
-  const auto json = nlohmann::json::parse(result.output);
+  const auto json = tree_report(result.output);
   REQUIRE(json["sets"].size() == 6);
   for (const auto& set : json["sets"]) {
     CHECK(set["state"] == "converted");
@@ -85,7 +85,7 @@ TEST_CASE("texremap tree: a failed set does not stop the others and makes the ex
   const ProcessResult result = tree.convert_tree({"--json"});
   CHECK(result.exit_code == 1);
   CHECK(tree.results() == Names{"a_rough.png", "a_spec.png"});
-  const auto json = nlohmann::json::parse(result.output);
+  const auto json = tree_report(result.output);
   REQUIRE(json["sets"].size() == 3);
   CHECK(json["sets"][0]["state"] == "converted");
   CHECK_THAT(json["sets"][1]["failure"].get<std::string>(), Contains("size 48x48 does not match "));
@@ -134,7 +134,7 @@ TEST_CASE("texremap tree: the tiles of a set are one set", "[slow]") {
   }
   const ProcessResult found = tree.convert_tree({"--json"});
   CHECK(found.exit_code == 1);
-  const auto json = nlohmann::json::parse(found.output);
+  const auto json = tree_report(found.output);
   REQUIRE(json["sets"].size() == 1);
   CHECK(json["sets"][0]["tiles"] == Names{"1001", "1002"});
   CHECK(json["sets"][0]["texels"] == 2 * kSize * kSize);
@@ -148,7 +148,7 @@ TEST_CASE("texremap tree: the tiles of a set are one set", "[slow]") {
                                              "--specular", "0.04", "--json", "-o", tree.path("named")});
   INFO(named.errors);
   REQUIRE(named.exit_code == 0);
-  CHECK(nlohmann::json::parse(named.output)["sets"][0]["tiles"] == Names{"1001", "1002", "1011"});
+  CHECK(tree_report(named.output)["sets"][0]["tiles"] == Names{"1001", "1002", "1011"});
   CHECK(fs::exists(tree.path("named/hero_Roughness.1011.exr")));
   CHECK(fs::exists(tree.path("named/specular.1011.exr")));
   const ProcessResult missing =
@@ -171,7 +171,7 @@ TEST_CASE("texremap tree: six tiles of a real UDIM set", "[needs]") {
                      "--json", "-o", tree.path("out")});
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
-  CHECK(nlohmann::json::parse(result.output)["sets"][0]["tiles"].size() == 6);
+  CHECK(tree_report(result.output)["sets"][0]["tiles"].size() == 6);
   CHECK(tree.results().size() == 6);
 }
 
@@ -223,7 +223,7 @@ TEST_CASE("texremap tree: --resume makes only missing and changed sets", "[slow]
     words.insert(words.end(), more.begin(), more.end());
     const ProcessResult result = tree.convert_tree(words);
     std::string letters;  // c: converted, d: done before, f: failed
-    const auto json = nlohmann::json::parse(result.output);
+    const auto json = tree_report(result.output);
     for (const auto& set : json["sets"]) letters += set["state"].get<std::string>().front();
     return letters;
   };
@@ -231,17 +231,19 @@ TEST_CASE("texremap tree: --resume makes only missing and changed sets", "[slow]
   CHECK(states({}) == "dddd");
   fs::remove(tree.path(named("out/b_spec")));
   CHECK(states({}) == "dcdd");
-  // A changed input, another option, and a foreign file.
+  // A faulty and a changed input, a damaged result.
   tree.map(named("in/c_rough"), kColor);
   CHECK(states({}) == "ddfd");
   write_image(tree.path(named("in/c_rough")), test_spec(kSize, kSize, kGrey, OIIO::TypeUInt8),
               [](int, int, int) { return 0.5f; });
-  CHECK(states({}) == "ddfd");
-  CHECK(states({"--force"}) == "ddcd");
-  CHECK(states({"--specular-factor", "0.5"}) == "ffff");
-  std::ofstream(tree.path(named("out/d_spec"))) << "precious";
-  CHECK(states({}) == "dddf");
-  CHECK(read_file(tree.path(named("out/d_spec"))) == "precious");
+  CHECK(states({}) == "ddcd");
+  CHECK(states({}) == "dddd");
+  fs::resize_file(tree.path(named("out/d_spec")), fs::file_size(tree.path(named("out/d_spec"))) / 2);
+  CHECK(states({}) == "dddc");
+  // A file that no run wrote stays.
+  fs::remove(tree.path("out/" + std::string(kJournal)));
+  CHECK(states({}) == "ffff");
+  CHECK(states({"--force"}) == "cccc");
 }
 
 TEST_CASE("texremap tree: a killed run leaves complete files, and --resume ends like an unbroken run",
@@ -284,7 +286,7 @@ TEST_CASE("texremap tree: names with spaces, Unicode and line breaks; circular l
   const ProcessResult result = tree.convert_tree({"--recursive", "--json"});
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
-  CHECK(nlohmann::json::parse(result.output)["sets"].size() == 1);
+  CHECK(tree_report(result.output)["sets"].size() == 1);
   CHECK(tree.results() == Names{odd.substr(3) + "_rough.png", odd.substr(3) + "_spec.png"});
   // A message is one line even if a name has a line break.
   for (std::size_t begin = 0; begin < result.errors.size();) {

@@ -147,7 +147,9 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
   const Session session;
   write_specular(session);
   std::vector<std::string> words = specular_words(session, "mitsuba/ward", "gltf");
-  require_success(convert(session, with(words, {"--from-workflow", "specular", "--layout", "orm"})));
+  const ProcessResult result =
+      convert(session, with(words, {"--from-workflow", "specular", "--layout", "orm"}));
+  require_success(result);
   const TestImage d = read_image(session.path("d.exr")), s = read_image(session.path("s.exr")),
                   r = read_image(session.path("r.exr")),
                   base = read_image(session.path("out/base_color.exr")),
@@ -156,11 +158,15 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
   WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
   conversion.specular.width = conversion.metallic.width = RoughnessConvention::kAlpha;
   conversion.metallic.diffuse = DiffuseConvention::kScaled;
+  // The layer over Ward leaves its diffuse open and takes the meaning that glTF has: the reflectance comes
+  // first.
+  CHECK_THAT(result.errors, Contains("diffuse of mitsuba/ward is assumed to be scaled, as in gltf"));
   for (int y = 0; y < kSize; y += 3)
     for (int x = 0; x < kSize; ++x) {
       const float alpha = r.at(x, y, 0);
       const std::array<float, 3> given = {s.at(x, y, 0), s.at(x, y, 1), s.at(x, y, 2)};
-      SpecularMaterial material{{d.at(x, y, 0), d.at(x, y, 1), d.at(x, y, 2)}, {}, 0.0f};
+      const float left = 1.0f - std::clamp(*std::max_element(given.begin(), given.end()), 0.0f, 1.0f);
+      SpecularMaterial material{{d.at(x, y, 0) * left, d.at(x, y, 1) * left, d.at(x, y, 2) * left}, {}, 0.0f};
       const std::array<const float*, 3> in = {&given[0], &given[1], &given[2]};
       const std::array<float*, 3> out = {&material.specular[0], &material.specular[1], &material.specular[2]};
       brdf.convert(1, &alpha, in, &material.width, out);
@@ -303,7 +309,7 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
   write_specular(session, 8.0f);
   warned(words, "texels reflect more than 1; clamped to 1");
   write_specular(session);
-  warned(words, "diffuse of specular is assumed to be plain (--diffuse-convention scaled");
+  warned(words, "diffuse of specular and metallic is assumed to be plain (--diffuse-convention scaled");
   warned(words, "dielectric F0 estimated from the maps: 0.04");
   write_metallic(session);
   write_colors(session, "b.exr", [](int, int, int) { return 0.0f; });
@@ -345,7 +351,8 @@ TEST_CASE("texremap workflows: contradicting options are refused, and nothing is
   refused(with(specular, {"--from-workflow", "metallic"}), "specular has the specular workflow");
   refused(with(specular, {"--formula", "projektion"}),
           "--formula: unknown formula 'projektion' (did you mean projection?)");
-  refused(with(specular, {"--formula", "khronos"}), "Khronos' solver requires", 1);
+  refused(with(specular, {"--formula", "khronos", "--diffuse-convention", "plain"}),
+          "Khronos' solver requires", 1);
   refused(with(specular, {"--dielectric-f0", "2"}),
           "--dielectric-f0: invalid value '2' (use 0 to 0.9, or estimate)");
   refused(with(specular, {"--diffuse-convention", "plane"}),

@@ -7,6 +7,7 @@
 
 #include "remap/convention.hpp"
 #include "remap/named_values.hpp"
+#include "remap/pixel_type.hpp"
 
 namespace remap {
 
@@ -17,6 +18,12 @@ enum class Transfer {
 };
 inline constexpr NamedValues<Transfer, 2> kTransfers = {
     {{Transfer::kLinear, "linear"}, {Transfer::kSrgb, "srgb"}}};
+
+// How colors (base color, diffuse, specular) are stored unless a file or a user says otherwise: whole numbers
+// in sRGB, floating-point numbers linear. Other parameters are data, which no curve applies to.
+inline Transfer usual_color_transfer(PixelType type) noexcept {
+  return is_integer(type) ? Transfer::kSrgb : Transfer::kLinear;
+}
 
 // The linear values of a parameter, as far as a map does not hold them.
 struct ParameterValues {

@@ -126,7 +126,7 @@ TEST_CASE("texture set: maps of different size are refused with both sizes") {
                     Contains("size 8x6 does not match") && Contains("(4x3)"));
 }
 
-TEST_CASE("texture set: integer color tagged sRGB is read as sRGB, with a remark") {
+TEST_CASE("texture set: colors in whole numbers are read as sRGB, unless the file says linear") {
   const Files files;
   auto spec = test_spec(4, 3, {"R", "G", "B"}, OIIO::TypeUInt8);
   const auto png = files.folder.path() / "s.png";
@@ -135,10 +135,21 @@ TEST_CASE("texture set: integer color tagged sRGB is read as sRGB, with a remark
   const auto roughness = files.image("r.exr", {"Y"});
   const TextureSet tagged = opened(MapName{roughness, {}}, MapName{png, {}});
   CHECK(tagged.parameters.at(Parameter::kSpecular).transfer == Transfer::kSrgb);
-  REQUIRE(remarks(tagged).size() == 1);
-  CHECK_THAT(remarks(tagged).front(), Contains("is read as sRGB color"));
-  // A single channel is data, and so are floats and every roughness.
+  CHECK(tagged.parameters.at(Parameter::kSpecular).transfer_reason == TransferReason::kFile);
+  // The role decides, not the number of channels; a roughness is data.
   CHECK(opened(MapName{roughness, {}}, MapName{png, {"G"}}).parameters.at(Parameter::kSpecular).transfer ==
+        Transfer::kSrgb);
+  for (const std::string extension : {"png", "tga", "tif", "bmp", "jpg"}) {
+    const auto plain = files.folder.path() / ("plain." + extension);
+    write_image(plain, test_spec(4, 3, {"R", "G", "B"}, OIIO::TypeUInt8), noise);
+    const auto set = opened(MapName{roughness, {}}, MapName{plain, {}});
+    CHECK(set.parameters.at(Parameter::kSpecular).transfer == Transfer::kSrgb);
+    CHECK(set.parameters.at(Parameter::kSpecular).transfer_reason == TransferReason::kUsual);
+  }
+  spec.attribute("oiio:ColorSpace", "Linear");
+  const auto linear = files.folder.path() / "linear.png";
+  write_image(linear, spec, noise);
+  CHECK(opened(MapName{roughness, {}}, MapName{linear, {}}).parameters.at(Parameter::kSpecular).transfer ==
         Transfer::kLinear);
   CHECK(opened(MapName{png, {}}, kGrey).parameters.at(Parameter::kWidth).transfer == Transfer::kLinear);
   CHECK(remarks(opened(MapName{roughness, {}}, MapName{files.image("s.exr", {"R", "G", "B"}), {}})).empty());

@@ -1,0 +1,333 @@
+#include "texremap/journal.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <set>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "remap/error.hpp"
+#include "system/files.hpp"
+#include "texture/content_hash.hpp"
+
+namespace remap {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A journal line is far shorter; more is damage.
+constexpr std::size_t kLongestLine = std::size_t{16} << 20;
+
+struct Entry {
+  std::string conversion, inputs, target;
+  bool is_finished = false;
+  std::uintmax_t bytes = 0;
+  std::string hash;
+};
+
+// A name as the journal writes it. Names that are not UTF-8, which JSON cannot hold, have % and two digits
+// for each byte that is not ASCII.
+std::string journal_name(const fs::path& path, const fs::path& folder) {
+  const std::string name = path.lexically_relative(folder).generic_string();
+  try {
+    (void)Json(name).dump();
+    return name;
+  } catch (const nlohmann::json::exception&) {
+    constexpr const char* kDigits = "0123456789ABCDEF";
+    std::string escaped;
+    for (const char letter : name) {
+      const auto byte = static_cast<unsigned char>(letter);
+      if (byte < 0x80)
+        escaped += letter;
+      else
+        escaped += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+    }
+    return escaped;
+  }
+}
+
+// What the lines say, read anew from where reading ended.
+struct Content {
+  std::optional<ConversionNote> owner;
+  std::map<std::string, Entry> files;  // by name, the last line counts
+  std::streamoff read_bytes = 0;
+
+  void read(const fs::path& journal);
+  void add(const std::string& line);
+};
+
+ConversionNote note_of(const Json& json) {
+  ConversionNote note;
+  for (const auto& [name, value] : json.items()) {
+    const auto text = value.get<std::string>();
+    if (name == "source")
+      note.source = text;
+    else if (name == "target")
+      note.target = text;
+    else if (name == "hash")
+      note.hash = text;
+    else
+      note.details.emplace_back(name, text);
+  }
+  return note;
+}
+
+void Content::add(const std::string& line) {
+  try {
+    const Json json = Json::parse(line);
+    if (const auto conversion = json.find("conversion"); conversion != json.end() && conversion->is_object())
+      owner = note_of(*conversion);
+    if (const auto begun = json.find("begun"); begun != json.end())
+      for (const Json& name : *begun) {
+        Entry& entry = files[name.get<std::string>()];
+        entry = {};
+        entry.conversion = json.at("conversion").get<std::string>();
+      }
+    if (const auto written = json.find("files"); written != json.end())
+      for (const Json& file : *written)
+        files[file.at("name").get<std::string>()] = {
+            json.at("conversion").get<std::string>(), json.at("inputs").get<std::string>(),
+            json.at("target").get<std::string>(),     true,
+            file.at("bytes").get<std::uintmax_t>(),   file.at("hash").get<std::string>()};
+  } catch (const nlohmann::json::exception&) {
+    // A line of a killed run, or damage: what it would say is unknown.
+  }
+}
+
+void Content::read(const fs::path& journal) {
+  std::ifstream stream(journal, std::ios::binary);
+  if (!stream) return;
+  stream.seekg(read_bytes);
+  for (std::string line;
+       std::getline(stream, line) && !stream.eof();) {  // without an end, a line is not whole yet
+    read_bytes = stream.tellg();
+    if (line.size() <= kLongestLine) add(line);
+  }
+}
+
+std::string hash_of_file(const fs::path& path) {
+  ContentHash hash;
+  hash.add_file(path);
+  return hash.hex();
+}
+
+bool is_as_written(const fs::path& path, const Entry& entry) {
+  std::error_code failure;
+  if (!entry.is_finished || !fs::is_regular_file(path, failure) ||
+      fs::file_size(path, failure) != entry.bytes)
+    return false;
+  try {
+    return hash_of_file(path) == entry.hash;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// The lock of a folder while the object lives.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& folder)
+      : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    // A file system without locks leaves runs in one folder at the same time unprotected, and nothing else.
+    while (folder_ >= 0 && ::flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~FolderLock() {
+    if (folder_ >= 0) ::close(folder_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int folder_;
+};
+
+std::string details_of(const ConversionNote& note) {
+  std::string text = note.source + " to " + note.target;
+  for (const auto& [name, value] : note.details)
+    if (!value.empty()) text += ", " + name + " " + value;
+  return text;
+}
+
+// `target mitsuba/ggx instead of mitsuba/as`: the first difference.
+std::string difference(const ConversionNote& owner, const ConversionNote& own) {
+  const auto differ = [](const std::string& what, const std::string& there, const std::string& here) {
+    const auto shown = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
+    return what + " " + shown(there) + " there, " + shown(here) + " here";
+  };
+  if (owner.source != own.source) return differ("source", owner.source, own.source);
+  if (owner.target != own.target) return differ("target", owner.target, own.target);
+  const std::map<std::string, std::string> theirs(owner.details.begin(), owner.details.end());
+  for (const auto& [name, value] : own.details) {
+    const auto found = theirs.find(name);
+    if (found == theirs.end() || found->second != value)
+      return differ(name, found == theirs.end() ? "" : found->second, value);
+  }
+  return "numbers of the converter";
+}
+
+}  // namespace
+
+struct Journal::State {
+  fs::path folder, file;
+  ConversionNote conversion;
+  mutable std::mutex mutex;  // of `content` and of appending
+  Content content;
+  bool is_claimed = false;
+
+  std::string name_of(const fs::path& path) const { return journal_name(path, folder); }
+  const Entry* entry_of(const fs::path& path) const {
+    const auto found = content.files.find(name_of(path));
+    return found == content.files.end() || found->second.conversion != conversion.hash ? nullptr
+                                                                                       : &found->second;
+  }
+  void require_own() const {
+    if (!content.owner || content.owner->hash == conversion.hash) return;
+    throw Error(ErrorKind::kOutput,
+                folder.string() + ": belongs to another conversion, " + details_of(*content.owner) + " (" +
+                    difference(*content.owner, conversion) + "; choose another folder, or --force)");
+  }
+  void append(const Json& json) const;
+};
+
+// One write, so that lines of several processes do not mix.
+void Journal::State::append(const Json& json) const {
+  // File names need not be UTF-8.
+  const std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+  const int journal = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  const bool written = journal >= 0 &&
+                       ::write(journal, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
+                       ::fdatasync(journal) == 0;
+  const int failure = errno;
+  if (journal >= 0) ::close(journal);
+  if (!written)
+    throw Error(ErrorKind::kOutput, file.string() + ": cannot be written: " + std::strerror(failure));
+}
+
+Journal::Journal(fs::path folder, ConversionNote conversion) : state_(std::make_unique<State>()) {
+  state_->folder = std::move(folder);
+  state_->file = state_->folder / kJournalName;
+  state_->conversion = std::move(conversion);
+  state_->content.read(state_->file);
+}
+Journal::~Journal() = default;
+
+void Journal::require_own() const {
+  const std::lock_guard lock(state_->mutex);
+  state_->require_own();
+}
+
+void Journal::claim(bool force) {
+  const std::lock_guard lock(state_->mutex);
+  if (state_->is_claimed) return;
+  create_parent(state_->file);
+  const FolderLock folder(state_->folder);
+  state_->content.read(state_->file);
+  if (!force) state_->require_own();
+  state_->is_claimed = true;
+  const ConversionNote& own = state_->conversion;
+  if (state_->content.owner && state_->content.owner->hash == own.hash) return;
+  Json note = {{"hash", own.hash}, {"source", own.source}, {"target", own.target}};
+  for (const auto& [name, value] : own.details) note[name] = value;
+  state_->append({{"conversion", note}});
+}
+
+bool Journal::is_own(const fs::path& path) const {
+  const std::lock_guard lock(state_->mutex);
+  if (state_->entry_of(path) == nullptr) state_->content.read(state_->file);  // a run at the same time wrote it
+  return state_->entry_of(path) != nullptr;
+}
+
+bool Journal::is_done(const std::string& inputs, const std::vector<fs::path>& files) const {
+  std::vector<Entry> entries;
+  {
+    const std::lock_guard lock(state_->mutex);
+    for (const fs::path& path : files) {
+      const Entry* entry = state_->entry_of(path);
+      if (entry == nullptr || entry->inputs != inputs) return false;
+      entries.push_back(*entry);
+    }
+  }
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (!is_as_written(files[i], entries[i])) return false;
+  return true;
+}
+
+void Journal::begin(const std::vector<fs::path>& files) {
+  create_parent(state_->file);
+  Json names = Json::array();
+  for (const fs::path& path : files) names.push_back(state_->name_of(path));
+  const std::lock_guard lock(state_->mutex);
+  state_->append({{"begun", names}, {"conversion", state_->conversion.hash}});
+}
+
+void Journal::commit(const std::string& set, const std::string& inputs,
+                     const std::vector<FinishedFile>& files, bool force,
+                     const std::function<void()>& rename) {
+  Json line = {{"set", set},
+               {"inputs", inputs},
+               {"conversion", state_->conversion.hash},
+               {"source", state_->conversion.source},
+               {"target", state_->conversion.target},
+               {"files", Json::array()}};
+  for (const FinishedFile& file : files)
+    line["files"].push_back(
+        {{"name", state_->name_of(file.path)}, {"bytes", file.bytes}, {"hash", file.hash}});
+  const std::lock_guard lock(state_->mutex);
+  const FolderLock folder(state_->folder);
+  state_->content.read(state_->file);
+  if (state_->is_claimed) state_->require_own();  // another run may have taken the folder by --force
+  for (const FinishedFile& file : files) {
+    std::error_code ignored;
+    if (!force && fs::exists(file.path, ignored) && state_->entry_of(file.path) == nullptr)
+      throw Error(ErrorKind::kOutput,
+                  file.path.string() + ": another run wrote this file meanwhile (--force overwrites)");
+  }
+  rename();
+  state_->append(line);
+}
+
+struct JournalLookup::State {
+  std::mutex mutex;
+  std::map<fs::path, std::shared_ptr<const Content>> journals;  // by folder; null for none
+
+  std::shared_ptr<const Content> of(const fs::path& folder) {
+    const auto [found, is_new] = journals.try_emplace(folder);
+    std::error_code ignored;
+    if (is_new && fs::is_regular_file(folder / kJournalName, ignored)) {
+      const auto content = std::make_shared<Content>();
+      content->read(folder / kJournalName);
+      found->second = content;
+    }
+    return found->second;
+  }
+};
+
+JournalLookup::JournalLookup() : state_(std::make_unique<State>()) {}
+JournalLookup::~JournalLookup() = default;
+
+std::optional<std::string> JournalLookup::target_of(const fs::path& file) {
+  std::error_code failure;
+  const fs::path whole = fs::weakly_canonical(file, failure);
+  if (failure) return std::nullopt;
+  for (fs::path folder = whole.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+    std::optional<Entry> entry;
+    {
+      const std::lock_guard lock(state_->mutex);
+      if (const auto content = state_->of(folder)) {
+        const auto found = content->files.find(journal_name(whole, folder));
+        if (found != content->files.end()) entry = found->second;
+      }
+    }
+    if (entry && is_as_written(whole, *entry)) return entry->target;
+    if (folder == folder.parent_path()) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace remap

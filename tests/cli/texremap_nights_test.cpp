@@ -1,0 +1,270 @@
+// What a run of a folder leaves for the next one: the journal, resumed and repeated runs, runs at the same
+// time, and what a killed run has told.
+#include <csignal>
+#include <fstream>
+#include <set>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/texremap_tree.hpp"
+
+using namespace remap;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+void write_sets(const Tree& tree, int count, const std::string& extension, int size = kTreeMapSize) {
+  for (int i = 0; i < count; ++i) {
+    const std::string name = "in/s" + std::to_string(i);
+    tree.map(name + "_rough." + extension, kGrey, OIIO::TypeUInt8, size);
+    tree.map(name + "_spec." + extension, kColor, OIIO::TypeUInt8, size);
+  }
+}
+
+Words command(const Tree& tree, const std::string& target, const Words& more = {}) {
+  Words words = {"convert", tree.path("in"), "--from", "mitsuba/ward",
+                 "--to",    target,          "-o",     tree.path("out")};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+// The states of the sets, by their first letters: converted, done before, failed.
+std::string states(const Tree& tree, const Words& more, const std::string& target = "mitsuba/as") {
+  Words words = command(tree, target, {"--resume", "--json"});
+  words.insert(words.end(), more.begin(), more.end());
+  const ProcessResult result = tree.texremap(words);
+  INFO(result.errors);
+  std::string letters;
+  const auto report = tree_report(result.output);
+  for (const auto& set : report["sets"]) letters += set["state"].get<std::string>().front();
+  return letters.empty() ? result.errors : letters;
+}
+
+// The shipped converters with Ward to AS scaled: the same id, other numbers.
+void write_other_converters(const std::string& path, double scale) {
+  auto json =
+      nlohmann::ordered_json::parse(read_file(fs::path(REMAP_SOURCE_DIR) / "generated/converters.json"));
+  for (auto& converter : json["converters"]) {
+    if (converter["id"] != "mitsuba_ward_to_mitsuba_as") continue;
+    for (auto& cell : converter["specular"]["coefficients"])
+      for (auto& number : cell) number = static_cast<float>(number.get<double>() * scale);
+    for (auto& golden : converter["golden"]) golden[4] = golden[5] = 1e6;
+  }
+  write_file(path, json.dump());
+}
+
+}  // namespace
+
+TEST_CASE("texremap nights: every format is resumed, and a result that was cut is made anew", "[slow]") {
+  const Tree tree;
+  const std::string extension = GENERATE("tga", "bmp", "png", "tif", "jpg");
+  write_sets(tree, 2, extension);
+  CHECK(states(tree, {}) == "cc");
+  CHECK(states(tree, {}) == "dd");
+  const fs::path result = tree.path("out/s1_spec." + extension);
+  const std::string before = read_file(result);
+  fs::resize_file(result, before.size() / 2);
+  CHECK(states(tree, {}) == "dc");
+  CHECK(read_file(result) == before);
+  // Of the same size, with other bytes.
+  write_file(result, std::string(before.size(), 'x'));
+  CHECK(states(tree, {}) == "dc");
+  CHECK(read_file(result) == before);
+}
+
+TEST_CASE("texremap nights: --resume makes anew what changed, without --force", "[slow]") {
+  const Tree tree;
+  write_sets(tree, 2, "tga");
+  tree.map("in/s0_normal.tga", kColor);
+  CHECK(states(tree, {"--copy-others"}) == "cc");
+  write_image(tree.path("in/s1_rough.tga"), test_spec(kTreeMapSize, kTreeMapSize, kGrey, OIIO::TypeUInt8),
+              [](int, int, int) { return 0.5f; });
+  CHECK(states(tree, {"--copy-others"}) == "dc");
+  write_image(tree.path("in/s0_normal.tga"), test_spec(kTreeMapSize, kTreeMapSize, kColor, OIIO::TypeUInt8),
+              [](int, int, int) { return 0.25f; });
+  CHECK(states(tree, {"--copy-others"}) == "cd");
+  CHECK(read_file(tree.path("in/s0_normal.tga")) == read_file(tree.path("out/s0_normal.tga")));
+  CHECK(states(tree, {"--copy-others"}) == "dd");
+}
+
+TEST_CASE("texremap nights: another converter of the same name is another conversion", "[slow]") {
+  const Tree tree;
+  write_sets(tree, 1, "png");
+  write_other_converters(tree.path("c1.json"), 1.0);
+  write_other_converters(tree.path("c2.json"), 0.5);
+  CHECK(states(tree, {"--converters", tree.path("c1.json")}) == "c");
+  CHECK(states(tree, {"--converters", tree.path("c1.json")}) == "d");
+  const ProcessResult refused =
+      tree.texremap(command(tree, "mitsuba/as", {"--resume", "--converters", tree.path("c2.json")}));
+  CHECK(refused.exit_code == 1);
+  CHECK_THAT(refused.last_error(), Contains("belongs to another conversion, mitsuba/ward to mitsuba/as") &&
+                                       Contains("numbers of the converter"));
+  CHECK(states(tree, {"--converters", tree.path("c2.json"), "--force"}) == "c");
+  const std::string forced = read_file(tree.path("out/s0_spec.png"));
+  fs::remove_all(tree.path("out"));
+  CHECK(states(tree, {"--converters", tree.path("c2.json")}) == "c");
+  CHECK(read_file(tree.path("out/s0_spec.png")) == forced);
+}
+
+TEST_CASE("texremap nights: a folder of another conversion is refused and named") {
+  const Tree tree;
+  write_sets(tree, 1, "png");
+  CHECK(states(tree, {}) == "c");
+  const ProcessResult other = tree.texremap(command(tree, "mitsuba/ggx", {"--resume"}));
+  CHECK(other.exit_code == 1);
+  CHECK_THAT(other.last_error(),
+             Contains("target mitsuba/as there, mitsuba/ggx here") && Contains("--force"));
+  const ProcessResult option =
+      tree.texremap(command(tree, "mitsuba/as", {"--resume", "--specular-factor", "0.5"}));
+  CHECK(option.exit_code == 1);
+  CHECK_THAT(option.last_error(), Contains("options none there, --specular-factor 0.5 here"));
+  CHECK(states(tree, {"--force"}, "mitsuba/ggx") == "c");
+  CHECK(states(tree, {}, "mitsuba/ggx") == "d");
+}
+
+TEST_CASE("texremap nights: maps without metadata are not converted twice") {
+  const Tree tree;
+  const std::string extension = GENERATE("tga", "bmp");
+  write_sets(tree, 1, extension);
+  CHECK(states(tree, {}) == "c");
+  const Words again = {"convert", tree.path("out"), "--from", "mitsuba/ward",
+                       "--to",    "mitsuba/as",     "-o",     tree.path("twice")};
+  const ProcessResult tree_again = tree.texremap(again);
+  CHECK(tree_again.exit_code == 1);
+  CHECK_THAT(tree_again.errors, Contains("already converted to mitsuba/as"));
+  const ProcessResult single = tree.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/ggx",
+                                              "--roughness", tree.path("out/s0_rough." + extension),
+                                              "--specular", "0.04", "-o", tree.path("single")});
+  CHECK(single.exit_code == 2);
+  CHECK_THAT(single.last_error(), Contains("already converted to mitsuba/as"));
+  // A new file of the same name is not.
+  write_sets(tree, 1, extension);
+  fs::copy_file(tree.path("in/s0_rough." + extension), tree.path("out/s0_rough." + extension),
+                fs::copy_options::overwrite_existing);
+  fs::copy_file(tree.path("in/s0_spec." + extension), tree.path("out/s0_spec." + extension),
+                fs::copy_options::overwrite_existing);
+  CHECK(tree.texremap(again).exit_code == 0);
+}
+
+TEST_CASE("texremap nights: sets that are found and not converted make the exit code 1") {
+  const Tree tree;
+  for (const char* map : {"Diffuse", "Reflection", "ReflectionGlossiness"})
+    tree.map(std::string("in/deep/Robot_") + map + ".png", kColor);
+  const Words words = command(tree, "mitsuba/as", {"--recursive"});
+  const ProcessResult result = tree.texremap(words);
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.errors,
+             Contains("skipped: " + tree.path("in") + "/deep/Robot: no roughness or glossiness map"));
+  CHECK_THAT(result.errors, Contains("Robot_ReflectionGlossiness.png holds the square of glossiness"));
+  CHECK_THAT(result.last_error(), Contains("1 of 1 sets skipped") && Contains("--allow-skips"));
+  Words allowed = words;
+  allowed.push_back("--allow-skips");
+  CHECK(tree.texremap(allowed).exit_code == 0);
+}
+
+TEST_CASE("texremap nights: a killed run has told what it did", "[slow]") {
+  const Tree tree;
+  write_sets(tree, 60, "png", 256);
+  const std::string text = tree.path("lines.txt"), json = tree.path("lines.json");
+  write_file(json, "");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (std::freopen(json.c_str(), "w", stdout) == nullptr ||
+        std::freopen(text.c_str(), "w", stderr) == nullptr)
+      ::_exit(9);
+    const std::string in = tree.path("in"), out = tree.path("out");
+    ::execl(REMAP_TEXREMAP, "texremap", "convert", in.c_str(), "--from", "mitsuba/ward", "--to", "mitsuba/as",
+            "-o", out.c_str(), "--threads", "1", "--json", nullptr);
+    ::_exit(9);
+  }
+  // When the tenth line is there, the run is killed.
+  const auto lines = [](const std::string& path) {
+    const std::string content = read_file(path);
+    return std::count(content.begin(), content.end(), '\n');
+  };
+  while (lines(json) < 10 && ::waitpid(child, nullptr, WNOHANG) == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  std::set<std::string> told;
+  std::istringstream whole(read_file(json));
+  for (std::string line; std::getline(whole, line) && !whole.eof();) {
+    const auto object = nlohmann::json::parse(line);
+    if (object.contains("set")) told.insert(object["set"]["name"].get<std::string>());
+    if (object.contains("set")) CHECK_FALSE(object["set"].dump().find("histogram") != std::string::npos);
+  }
+  REQUIRE(told.size() >= 9);
+  CHECK(told.size() < 60);
+  CHECK(lines(text) >= 9);
+  for (const std::string& name : told)
+    CHECK(fs::exists(tree.path("out/" + fs::path(name).filename().string() + "_spec.png")));
+  // At most the sets that were under way are finished and not told.
+  CHECK(tree.results().size() <= 2 * (told.size() + 2));
+  CHECK(tree.texremap(command(tree, "mitsuba/as", {"--resume"})).exit_code == 0);
+}
+
+TEST_CASE("texremap nights: two runs into one folder", "[slow]") {
+  const Tree tree;
+  const int count = 40;
+  write_sets(tree, count, "png", 32);
+  const auto run_both = [&](const Words& a, const Words& b) {
+    std::array<ProcessResult, 2> results;
+    std::thread other([&] { results[1] = tree.texremap(b); });
+    results[0] = tree.texremap(a);
+    other.join();
+    return results;
+  };
+  const auto content = [&] {
+    std::map<std::string, std::string> files;
+    for (const std::string& name : tree.results()) files[name] = read_file(tree.path("out/" + name));
+    return files;
+  };
+  std::map<std::string, std::map<std::string, std::string>> alone;
+  for (const std::string target : {"mitsuba/as", "mitsuba/ggx"}) {
+    fs::remove_all(tree.path("out"));
+    require_success(tree.texremap(command(tree, target)));
+    alone[target] = content();
+  }
+  for (int round = 0; round < 5; ++round) {
+    // The same conversion: whole, equal results.
+    fs::remove_all(tree.path("out"));
+    const Words same = command(tree, "mitsuba/as", {"--resume"});
+    for (const ProcessResult& result : run_both(same, same)) require_success(result);
+    CHECK(content() == alone["mitsuba/as"]);
+    // Two conversions: one is refused, with --force the last has the folder; no set is of both.
+    for (const Words& more : {Words{}, Words{"--force"}}) {
+      fs::remove_all(tree.path("out"));
+      run_both(command(tree, "mitsuba/as", more), command(tree, "mitsuba/ggx", more));
+      const auto files = content();
+      for (int i = 0; i < count; ++i) {
+        const std::string rough = "s" + std::to_string(i) + "_rough.png",
+                          spec = "s" + std::to_string(i) + "_spec.png";
+        if (!files.contains(rough) || !files.contains(spec)) {
+          CHECK(files.contains(rough) == files.contains(spec));
+          continue;
+        }
+        const bool is_as = files.at(rough) == alone["mitsuba/as"].at(rough);
+        const auto& expected = alone[is_as ? "mitsuba/as" : "mitsuba/ggx"];
+        CHECK(files.at(rough) == expected.at(rough));
+        CHECK(files.at(spec) == expected.at(spec));
+      }
+    }
+  }
+}
+
+TEST_CASE("texremap nights: a damaged journal line is ignored") {
+  const Tree tree;
+  write_sets(tree, 2, "tga");
+  CHECK(states(tree, {}) == "cc");
+  std::ofstream(tree.path("out/" + std::string(kJournal)), std::ios::app) << "{\"set\": \"s0\", \"fil";
+  CHECK(states(tree, {}) == "dd");
+  std::ofstream(tree.path("out/" + std::string(kJournal)), std::ios::app) << "\n[[[\n{\"files\": 5}\n";
+  CHECK(states(tree, {}) == "dd");
+}
