@@ -139,9 +139,7 @@ void require_unique(const std::vector<ManifestItem>& items, const std::string& p
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice != ids.end()) throw input_error(place + ": " + *twice + " is defined twice");
   for (const std::string& id : ids)
-    if (!remap::is_valid_id(id))
-      throw input_error(place + ": id \"" + id +
-                        "\" is not a C++ identifier without leading or doubled underscore");
+    if (!remap::is_valid_id(id)) throw input_error(place + ": id \"" + id + "\" is not " + remap::kIdRule);
 }
 
 Manifest manifest_from_json(std::string_view text, const std::string& place) {

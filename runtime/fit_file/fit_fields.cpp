@@ -38,13 +38,14 @@ ModelSide read_side(const Field& field) {
 
 std::string read_id(const Field& field) {
   const std::string id = field.text();
-  field.require(is_valid_id(id), "a C++ identifier without leading or doubled underscore");
+  field.require(is_valid_id(id), kIdRule);
   return id;
 }
 
 std::string read_model(const Field& field) {
   const std::string model = field.text();
-  field.require(is_valid_model(model), "letters, digits and _ - . /");
+  field.require(is_valid_model(model),
+                "letters, digits and _ - . /, at most " + std::to_string(kLongestName));
   return model;
 }
 
