@@ -61,6 +61,9 @@ void spoil(const json& request, remapc::Image* image) {
   const std::size_t middle = (side / 2 * side + side / 2) * channels;
   if (has_fault("nan")) values[middle] = std::nanf("");
   if (has_fault("short")) values.pop_back();
+  if (has_fault("negative")) values[middle] = -0.01f * values[middle];
+  if (has_fault("rounding")) values[0] = -1e-7f * values[middle];
+  if (has_fault("huge")) values[middle] = 1e38f;
   if (has_fault("bright"))
     for (float& value : values) value *= 3.14159265f;
   if (has_fault("gamma"))
@@ -168,7 +171,21 @@ bool misbehave(const json& request) {
     std::cout << json{{"id", request.at("id")}, {"error", "no licence left"}} << std::endl;
   if (has_fault("no-file")) std::cout << json{{"id", request.at("id")}} << std::endl;
   if (has_fault("flood")) std::cout << std::string(20 << 20, 'x') << std::endl;
-  for (const char* fault : {"garbage", "wrong-id", "refuse", "no-file", "flood"})
+  const auto complain = [&](const json& error) {
+    std::cout << json{{"id", request.at("id")}, {"error", error}} << std::endl;
+  };
+  if (has_fault("error-number")) complain(5);
+  if (has_fault("error-long")) complain(std::string(5'000'000, 'x'));
+  if (has_fault("error-lines")) complain("line 1\nline 2 \x1b[31m\xe2\x80\xae");
+  if (has_fault("deep"))
+    std::cout << "{\"id\": " << request.at("id") << ", \"error\": " << std::string(65'700, '[')
+              << std::string(65'700, ']') << "}" << std::endl;
+  if (has_fault("talkative")) {
+    std::cerr << std::string(7000, 'y') << "\x1b[31m the end" << std::endl;
+    std::exit(3);
+  }
+  for (const char* fault : {"garbage", "wrong-id", "refuse", "no-file", "flood", "error-number", "error-long",
+                            "error-lines", "deep"})
     if (has_fault(fault)) return true;
   return false;
 }
@@ -196,10 +213,12 @@ void answer(const json& request) {
   }
 }
 
-// Starts a child process, as renderers do; it keeps running unless remapc ends it.
-void start_child() {
+// Starts a child process, as renderers do; it keeps running unless remapc ends it. With a session of its own
+// it has left the group of the worker.
+void start_child(bool has_session) {
   const pid_t child = ::fork();
   if (child == 0) {
+    if (has_session) ::setsid();
     ::execlp("sleep", "sleep", "3600", nullptr);
     ::_exit(127);
   }
@@ -211,7 +230,7 @@ void start_child() {
 int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; i += 2) options[std::string(argv[i]).substr(2)] = argv[i + 1];
   log_line("process " + std::to_string(::getpid()));
-  if (options["fault"] == "child") start_child();
+  if (options["fault"] == "child" || options["fault"] == "daemon") start_child(options["fault"] == "daemon");
   if (options["fault"] == "banner") std::cout << "Fake renderer 1\nLoading...\n" << std::endl;
   if (options["fault"] == "mute") std::this_thread::sleep_for(std::chrono::hours(1));
   for (std::string line; std::getline(std::cin, line);) {
