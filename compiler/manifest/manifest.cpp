@@ -132,6 +132,16 @@ std::string read_id(const Field& field, const std::vector<ManifestItem>& items) 
   return id;
 }
 
+// The items whose diffuse lobes differ from those of the hub by design.
+void read_accepted(const Field& list, std::vector<ManifestItem>* items) {
+  list.list(0, [&](const Field& entry) {
+    const std::string id = read_id(entry["id"], *items);
+    entry["reason"].require(!entry["reason"].text().empty(), "a reason");
+    std::ranges::find(*items, id, &ManifestItem::id)->accept_light = true;
+    return 0;
+  });
+}
+
 void require_unique(const std::vector<ManifestItem>& items, const std::string& place) {
   std::vector<std::string> ids;
   for (const ManifestItem& item : items) ids.push_back(item.id);
@@ -172,6 +182,7 @@ Manifest manifest_from_json(std::string_view text, const std::string& place) {
     each("analytic", [&](const Field& entry) { read_workflow_item(entry, &items); });
   if (json.contains("networks"))
     each("networks", [&](const Field& entry) { read_network_item(entry, &items); });
+  if (json.contains("accepted_light")) read_accepted(root["accepted_light"], &items);
   require_unique(items, place);
   return manifest;
 }

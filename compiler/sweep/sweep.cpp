@@ -111,9 +111,11 @@ void add_stages(const SweepSetup& setup, Table* table) {
   for (const ModelDescription* model : {&setup.source.model, &setup.target.model})
     if (!model->has(ParameterRole::kDiffuse))
       comments.emplace_back("irradiance", "taken to be the same: " + model->name + " has no diffuse");
-  comments.emplace_back("irradiance_scale", number_text(rounded_ratio(setup.irradiance_scale)));
+  LightMatch light = setup.light();
+  light.scale = rounded_ratio(light.scale);
+  add_light_scale(light, &comments);
   comments.emplace_back("diffuse_scale", number_text(rounded_ratio(setup.diffuse.scale)));
-  comments.emplace_back("diffuse_error", number_text(remap::rounded_up(setup.diffuse.error, 2)));
+  comments.emplace_back(kDiffuseErrorComment, number_text(remap::rounded_up(setup.diffuse.error, 2)));
 }
 
 Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
@@ -161,6 +163,7 @@ SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_t
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;
   }
+  require_light(setup.light(), options.source + " to " + options.target);
   if (!setup.source.response.affine()) setup.source.curve = probe_family(picture_taker, source, alphas);
   if (!setup.target.response.affine()) setup.target.curve = probe_family(picture_taker, target, probed);
   if (setup.target.family())

@@ -25,8 +25,9 @@ std::optional<LightRemark> light_remark(const LightMatch& match) {
                 " to match diffuse, after which " + left + ": specular2 is " + change_text(match.scale) +
                 " for it, which is right only if the lights of the renderers differ";
   if (remark.is_error)
-    remark.text += " (check the diffuse of both models; --no-irradiance-matching leaves the light as it is, "
-                   "--accept-light goes on)";
+    remark.text +=
+        " (check the diffuse of both models; --no-irradiance-matching leaves the light as it is, "
+        "--accept-light goes on)";
   return remark;
 }
 

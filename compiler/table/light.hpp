@@ -1,6 +1,7 @@
-// The light of two renderers, which a sweep makes equal before it compares their highlights: the source's pictures are
-// multiplied by the factor that makes white diffuse spheres of both alike. That is right where the lights differ.
-// Where the diffuse lobes differ (Oren-Nayar against Lambert), it moves the specular of every row instead.
+// The light of two renderers, which a sweep makes equal before it compares their highlights: the source's
+// pictures are multiplied by the factor that makes white diffuse spheres of both alike. That is right where
+// the lights differ. Where the diffuse lobes differ (Oren-Nayar against Lambert), it moves the specular of
+// every row instead.
 #pragma once
 
 #include <optional>
@@ -10,8 +11,8 @@
 
 namespace remapc {
 
-// The comments of a table that hold the factor, how far the diffuse pictures still differ after it (RMS), and that a user has
-// accepted both.
+// The comments of a table that hold the factor, how far the diffuse pictures still differ after it (RMS), and
+// that a user has accepted both.
 inline constexpr const char* kLightScaleComment = "irradiance_scale";
 inline constexpr const char* kDiffuseErrorComment = "diffuse_error";
 inline constexpr const char* kLightAcceptedComment = "light_accepted";

@@ -144,6 +144,51 @@ TEST_CASE("remapc: a signal that ends a run with workers leaves no process and n
   }
 }
 
+TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said by check, show and --json",
+          "[slow]") {
+  const Session session;
+  const remapc::FakeSession fake;
+  auto arguments = sweep(session, fake, "a.csv", "oren-nayar");
+  for (std::string& word : arguments)
+    if (word == "5") word = "8";  // alphas and, below, speculars: as many as a fit needs
+  std::replace(arguments.begin(), arguments.end(), std::string("2"), std::string("3"));
+  const std::string words = ": the source's light is multiplied by 1.";
+  ProcessResult result = session.remapc(arguments);
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.errors, Contains("fake/ggx to mitsuba/ggx-plain" + words) && Contains("--accept-light"));
+  CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
+  arguments.insert(arguments.end(), {"--accept-light", "--json"});
+  result = session.remapc(arguments);
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.errors, Contains("remapc: warning: " + session.path("a.csv") + words));
+  CHECK_THAT(result.output, Contains("\"irradiance_scale\": 1.") && Contains("\"diffuse_error\": 0.") &&
+                                Contains("\"light_warning\": \"the source's light"));
+  result = session.remapc({"check", session.path("a.csv")});
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Contains("warning: light" + words));
+
+  std::string table = read_file(session.path("a.csv"));
+  table.erase(table.find("# light_accepted"), std::string("# light_accepted: yes\n").size());
+  session.write("b.csv", table);
+  result = session.remapc({"check", "--json", session.path("b.csv")});
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.output, Contains("\"kind\": \"light\"") && Contains("\"severity\": \"error\""));
+  CHECK(session.remapc({"check", "--accept-light", session.path("b.csv")}).exit_code == 0);
+  auto fit = session.fit("b.csv");
+  CHECK_THAT(session.remapc(fit).errors, Contains("light" + words));
+  fit.push_back("--accept-light");
+  REQUIRE(session.remapc(fit).exit_code == 0);
+  for (const char* form : {"--fits", "--json"}) {
+    std::vector<std::string> show = {"show", "fake_ggx_to_mitsuba_ggx_plain", "--fits", session.path("fits")};
+    if (std::string(form) == "--json") show.push_back(form);
+    result = session.remapc(show);
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.errors, Contains("remapc: warning: fake_ggx_to_mitsuba_ggx_plain" + words));
+    CHECK_THAT(result.output, Contains("irradiance_scale"));
+  }
+}
+
 TEST_CASE("remapc sweep: a cache that cannot be written is a warning", "[slow]") {
   const Session session;
   const remapc::FakeSession fake;

@@ -17,6 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compiler/renderer/oren_nayar.hpp"
 #include "renderer/renderer.hpp"
 
 namespace {
@@ -147,7 +148,14 @@ remapc::Image picture(const json& request) {
   if (has_fault("clamping"))
     for (double& value : material.parameters["specular"]) value = std::min(value, 1.0);
   if (has_fault("inverted")) material.parameters["alpha"][0] = 1.0 - 0.9 * material.parameters["alpha"][0];
+  const double diffuse = material.parameters["diffuse"][0];
+  if (has_fault("oren-nayar")) material.parameters["diffuse"] = {0.0};
   remapc::Image image = remapc::make_builtin_renderer()->render(material, place);
+  if (has_fault("oren-nayar")) {
+    const remapc::Image clay = remapc::oren_nayar_picture(place, 0.7);
+    for (std::size_t i = 0; i < clay.values.size(); ++i)
+      image.values[i] += static_cast<float>(diffuse) * clay.values[i];
+  }
   const std::size_t channels = request.at("channels");
   if (channels == 3 && image.channels == 1) {
     std::vector<float> rgb;
