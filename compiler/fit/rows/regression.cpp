@@ -5,8 +5,8 @@
 #include <map>
 
 #include "text/errors.hpp"
-#include "text/plain_text.hpp"
 #include "text/number_text.hpp"
+#include "text/plain_text.hpp"
 
 namespace remapc {
 namespace {
