@@ -27,6 +27,8 @@ using remap::ErrorKind;
 using remap::number_text;
 using remap::Range;
 
+// As many as a table can have that is read again; rows at joints of regimes come on top.
+constexpr std::size_t kMostSweepSamples = kMostCsvRows / 2;
 // The law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
 // The number of widths whose spheres are compared, spread over those of a table: for each, the usable row
@@ -49,6 +51,9 @@ Range sampled_alphas(const std::vector<SamplePoint>& samples) {
 void require_options(const SweepOptions& options, const ModelDescription& source,
                      const ModelDescription& target) {
   if (options.samples.empty()) throw Error(ErrorKind::kUsage, "samples: at least one is needed");
+  if (options.samples.size() > kMostSweepSamples)
+    throw Error(ErrorKind::kUsage, "samples: " + std::to_string(options.samples.size()) +
+                                       " are too many (at most " + std::to_string(kMostSweepSamples) + ")");
   if (options.stages < 1 || options.stages > 3)
     throw Error(ErrorKind::kUsage,
                 "stages: " + std::to_string(options.stages) + " is out of range (choose 1, 2 or 3)");

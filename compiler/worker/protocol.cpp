@@ -23,6 +23,9 @@ using remap::Field;
 using remap::Range;
 using remap::RoughnessConvention;
 
+// Of one renderer; models are listed, and parameters are options.
+constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
+
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
 ordered_json scene_json(const Scene& scene) {
@@ -94,15 +97,16 @@ void require_once(const ModelDescription& model, ParameterRole role, bool needed
 
 ModelDescription read_model(const Field& field, const std::string& prefix) {
   ModelDescription model;
-  model.name = field["name"].text();
+  model.name = field["name"].line();
   const std::size_t slash = model.name.find('/');
   const bool named = slash != std::string::npos && slash != 0 && slash + 1 < model.name.size();
   if (!named || (!prefix.empty() && model.name.substr(0, slash) != prefix))
     field["name"].fail("is \"" + model.name + "\"; expected " + (prefix.empty() ? "PREFIX" : prefix) +
                        "/MODEL");
   const Field parameters = field["parameters"];
-  model.parameters =
-      parameters.list(1, [&](const Field& parameter) { return read_parameter(parameter, &model.roughness); });
+  model.parameters = parameters.list(
+      1, [&](const Field& parameter) { return read_parameter(parameter, &model.roughness); },
+      kMostParameters);
   require_once(model, ParameterRole::kRoughness, true, model.name);
   require_once(model, ParameterRole::kSpecular, true, model.name);
   require_once(model, ParameterRole::kDiffuse, false, model.name);
@@ -199,7 +203,8 @@ WorkerDescription read_description(const std::string& line, std::int64_t id, con
   description.renderer = field["renderer"].text();
   field["renderer"].require(!description.renderer.empty(), "a name and a version");
   description.meshes = read_flag(field, "meshes");
-  description.models = field["models"].list(1, [&](const Field& model) { return read_model(model, prefix); });
+  description.models = field["models"].list(
+      1, [&](const Field& model) { return read_model(model, prefix); }, kMostModels);
   return description;
 }
 

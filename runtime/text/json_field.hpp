@@ -22,6 +22,10 @@ namespace remap {
 inline constexpr std::size_t kDeepestJson = 100;
 // A megabyte of text becomes up to 20 of memory. The largest fit that ships, a warp, has 0.3.
 inline constexpr std::size_t kLongestJson = std::size_t{64} << 20;
+// Entries of a list: more numbers than any limit of a fit allows.
+inline constexpr std::size_t kMostEntries = 100'000;
+// Remarks, methods and comments are read by people, and become comments of headers.
+inline constexpr std::size_t kMostLines = 1000, kLongestLine = 10'000;
 // Of the words of the JSON library, which quote the text.
 inline constexpr std::size_t kLongestJsonReason = 300;
 
@@ -72,10 +76,13 @@ class Field {
     require(value_.is_array() && value_.size() == count, "a list of " + std::to_string(count));
     return Field(value_[index], place_ + "[" + std::to_string(index) + "]");
   }
-  // Reads every entry of a list of at least `fewest` entries.
+  // Reads every entry of a list of at least `fewest` and at most `most` entries.
   template <typename Read>
-  auto list(std::size_t fewest, Read read) const {
+  auto list(std::size_t fewest, Read read, std::size_t most = kMostEntries) const {
     require(value_.is_array() && value_.size() >= fewest, "a list of at least " + std::to_string(fewest));
+    if (value_.size() > most)
+      fail("has " + std::to_string(value_.size()) + " entries; at most " + std::to_string(most) +
+           " are read");
     std::vector<decltype(read(*this))> entries;
     for (std::size_t i = 0; i < value_.size(); ++i) entries.push_back(read(at(i, value_.size())));
     return entries;
@@ -83,8 +90,18 @@ class Field {
   std::vector<double> numbers(std::size_t fewest) const {
     return list(fewest, [](const Field& entry) { return entry.number(); });
   }
+  // A few lines for people.
   std::vector<std::string> texts() const {
-    return list(0, [](const Field& entry) { return entry.text(); });
+    return list(
+        0, [](const Field& entry) { return entry.line(); }, kMostLines);
+  }
+  // A text that is short.
+  std::string line() const {
+    const std::string line = text();
+    if (line.size() > kLongestLine)
+      fail("has a text of " + std::to_string(line.size()) + " bytes; at most " +
+           std::to_string(kLongestLine) + " are read");
+    return line;
   }
   const nlohmann::ordered_json& json() const { return value_; }
   const std::string& place() const { return place_; }
@@ -115,6 +132,9 @@ class Field {
   template <typename Value, typename Read>
   std::map<std::string, Value> dictionary(Read read) const {
     require(value_.is_object(), "an object");
+    if (value_.size() > kMostLines)
+      fail("has " + std::to_string(value_.size()) + " entries; at most " + std::to_string(kMostLines) +
+           " are read");
     std::map<std::string, Value> entries;
     for (const auto& [key, value] : value_.items()) {
       if (!is_plain_text(key))
@@ -124,7 +144,7 @@ class Field {
     return entries;
   }
   std::map<std::string, std::string> text_dictionary() const {
-    return dictionary<std::string>([](const Field& entry) { return entry.text(); });
+    return dictionary<std::string>([](const Field& entry) { return entry.line(); });
   }
   // Throws `place: expected EXPECTED, found VALUE`.
   void require(bool condition, const std::string& expected) const {
