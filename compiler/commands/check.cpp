@@ -15,7 +15,7 @@ namespace {
 
 struct CheckOptions {
   TableInput table;
-  bool json = false;
+  bool json = false, accept_light = false;
 };
 
 // The findings on a table of either form.
@@ -38,8 +38,8 @@ void print_json(const Checked& checked) {
 
 void run(const CheckOptions& options) {
   const Checked checked = std::visit(
-      [](const auto& table) {
-        return Checked{table.name, table.rows.size(), check_table(table)};
+      [&](const auto& table) {
+        return Checked{table.name, table.rows.size(), check_table(table, options.accept_light)};
       },
       options.table.read_any());
   if (options.json)
@@ -67,6 +67,7 @@ void add_check_command(remap::Command& app) {
       app.add_subcommand("check", "Look for faults in a table before it is fitted", kMeasureStage);
   CheckOptions& options = set_work<CheckOptions>(*command, run);
   options.table.add_options(*command);
+  add_accept_light_flag(*command, options.accept_light);
   command->option_group("Output");
   command->add_flag("--json", options.json, "Print the findings as JSON to standard output");
   command->footer(

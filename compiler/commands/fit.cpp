@@ -19,6 +19,7 @@
 #include "report/fit_plot.hpp"
 #include "system/files.hpp"
 #include "table/domain.hpp"
+#include "table/light.hpp"
 #include "text/errors.hpp"
 
 namespace remapc {
@@ -138,6 +139,9 @@ void require_output_folder(const std::filesystem::path& folder) {
 void run_on(const MaterialTable& table, const std::string& bytes, const FitCommand& command,
             const remap::Command& app) {
   require_material_options(command);
+  LightMatch light = light_match(table.comments);
+  light.accepted = light.accepted || command.options.accept_light;
+  require_light(light, table.name);
   require_output_folder(command.folder);
   const remap::WorkflowFit fit = [&] {
     ShareProgress progress("fit", command.table.path);
@@ -218,6 +222,7 @@ void add_fit_command(remap::Command& app) {
   FitCommand& options =
       set_work<FitCommand>(*command, [command](const FitCommand& given) { run(given, *command); });
   options.table.add_options(*command);
+  add_accept_light_flag(*command, options.options.accept_light);
   add_output_options(*command, options);
   add_regression_options(*command, options);
   command->footer(form_list() + "\nExample:\n  remapc fit ward_to_as.csv -o fits --plot fits/ward_to_as.svg");

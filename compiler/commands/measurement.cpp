@@ -4,7 +4,9 @@
 #include <iostream>
 
 #include "command_line/interruption.hpp"
+#include "command_line/run_app.hpp"
 #include "commands/parameter_setting.hpp"
+#include "commands/table_input.hpp"
 #include "system/files.hpp"
 #include "text/errors.hpp"
 #include "text/number_text.hpp"
@@ -73,6 +75,7 @@ void MeasurementOptions::add_picture_options(remap::Command& app) {
   app.add_option("--distance", distance, "Distance of the lights, in sphere radii");
   app.add_flag("--no-irradiance-matching", keep_irradiance,
                "Do not correct for a constant factor between the lights of two renderers");
+  add_accept_light_flag(app, pair.accept_light);
   app.option_group("Rare: parameters of models (remapc list --models, remapc renderers)");
   source_roles.add_options(app, "source");
   target_roles.add_options(app, "target");
@@ -117,10 +120,13 @@ SweepExecution Measurement::start(const std::string& label, std::size_t rows) {
           &remap::interruption()};
 }
 
-void Measurement::write(const std::string& table) {
+void Measurement::write(const std::string& table, const Comments& comments) {
   renderer_->watch(nullptr);
   progress_.reset();
   remap::write_file(options_.output, table);
+  light_ = light_match(comments);
+  if (const auto remark = light_remark(light_))
+    remap::print_message("remapc", "warning: " + options_.output.string() + ": " + remark->text);
   for (const std::string& remark : renderer_->remarks()) std::cerr << "remapc: " << remark << "\n";
 }
 
@@ -136,11 +142,15 @@ void Measurement::report(const std::map<std::string, std::size_t>& statuses, dou
     counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + status;
   }
   if (options_.json) {
+    const auto remark = light_remark(light_);
     nlohmann::ordered_json json = {{"table", table}};
     if (fields.is_object()) json.update(fields);
     json.update({{"rows", rows},
                  {"status", statuses},
                  {"rms_image_error", rms_error},
+                 {kLightScaleComment, light_.scale},
+                 {kDiffuseErrorComment, light_.diffuse_error},
+                 {"light_warning", remark ? nlohmann::ordered_json(remark->text) : nullptr},
                  {"pictures_rendered", pictures.rendered},
                  {"pictures_cached", pictures.cached},
                  {"seconds", seconds}});

@@ -13,6 +13,7 @@
 #include "command_line/progress.hpp"
 #include "commands/renderer_options.hpp"
 #include "sweep/sweep_options.hpp"
+#include "table/light.hpp"
 #include "table/table.hpp"
 
 namespace remapc {
@@ -58,8 +59,9 @@ class Measurement {
   // Throws kOutput if the table exists or its folder cannot be made. Shows the progress of `rows` rows until
   // write(), under `label`.
   SweepExecution start(const std::string& label, std::size_t rows);
-  // Writes the table and prints the remarks of the renderers.
-  void write(const std::string& table);
+  // Writes the table, whose comments are given, and prints what there is to say of its light, and the remarks
+  // of the renderers.
+  void write(const std::string& table, const Comments& comments);
   // Prints the summary of the rows as a line, or as JSON after the table's name and the fields of `json`.
   template <typename Row>
   void report(const std::vector<Row>& rows, const nlohmann::ordered_json& json = nullptr) const {
@@ -80,6 +82,7 @@ class Measurement {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<remap::Progress> progress_;  // of rows; its label also counts the pictures of workers
   std::unique_ptr<RendererSet> renderer_;
+  LightMatch light_;
 };
 
 }  // namespace remapc

@@ -2,6 +2,7 @@
 
 #include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
+#include "command_line/run_app.hpp"
 #include "worker/renderer_set.hpp"
 
 namespace remapc {
@@ -25,6 +26,10 @@ WorkerSettings worker_settings(const RendererOptions& options) {
   WorkerSettings settings = options.settings;
   if (!options.no_cache) settings.cache = options.cache.empty() ? default_cache_folder() : options.cache;
   settings.limits.cancelled = &remap::interruption();
+  settings.on_start = remap::watch_interruptions;
+  settings.on_warning = [](const std::string& message) {
+    remap::print_message("remapc", "warning: " + message);
+  };
   return settings;
 }
 

@@ -30,7 +30,7 @@ void run(const SampleCommand& command) {
   Measurement measurement(command);
   const MaterialTable table =
       run_material_sample(measurement.renderer(), options, measurement.start("sample", options.count));
-  measurement.write(material_table_text(table));
+  measurement.write(material_table_text(table), table.comments);
   measurement.report(table.rows,
                      {{"source_columns", table.source_columns}, {"target_columns", table.target_columns}});
 }

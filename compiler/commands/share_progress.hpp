@@ -9,8 +9,8 @@
 
 namespace remapc {
 
-// Shows a progress line `<command> <subject>` while it exists, and makes SIGINT and SIGTERM stop the work.
-// Pass it by std::ref where a FitProgress is expected.
+// Shows a progress line `<command> <subject>` while it exists, and makes signals (interruption.hpp) stop the
+// work. Pass it by std::ref where a FitProgress is expected.
 class ShareProgress {
  public:
   ShareProgress(const std::string& command, const std::string& subject)

@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <iostream>
 
+#include "command_line/run_app.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/rows/split.hpp"
@@ -14,6 +15,7 @@
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "table/domain.hpp"
+#include "table/light.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -305,6 +307,14 @@ void show_card(const remap::WarpMapFit& fit, const ShowOptions&) {
   print_entries(fit.method);
 }
 
+void warn_of_light(const remap::Fit& fit) {
+  const Comments comments(fit.table.comments.begin(), fit.table.comments.end());
+  if (const auto remark = light_remark(light_match(comments)))
+    remap::print_message("remapc", "warning: " + fit.id + ": " + remark->text);
+}
+void warn_of_light(const remap::WorkflowFit&) {}
+void warn_of_light(const remap::WarpMapFit&) {}
+
 void show(const ShowOptions& options) {
   const remap::AnyFit fit = find_any_fit(options.fit, options.fit_folder);
   std::visit(
@@ -313,6 +323,7 @@ void show(const ShowOptions& options) {
           std::cout << fit_to_json(any);
         else
           show_card(any, options);
+        warn_of_light(any);
       },
       fit);
 }

@@ -62,7 +62,7 @@ void run(const SweepCommand& command) {
   choose_samples(command, measurement.renderer(), &options);
   const Table table =
       run_sweep(measurement.renderer(), options, measurement.start("sweep", options.samples.size()));
-  measurement.write(table_text(table));
+  measurement.write(table_text(table), table.comments);
   warn_of_subpixel(table, options);
   measurement.report(table.rows);
 }

@@ -39,4 +39,9 @@ Table TableInput::with_models(Table table) const {
   return table;
 }
 
+void add_accept_light_flag(remap::Command& app, bool& accept_light) {
+  app.add_flag("--accept-light", accept_light,
+               "Go on where the source's light is rescaled so that specular changes by more than 5 %");
+}
+
 }  // namespace remapc

@@ -26,4 +26,7 @@ struct TableInput {
   Table with_models(Table table) const;
 };
 
+// Adds --accept-light, for what light_remark() (table/light.hpp) calls an error.
+void add_accept_light_flag(remap::Command& app, bool& accept_light);
+
 }  // namespace remapc

@@ -103,22 +103,15 @@ std::vector<GoldenValues> golden_values(const remap::CompiledWarp& warp) {
   return golden;
 }
 
-// Text of a file as one line of a comment: characters that could end the line become spaces.
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == '\\') c = ' ';
-  return text + "\n";
-}
-
 std::string provenance(const remap::WarpMapFit& fit) {
   const bool copied = std::holds_alternative<remap::CopiedNodes>(fit.warp.table.entries);
   std::string text = std::string("By an appearance warp (An et al. 2011): reflectances of a template, ") +
                      (copied ? "copied" : "blended between\nnodes of a table") + ".\n";
-  for (const auto& [key, value] : fit.method) text += one_line(key + ": " + value);
+  for (const auto& [key, value] : fit.method) text += key + ": " + value + "\n";
   if (fit.copy_rms_error >= 0.0)
     text += "From an exact copy of template texels: " + percent(fit.copy_rms_error) +
             " of the template's spread (RMS).\n";
-  for (const std::string& remark : fit.remarks) text += one_line(remark);
+  for (const std::string& remark : fit.remarks) text += remark + "\n";
   text.pop_back();
   return text;
 }

@@ -5,9 +5,12 @@
 #include "emit/text_template.hpp"
 #include "remap/version.hpp"
 #include "text/number_text.hpp"
+#include "text/plain_text.hpp"
 
 namespace remapc {
 namespace {
+
+constexpr std::size_t kLongestEscape = 6;  // of one byte
 
 using remap::MaterialParameter;
 using Parameters = std::vector<MaterialParameter>;
@@ -147,10 +150,25 @@ std::string guard_of(const std::string& id) {
   return "REMAP_GENERATED_" + upper + "_HPP";
 }
 
-std::string comment_lines(const std::string& text) {
-  std::string lines = "// ";
-  for (const char c : text) lines += c == '\n' ? std::string("\n// ") : std::string(1, c);
-  return lines;
+// A line of text as the rest of a comment. A backslash at its end, or its trigraph, would take the next line
+// of code into the comment, even before blanks.
+std::string commented(std::string_view line) {
+  const std::size_t end = line.find_last_not_of(" \t");
+  const std::string_view text = line.substr(0, end == std::string_view::npos ? 0 : end + 1);
+  const std::string safe = remap::plain(text, text.size() * kLongestEscape);
+  return safe + (safe.ends_with('\\') || safe.ends_with("?\?/") ? "." : "");
+}
+
+// Text from fits enters a header here only, apart from names of their own rules (is_valid_id and the like).
+std::string comment_lines(std::string_view text) {
+  std::string lines;
+  for (;;) {
+    const std::size_t end = text.find('\n');
+    lines += "// " + commented(text.substr(0, end));
+    if (end == std::string_view::npos) return lines;
+    lines += "\n";
+    text.remove_prefix(end + 1);
+  }
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ RowErrors row_errors(const remap::Fit& fit, const std::vector<TableRow>& rows) {
 FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptions& options,
                       const FitProgress& progress) {
   require_models(table);
-  require_fittable(table);
+  require_fittable(table, options.accept_light);
   remap::Fit fit;
   fit.id = fit_id(options.id, table.source.model, table.target.model);
   fit.source = table.source;

@@ -17,6 +17,7 @@ struct FitOptions {
   std::optional<Regressor> regressor;  // none: compare_regressions() (comparison.hpp) chooses
   RegressionOptions regression;        // its seed is also the seed of the split
   double held_out_fraction = 0.2;
+  bool accept_light = false;  // light_remark() (table/light.hpp)
 };
 
 // A fit and the fits of the same table that it was compared with, for plots.

@@ -221,6 +221,7 @@ class Builder {
     options.target = target;
     options.objective = objective_preset(recipe.objective);
     options.objective_name = recipe.objective;
+    options.accept_light = item.accept_light;
     options.resolution = recipe.resolution;
     remap::Range speculars = canonical_speculars(renderer_, renderer_.model(source));
     if (const auto part = recipe.speculars.find(source); part != recipe.speculars.end())
@@ -240,6 +241,7 @@ class Builder {
     options.id = item.id;
     options.regression.seed = item.seed;
     options.regression.jobs = 1;
+    options.accept_light = item.accept_light;
     return fit_table(parse_table(bytes, paths.table.string()), bytes, options,
                      [&](double) { require_time(); })
         .fit;

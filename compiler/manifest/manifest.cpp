@@ -23,6 +23,17 @@ std::size_t read_count(const Field& field) {
   return static_cast<std::size_t>(field.count());
 }
 
+constexpr std::int64_t kLargestResolution = 8192;   // pictures of 268 MB
+constexpr std::int64_t kMostMaterials = 1'000'000;  // as remapc sample takes
+// Of a group, in every order, and of all sections: a build makes a file for each item.
+constexpr std::size_t kMostModels = 100, kMostItems = 10'000;
+
+int read_resolution(const Field& field) {
+  field.require(field.count() >= 1 && field.count() <= kLargestResolution,
+                "a number from 1 to " + std::to_string(kLargestResolution));
+  return static_cast<int>(field.count());
+}
+
 // Returns the ordered pairs of a group: all of its `models`, or its `pairs` in both directions.
 std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) {
   std::vector<std::pair<std::string, std::string>> pairs;
@@ -36,7 +47,7 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) 
     });
     return pairs;
   }
-  const std::vector<std::string> models = group["models"].list(2, read_text);
+  const std::vector<std::string> models = group["models"].list(2, read_text, kMostModels);
   for (const std::string& source : models)
     for (const std::string& target : models)
       if (source != target) pairs.emplace_back(source, target);
@@ -46,7 +57,7 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) 
 void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
   SweepRecipe recipe;
   recipe.objective = group["objective"].text();
-  recipe.resolution = static_cast<int>(group["resolution"].count());
+  recipe.resolution = read_resolution(group["resolution"]);
   recipe.alphas = remap::read_range(group["alpha"]);
   recipe.roughness_samples = read_count(group["roughness_samples"]);
   recipe.specular_samples = read_count(group["specular_samples"]);
@@ -113,8 +124,10 @@ void read_network_item(const Field& field, std::vector<ManifestItem>* items) {
   item.specular = samples["specular"].text();
   item.fixed = samples["fixed"].dictionary<double>([](const Field& value) { return value.number(); });
   item.varied = samples["vary"].list(0, read_text);
+  samples["count"].require(samples["count"].count() <= kMostMaterials,
+                           "at most " + std::to_string(kMostMaterials));
   item.count = static_cast<std::size_t>(samples["count"].count());
-  item.resolution = static_cast<int>(samples["resolution"].count());
+  item.resolution = read_resolution(samples["resolution"]);
   item.hidden =
       field["hidden"].list(0, [](const Field& units) { return static_cast<std::size_t>(units.count()); });
   item.activation = read_activation(field["activation"]);
@@ -132,6 +145,16 @@ std::string read_id(const Field& field, const std::vector<ManifestItem>& items) 
   return id;
 }
 
+// The items whose diffuse lobes differ from those of the hub by design.
+void read_accepted(const Field& list, std::vector<ManifestItem>* items) {
+  list.list(0, [&](const Field& entry) {
+    const std::string id = read_id(entry["id"], *items);
+    entry["reason"].require(!entry["reason"].text().empty(), "a reason");
+    std::ranges::find(*items, id, &ManifestItem::id)->accept_light = true;
+    return 0;
+  });
+}
+
 void require_unique(const std::vector<ManifestItem>& items, const std::string& place) {
   std::vector<std::string> ids;
   for (const ManifestItem& item : items) ids.push_back(item.id);
@@ -139,9 +162,7 @@ void require_unique(const std::vector<ManifestItem>& items, const std::string& p
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice != ids.end()) throw input_error(place + ": " + *twice + " is defined twice");
   for (const std::string& id : ids)
-    if (!remap::is_valid_id(id))
-      throw input_error(place + ": id \"" + id +
-                        "\" is not a C++ identifier without leading or doubled underscore");
+    if (!remap::is_valid_id(id)) throw input_error(place + ": id \"" + id + "\" is not " + remap::kIdRule);
 }
 
 Manifest manifest_from_json(std::string_view text, const std::string& place) {
@@ -155,6 +176,8 @@ Manifest manifest_from_json(std::string_view text, const std::string& place) {
   const auto each = [&](const std::string& key, const auto& read) {
     root[key].list(0, [&](const Field& entry) {
       read(entry);
+      if (items.size() > kMostItems)
+        root.fail("has more than " + std::to_string(kMostItems) + " items, the most that are read");
       return 0;
     });
   };
@@ -174,6 +197,7 @@ Manifest manifest_from_json(std::string_view text, const std::string& place) {
     each("analytic", [&](const Field& entry) { read_workflow_item(entry, &items); });
   if (json.contains("networks"))
     each("networks", [&](const Field& entry) { read_network_item(entry, &items); });
+  if (json.contains("accepted_light")) read_accepted(root["accepted_light"], &items);
   require_unique(items, place);
   return manifest;
 }

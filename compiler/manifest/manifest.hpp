@@ -58,6 +58,9 @@ struct ManifestItem {
   std::variant<SweptItem, InverseItem, FinishedItem, ChainItem, NetworkItem> kind;
   std::string recipe;      // the text that defines the item; equal recipes give equal items
   std::uint64_t seed = 1;  // of its fit and of random materials
+  // Whether its light is accepted as it is (table/light.hpp): the list `accepted_light` of the manifest names
+  // it, with a reason. Not part of the recipe: it decides whether a table is made, not what it holds.
+  bool accept_light = false;
 };
 
 // The items, each after those that it is made from.

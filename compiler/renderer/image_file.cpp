@@ -56,8 +56,7 @@ Image read_rgb(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& reason) {
     throw Error(ErrorKind::kInput, path.string() + ": cannot be read: " + reason);
   };
-  if (std::error_code failure; !std::filesystem::is_regular_file(path, failure))
-    refuse(failure ? failure.message() : "not a file");
+  remap::require_regular_file(path);
   const auto input = OIIO::ImageInput::open(path.string());
   if (!input) refuse(OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();

@@ -13,6 +13,7 @@
 #include "report/contact_sheet.hpp"
 #include "report/lit_sphere.hpp"
 #include "sweep/sweep.hpp"
+#include "table/light.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -245,7 +246,7 @@ Preview make_preview(const Renderer& renderer, const remap::Fit& fit, const Prev
   require_options(wanted);
   PreviewOptions options = wanted;
   fill(fit.domain, &options);
-  const auto scale = remap::parse_number(comment(fit, "irradiance_scale"));
+  const auto scale = remap::parse_number(comment(fit, kLightScaleComment));
   const End source = make_end(renderer, fit, "source", fit.source, scale.value_or(1.0));
   const End target = make_end(renderer, fit, "target", fit.target, 1.0);
   constexpr std::size_t kRowsAShape = 3;

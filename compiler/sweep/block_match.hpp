@@ -7,6 +7,7 @@
 #include "match/target_bank.hpp"
 #include "match/target_pictures.hpp"
 #include "sweep/sweep_options.hpp"
+#include "table/light.hpp"
 #include "table/row_regime.hpp"
 #include "table/table.hpp"
 
@@ -34,6 +35,7 @@ struct SweepSetup {
   std::unique_ptr<TargetGrid> grid;          // of a target without a family
   EffectiveWidths source_widths, target_widths;
 
+  LightMatch light() const { return {irradiance_scale, diffuse.error, options.accept_light}; }
   TargetLimits limits() const { return {target_widths.effective.max, target.linear_range().max, true}; }
 };
 

@@ -107,7 +107,7 @@ struct Matching {
   ModelDescription source;
   std::vector<Varied> varied;
   ProbedModel target;
-  double irradiance_scale = 1.0;
+  LightMatch light;
   std::unique_ptr<TargetBank> bank;  // of a target with a family whose diffuse adds
   std::unique_ptr<TargetPictures> pictures;
 
@@ -166,7 +166,7 @@ NamedRow matched_row(const Matching& matching, const std::vector<double>& sample
   std::vector<JointChannel> channels;
   float brightest = 0.0f;
   for (std::vector<float>& picture : matching.picture_taker.take_channels(material)) {
-    for (float& value : picture) value = static_cast<float>(value * matching.irradiance_scale);
+    for (float& value : picture) value = static_cast<float>(value * matching.light.scale);
     brightest = std::max(brightest, *std::max_element(picture.begin(), picture.end()));
     auto weights = matching.picture_taker.weights(picture);
     channels.push_back({std::move(picture), std::move(weights)});
@@ -190,14 +190,17 @@ Matching make_matching(const MaterialSampleOptions& options, const PictureTaker&
                        const ModelDescription& source, const ModelDescription& target) {
   std::vector<Varied> varied =
       varied_of(options, source);  // may throw: not within the aggregate (make_setup)
-  Matching matching{options, picture_taker, source, std::move(varied), {}, 1.0, nullptr, nullptr};
+  Matching matching{options, picture_taker, source, std::move(varied), {}, {}, nullptr, nullptr};
   require_roleless(target, options.searched);
   const Range own = range_of(options, source, source.parameter(ParameterRole::kRoughness));
   const double narrowest = std::max({target.alpha.min, canonical_widths(source.roughness, own).min, 1e-4});
   const Range searched = searched_widths(target, narrowest);
   matching.target = {target, probe_specular(picture_taker, target, {narrowest, target.alpha.max})};
-  if (options.match_irradiance && light_matched(source, target))
-    matching.irradiance_scale = 1.0 / match_diffuse(picture_taker, source, target).scale;
+  if (options.match_irradiance && light_matched(source, target)) {
+    const DiffuseMatch diffuse = match_diffuse(picture_taker, source, target);
+    matching.light = {1.0 / diffuse.scale, diffuse.error, options.accept_light};
+    require_light(matching.light, options.source + " to " + options.target);
+  }
   if (!matching.target.response.affine() && options.searched.empty())
     matching.target.curve = probe_family(picture_taker, target, {narrowest, target.alpha.max});
   const bool adds = !target.has(ParameterRole::kDiffuse) ||
@@ -235,7 +238,10 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   add_side("target", target, &comments);
   add_noise("target", renderer, options.target, &comments);
   add_comparison(renderer, options, &comments);
-  comments.emplace_back("irradiance_scale", number_text(matching.irradiance_scale));
+  add_light_scale(matching.light, &comments);
+  if (matching.light.diffuse_error > kSaidLightChange)
+    comments.emplace_back(kDiffuseErrorComment,
+                          number_text(remap::rounded_up(matching.light.diffuse_error, 2)));
   add_resolution(options, &comments);
   comments.emplace_back(
       "samples", std::to_string(options.count) + " random, uniform in " + ranges_text(matching.varied));

@@ -82,6 +82,13 @@ void add_comparison(const Renderer& renderer, const PairOptions& options, Commen
     comments->emplace_back("weighting_floor", number_text(options.objective.floor));
 }
 
+void add_light_scale(const LightMatch& match, Comments* comments) {
+  comments->emplace_back(kLightScaleComment, number_text(match.scale));
+  const auto unaccepted = light_remark({match.scale, match.diffuse_error, false});
+  if (match.accepted && unaccepted && unaccepted->is_error)
+    comments->emplace_back(kLightAcceptedComment, "yes");
+}
+
 void add_resolution(const PairOptions& options, Comments* comments) {
   comments->emplace_back("resolution", std::to_string(options.resolution));
   comments->emplace_back("pixel_samples", std::to_string(options.samples_per_axis) + "x" +

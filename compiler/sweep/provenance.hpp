@@ -28,6 +28,9 @@ void add_noise(const std::string& role, const SteadyRenderer& renderer, const st
 // Adds the renderer's version and how pictures were compared.
 void add_comparison(const Renderer& renderer, const PairOptions& options, Comments* comments);
 
+// The factor between the lights, and that it was accepted where that was needed.
+void add_light_scale(const LightMatch& match, Comments* comments);
+
 void add_resolution(const PairOptions& options, Comments* comments);
 
 // Returns the alpha below which the highlight of a headlight has a radius of less than one pixel sample, so

@@ -27,6 +27,8 @@ using remap::ErrorKind;
 using remap::number_text;
 using remap::Range;
 
+// As many as a table can have that is read again; rows at joints of regimes come on top.
+constexpr std::size_t kMostSweepSamples = kMostCsvRows / 2;
 // The law of specular shows in any picture that resolves the highlight.
 constexpr int kProbeResolution = 64;
 // The number of widths whose spheres are compared, spread over those of a table: for each, the usable row
@@ -49,6 +51,9 @@ Range sampled_alphas(const std::vector<SamplePoint>& samples) {
 void require_options(const SweepOptions& options, const ModelDescription& source,
                      const ModelDescription& target) {
   if (options.samples.empty()) throw Error(ErrorKind::kUsage, "samples: at least one is needed");
+  if (options.samples.size() > kMostSweepSamples)
+    throw Error(ErrorKind::kUsage, "samples: " + std::to_string(options.samples.size()) +
+                                       " are too many (at most " + std::to_string(kMostSweepSamples) + ")");
   if (options.stages < 1 || options.stages > 3)
     throw Error(ErrorKind::kUsage,
                 "stages: " + std::to_string(options.stages) + " is out of range (choose 1, 2 or 3)");
@@ -111,9 +116,11 @@ void add_stages(const SweepSetup& setup, Table* table) {
   for (const ModelDescription* model : {&setup.source.model, &setup.target.model})
     if (!model->has(ParameterRole::kDiffuse))
       comments.emplace_back("irradiance", "taken to be the same: " + model->name + " has no diffuse");
-  comments.emplace_back("irradiance_scale", number_text(rounded_ratio(setup.irradiance_scale)));
+  LightMatch light = setup.light();
+  light.scale = rounded_ratio(light.scale);
+  add_light_scale(light, &comments);
   comments.emplace_back("diffuse_scale", number_text(rounded_ratio(setup.diffuse.scale)));
-  comments.emplace_back("diffuse_error", number_text(remap::rounded_up(setup.diffuse.error, 2)));
+  comments.emplace_back(kDiffuseErrorComment, number_text(remap::rounded_up(setup.diffuse.error, 2)));
 }
 
 Table empty_table(const SteadyRenderer& renderer, const SweepSetup& setup) {
@@ -161,6 +168,7 @@ SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_t
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;
   }
+  require_light(setup.light(), options.source + " to " + options.target);
   if (!setup.source.response.affine()) setup.source.curve = probe_family(picture_taker, source, alphas);
   if (!setup.target.response.affine()) setup.target.curve = probe_family(picture_taker, target, probed);
   if (setup.target.family())

@@ -28,6 +28,7 @@ struct PairOptions {
   int resolution = 512;
   int samples_per_axis = 1;
   bool match_irradiance = true;
+  bool accept_light = false;  // go on where require_light() (table/light.hpp) refuses
 };
 
 // What a sweep computes. Every field is recorded in the table's comments.

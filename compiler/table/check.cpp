@@ -6,6 +6,7 @@
 #include <map>
 
 #include "remap/error.hpp"
+#include "table/light.hpp"
 #include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
@@ -54,6 +55,12 @@ class Findings {
     else
       add(Severity::kError, "contradiction", line, place + " with other target values");
   }
+  void add_light(const Comments& comments, bool accept_light) {
+    LightMatch match = light_match(comments);
+    match.accepted = match.accepted || accept_light;
+    if (const auto remark = light_remark(match))
+      add(remark->is_error ? Severity::kError : Severity::kWarning, "light", 0, remark->text);
+  }
   std::vector<Finding> sorted() {
     std::stable_sort(all_.begin(), all_.end(), [](const Finding& a, const Finding& b) {
       return a.severity != b.severity ? a.severity > b.severity : a.line < b.line;
@@ -73,7 +80,7 @@ class TableCheck : Findings {
     for (auto& [alpha, rows] : by_alpha_) std::ranges::stable_sort(rows, {}, &TableRow::specular1);
   }
 
-  std::vector<Finding> run() {
+  std::vector<Finding> run(bool accept_light) {
     check_ranges();
     check_row_count();
     check_repeats();
@@ -81,6 +88,7 @@ class TableCheck : Findings {
     check_monotone();
     check_jumps();
     check_saturation();
+    add_light(table_.comments, accept_light);
     return sorted();
   }
 
@@ -221,11 +229,12 @@ class MaterialCheck : Findings {
  public:
   explicit MaterialCheck(const MaterialTable& table) : table_(table) {}
 
-  std::vector<Finding> run() {
+  std::vector<Finding> run(bool accept_light) {
     check_values();
     check_row_count();
     check_columns();
     check_repeats();
+    add_light(table_.comments, accept_light);
     return sorted();
   }
 
@@ -287,9 +296,13 @@ std::string place_of(const std::string& name, const Finding& finding) {
 
 }  // namespace
 
-std::vector<Finding> check_table(const Table& table) { return TableCheck(table).run(); }
+std::vector<Finding> check_table(const Table& table, bool accept_light) {
+  return TableCheck(table).run(accept_light);
+}
 
-std::vector<Finding> check_table(const MaterialTable& table) { return MaterialCheck(table).run(); }
+std::vector<Finding> check_table(const MaterialTable& table, bool accept_light) {
+  return MaterialCheck(table).run(accept_light);
+}
 
 std::string_view severity_name(Severity severity) {
   constexpr std::array<std::string_view, 3> kNames = {"note", "warning", "error"};
@@ -301,8 +314,8 @@ std::string finding_text(const std::string& name, const Finding& finding) {
          ": " + finding.message;
 }
 
-void require_fittable(const Table& table) {
-  const std::vector<Finding> findings = check_table(table);
+void require_fittable(const Table& table, bool accept_light) {
+  const std::vector<Finding> findings = check_table(table, accept_light);
   const auto errors = std::ranges::count(findings, Severity::kError, &Finding::severity);
   if (errors == 0) return;
   const Finding& first = findings.front();

@@ -16,18 +16,19 @@ enum class Severity {
 
 struct Finding {
   Severity severity = Severity::kNote;
-  std::string kind;      // duplicate, contradiction, gap, non-monotone, jump, saturation, range, rows
+  std::string kind;      // duplicate, contradiction, gap, non-monotone, jump, saturation, range, rows, light
   std::size_t line = 0;  // of the file; 0 if it concerns the whole table
   std::string message;
 };
 
 // Returns all findings by severity, then by line. Only rows of status ok are checked, except for saturation
 // and range. check.cpp defines the threshold of each check.
-std::vector<Finding> check_table(const Table& table);
+// `accept_light`: what light_remark() (light.hpp) calls an error is a warning.
+std::vector<Finding> check_table(const Table& table, bool accept_light = false);
 
 // The same for named parameters: values that are not finite, too few usable rows for the number of columns,
 // source columns with a single value, repeated samples, and rows that are not fitted.
-std::vector<Finding> check_table(const MaterialTable& table);
+std::vector<Finding> check_table(const MaterialTable& table, bool accept_light = false);
 
 std::string_view severity_name(Severity severity);
 
@@ -35,6 +36,6 @@ std::string_view severity_name(Severity severity);
 std::string finding_text(const std::string& name, const Finding& finding);
 
 // Throws kInput with the first error, and the number of further ones, if the table cannot be fitted.
-void require_fittable(const Table& table);
+void require_fittable(const Table& table, bool accept_light = false);
 
 }  // namespace remapc

@@ -1,13 +1,17 @@
 #include "table/csv.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
+#include "text/plain_text.hpp"
 #include "text/report_text.hpp"
 
 namespace remapc {
 namespace {
+
+constexpr std::size_t kLongestComment = 5000, kShownText = 80;  // bytes
 
 using remap::Error;
 using remap::ErrorKind;
@@ -33,10 +37,36 @@ char detect_delimiter(std::string_view header) {
   return best;
 }
 
+void require_line(const Csv& csv, std::size_t number, std::string_view line) {
+  if (line.size() > kLongestCsvLine)
+    csv.fail(number, 1,
+             "the line has " + std::to_string(line.size()) + " bytes; at most " +
+                 std::to_string(kLongestCsvLine) + " are read");
+}
+
+// Which of two equal columns is meant, nobody can tell.
+void require_header(const Csv& csv) {
+  const std::vector<CsvCell>& cells = csv.header.cells;
+  if (cells.size() > kMostCsvColumns)
+    csv.fail(csv.header.number, 1,
+             "the header has " + std::to_string(cells.size()) + " columns; at most " +
+                 std::to_string(kMostCsvColumns) + " are read");
+  std::map<std::string_view, std::size_t> places;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto [first, is_new] = places.emplace(cells[i].text, i);
+    if (!is_new && !cells[i].text.empty())
+      csv.fail(csv.header.number, cells[i].column,
+               "the column " + std::string(cells[i].text) + " appears twice, as number " +
+                   std::to_string(first->second + 1) + " and " + std::to_string(i + 1) + " (remove one)");
+  }
+}
+
 void read_comment(std::string_view line, Csv* csv) {
   const std::size_t colon = line.find(": ");
-  if (colon != std::string_view::npos)
-    csv->comments.emplace_back(trimmed(line.substr(1, colon - 1)), trimmed(line.substr(colon + 2)));
+  if (colon == std::string_view::npos || csv->comments.size() == kMostCsvComments) return;
+  // Comments reach fits and headers, which take no control characters.
+  csv->comments.emplace_back(remap::plain(trimmed(line.substr(1, colon - 1)), kLongestComment),
+                             remap::plain(trimmed(line.substr(colon + 2)), kLongestComment));
 }
 
 void read_line(std::string_view line, std::size_t number, char* delimiter, Csv* csv) {
@@ -44,8 +74,11 @@ void read_line(std::string_view line, std::size_t number, char* delimiter, Csv* 
     if (line.front() == '#') return read_comment(line, csv);
     *delimiter = detect_delimiter(line);
     csv->header = {number, split_csv_line(line, *delimiter)};
-    return;
+    return require_header(*csv);
   }
+  if (csv->lines.size() == kMostCsvRows)
+    csv->fail(number, 1,
+              "the table has more than " + std::to_string(kMostCsvRows) + " rows, the most that are read");
   std::vector<CsvCell> cells = split_csv_line(line, *delimiter);
   if (cells.size() != csv->header.cells.size())
     csv->fail(number, 1,
@@ -64,13 +97,15 @@ std::string Csv::comment(const std::string& key) const {
 
 void Csv::fail(std::size_t line, std::size_t column, const std::string& what) const {
   throw Error(ErrorKind::kInput,
-              name + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + what);
+              remap::plain(name + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + what));
 }
 
 double Csv::number(const CsvLine& line, const CsvCell& cell, const std::string& column_name) const {
   const auto value = remap::parse_number(cell.text);
   if (!value)
-    fail(line.number, cell.column, column_name + " is \"" + std::string(cell.text) + "\"; expected a number");
+    fail(line.number, cell.column,
+         remap::plain(column_name, kShownText) + " is \"" + remap::plain(cell.text, kShownText) +
+             "\"; expected a number");
   return *value;
 }
 
@@ -96,6 +131,7 @@ Csv parse_csv(std::string_view text, const std::string& name) {
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     ++number;
+    require_line(csv, number, line);
     if (!trimmed(line).empty()) read_line(line, number, &delimiter, &csv);
   }
   if (csv.header.cells.empty())

@@ -26,6 +26,11 @@ struct CsvLine {
   std::vector<CsvCell> cells;
 };
 
+// The largest tables that are read: of what remapc sample writes at most, twice. A million rows take 300 MB
+// of memory while they are read.
+inline constexpr std::size_t kMostCsvRows = 2'000'000, kMostCsvColumns = 1000, kMostCsvComments = 1000;
+inline constexpr std::size_t kLongestCsvLine = 100'000;  // bytes
+
 struct Csv {
   std::string name;  // for messages
   Comments comments;
@@ -46,8 +51,8 @@ struct Csv {
 std::vector<CsvCell> split_csv_line(std::string_view line, char delimiter);
 
 // Parses UTF-8 text delimited by comma, tab or semicolon, whichever occurs most in the header row. Cells
-// point into `text`. Throws kInput for text without a header row or without rows, and for a row of another
-// length.
+// point into `text`. Throws kInput for text without a header row or without rows, for a row of another
+// length, for two columns of one name, and for text beyond the limits above.
 Csv parse_csv(std::string_view text, const std::string& name);
 
 // CSV text that is being written.

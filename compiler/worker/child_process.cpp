@@ -3,10 +3,13 @@
 #include "worker/child_process.hpp"
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
+#include <fstream>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -14,6 +17,7 @@
 #include <vector>
 
 #include "remap/error.hpp"
+#include "system/process_mark.hpp"
 
 namespace remapc {
 namespace {
@@ -56,6 +60,44 @@ void close_end(int* end) {
   ::_exit(127);
 }
 
+// `REMAP_CHILD=5d1c09e4-421-1`, for the first child of this process.
+std::string new_mark() {
+  static std::atomic<unsigned> count{0};
+  return "REMAP_CHILD=" + remap::process_mark() + "-" + std::to_string(++count);
+}
+
+// Whether the environment that a process began with holds `entry`; false if it cannot be read.
+bool has_in_environment(const std::filesystem::path& process, const std::string& entry) {
+  std::ifstream file(process / "environ", std::ios::binary);
+  for (std::string found; std::getline(file, found, '\0');)
+    if (found == entry) return true;
+  return false;
+}
+
+// Processes whose names under /proc are numbers, and which have `mark`.
+std::vector<pid_t> marked_processes(const std::string& mark) {
+  std::vector<pid_t> found;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_process = name.find_first_not_of("0123456789") == std::string::npos;
+    if (is_process && has_in_environment(entry.path(), mark)) found.push_back(std::stoi(name));
+  }
+  return found;
+}
+
+// Kills what a process has started outside of its group (setsid), again while it starts more. The dead and
+// those that have become zombies have no environment.
+void kill_marked(const std::string& mark) {
+  constexpr int kMostRounds = 100;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::vector<pid_t> processes = marked_processes(mark);
+    if (processes.empty()) return;
+    for (const pid_t process : processes) ::kill(process, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
 // Writing to a process that has ended raises SIGPIPE, which would end this program. The signal is blocked and
 // consumed.
 class PipeSignalBlocked {
@@ -86,7 +128,8 @@ class PipeSignalBlocked {
 
 }  // namespace
 
-ChildProcess::ChildProcess(std::string script) {
+ChildProcess::ChildProcess(std::string script) : mark_(new_mark()) {
+  script = mark_ + "; export REMAP_CHILD; " + script;
   watcher_ = std::thread([this, text = std::move(script)] { start_and_watch(text); });
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return started_; });
@@ -167,6 +210,7 @@ void ChildProcess::reap() {
   int status = 0;
   while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
   }
+  kill_marked(mark_);
   const std::lock_guard lock(mutex_);
   status_ = status;
   ended_ = true;

@@ -24,10 +24,14 @@ class ChildProcess {
   };
 
   // Starts `script` by /bin/sh, in its own process group, so that a Ctrl-C at the terminal does not reach it.
-  // The kernel kills the process when this program ends in any way. Throws kInput if it cannot be started.
+  // The kernel kills the process when this program ends in any way. The process and all that it starts have
+  // the variable REMAP_CHILD of its environment in common, by which those are found that have left the group.
+  // Throws kInput if it cannot be started.
   explicit ChildProcess(std::string script);
 
-  // Closes its input, waits `kGrace` for it to end, then kills its group.
+  // Closes its input, waits `kGrace` for it to end, then kills its group and whatever else it has started.
+  // Out of reach are only descendants that clear their environment, and, where this program is killed itself,
+  // all but the process.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -66,6 +70,7 @@ class ChildProcess {
 
   Pipes pipes_;
   pid_t id_ = -1;
+  std::string mark_;  // REMAP_CHILD=...
   std::thread watcher_;
 
   std::mutex mutex_;

@@ -1,15 +1,13 @@
 #include "worker/folders.hpp"
 
 #include <cerrno>
-#include <charconv>
-#include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 #include <unistd.h>
 
 #include "remap/error.hpp"
+#include "system/process_mark.hpp"
 
 namespace remapc {
 namespace {
@@ -37,25 +35,18 @@ bool is_writable_folder(const fs::path& folder) {
   return fs::is_directory(folder, ignored) && ::access(folder.c_str(), W_OK) == 0;
 }
 
-// Returns the process in the name of a private folder; 0 for another name.
-pid_t owner_of(const std::string& name) {
-  pid_t owner = 0;
-  if (!name.starts_with(kPrefix)) return 0;
-  std::from_chars(name.data() + kPrefix.size(), name.data() + name.size(), owner);
-  return owner;
+// The mark of the process in the name of a private folder, before the six letters that make it unique.
+std::string_view mark_in(std::string_view name) {
+  const std::size_t end = name.rfind('-');
+  if (!name.starts_with(kPrefix) || end == std::string_view::npos || end <= kPrefix.size()) return {};
+  return name.substr(kPrefix.size(), end - kPrefix.size());
 }
-
-// A process in another container that shares the file system is invisible, but its folder changes often.
-constexpr std::chrono::hours kAbandonedAfter{1};
 
 void remove_abandoned(const fs::path& parent) {
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(parent, ignored)) {
-    const pid_t owner = owner_of(entry.path().filename());
-    if (owner <= 0 || ::kill(owner, 0) == 0 || errno != ESRCH) continue;
-    if (fs::file_time_type::clock::now() - entry.last_write_time(ignored) > kAbandonedAfter)
+  for (const fs::directory_entry& entry : fs::directory_iterator(parent, ignored))
+    if (remap::is_mark_of_the_dead(mark_in(entry.path().filename().string())))
       fs::remove_all(entry.path(), ignored);
-  }
 }
 
 }  // namespace
@@ -84,7 +75,7 @@ PrivateFolder::PrivateFolder() {
   const fs::path memory = "/dev/shm";
   const fs::path parent = is_writable_folder(memory) ? memory : fs::temp_directory_path();
   remove_abandoned(parent);
-  std::string name = (parent / (kPrefix + std::to_string(::getpid()) + "-XXXXXX")).string();
+  std::string name = (parent / (kPrefix + remap::process_mark() + "-XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr)
     throw Error(ErrorKind::kOutput, name + ": cannot be created: " + std::strerror(errno));
   path_ = name;

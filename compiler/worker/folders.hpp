@@ -18,8 +18,9 @@ std::filesystem::path own_worker_list();
 // The list that ships with remap: next to the installed program, else in the source tree it was built from.
 std::filesystem::path shipped_worker_list();
 
-// A folder of this process, in memory if possible, deleted with the object. Folders of processes that died
-// are deleted after an hour, when another one is made.
+// A folder of this process, in memory if possible, deleted with the object. Its name holds the mark of this
+// process (system/process_mark.hpp); folders of processes of this machine that have ended are deleted when
+// another one is made.
 class PrivateFolder {
  public:
   // Throws kOutput if no folder can be made.

@@ -1,24 +1,25 @@
-// A file holds one line of text, the request and the renderer's version, then the picture as raw floats. Its
-// name is a hash of that line. Since the line is compared, requests of equal hash are not confused.
+// A file holds one line of text, the request and the renderer's version, a line with the checksum of that
+// line and of the picture, then the picture as raw floats. Its name is a hash of the first line. Since the
+// line is compared, requests of equal hash are not confused; since every byte counts in the checksum, a
+// damaged file is not used.
 #include "worker/picture_cache.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <thread>
+#include <string_view>
 
 #include "remap/error.hpp"
 #include "system/files.hpp"
+#include "worker/picture_fault.hpp"
 
 namespace remapc {
 namespace {
 
 namespace fs = std::filesystem;
 
-// FNV-1a, 64 bits (Fowler, Noll, Vo 1991).
-std::uint64_t hash_of(const std::string& text) {
+// FNV-1a, 64 bits (Fowler, Noll, Vo 1991): a single byte that changes always changes it.
+std::uint64_t hash_of(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   return hash;
@@ -28,6 +29,12 @@ std::string hexadecimal(std::uint64_t value) {
   std::string text(16, '0');
   for (std::size_t i = text.size(); i-- > 0; value >>= 4) text[i] = "0123456789abcdef"[value & 15u];
   return text;
+}
+
+constexpr std::size_t kChecksumBytes = 17;  // 16 digits and a line break
+
+std::string checksum_line(std::string_view line, std::string_view picture) {
+  return hexadecimal(hash_of(std::string(line) += picture)) + "\n";
 }
 
 // Makes a file name by which a person recognises the text.
@@ -40,7 +47,7 @@ std::string folder_name(const std::string& text) {
   return name.substr(0, 60);
 }
 
-// The sizes of a picture and of its line in bytes.
+// The size of a picture in bytes.
 std::size_t picture_bytes(const PictureRequest& request) {
   const auto side = static_cast<std::size_t>(request.resolution);
   return side * side * static_cast<std::size_t>(request.channels) * sizeof(float);
@@ -49,7 +56,7 @@ std::size_t picture_bytes(const PictureRequest& request) {
 }  // namespace
 
 PictureCache::PictureCache(const fs::path& folder, const std::string& worker, const std::string& renderer)
-    : key_opening_("remap picture 1; protocol " + std::to_string(kWorkerProtocol) + "; " + renderer + "; "),
+    : key_opening_("remap picture 2; protocol " + std::to_string(kWorkerProtocol) + "; " + renderer + "; "),
       worker_folder_(folder / folder_name(worker.empty() ? "unnamed" : worker)),
       folder_(worker_folder_ / (folder_name(renderer) + "-" + hexadecimal(hash_of(renderer)).substr(0, 8))) {}
 
@@ -58,31 +65,41 @@ fs::path PictureCache::file_of(const PictureRequest& request) const {
   return folder_ / name.substr(0, 2) / (name + ".picture");
 }
 
-std::optional<Image> PictureCache::find(const PictureRequest& request) const {
+PictureCache::Found PictureCache::find(const PictureRequest& request) const {
   const fs::path path = file_of(request);
   std::error_code failure;
-  const auto size = fs::file_size(path, failure);
+  if (!fs::is_regular_file(path, failure)) return {};
   const std::string line = key_opening_ + request.text + "\n";
-  if (failure || size != line.size() + picture_bytes(request)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  std::string found(line.size(), '\0');
+  const std::size_t expected = line.size() + kChecksumBytes + picture_bytes(request);
+  const auto damaged = [&](const std::string& what) {
+    return Found{std::nullopt, path.string() + ": " + what};
+  };
+  std::string content;
+  try {
+    content = remap::read_file(path);
+  } catch (const remap::Error& error) {
+    return {std::nullopt, error.what()};
+  }
+  const std::size_t end = content.find('\n') + 1;
+  if (end == 0 || content.size() < end + kChecksumBytes) return damaged("the file is cut short");
+  const std::string_view picture = std::string_view(content).substr(end + kChecksumBytes);
+  if (content.compare(end, kChecksumBytes, checksum_line(content.substr(0, end), picture)) != 0)
+    return damaged("its checksum does not match its content");
+  if (content.compare(0, end, line) != 0) return {};  // another request of the same hash
+  if (content.size() != expected) return damaged("it has a picture of another size");
   Image image{request.resolution, request.resolution, request.channels,
               std::vector<float>(picture_bytes(request) / sizeof(float))};
-  if (!file.read(found.data(), static_cast<std::streamsize>(found.size())) || found != line)
-    return std::nullopt;
-  if (!file.read(reinterpret_cast<char*>(image.values.data()),
-                 static_cast<std::streamsize>(picture_bytes(request))))
-    return std::nullopt;
-  return image;
+  std::memcpy(image.values.data(), picture.data(), picture.size());
+  if (const std::string fault = picture_fault(image); !fault.empty()) return damaged(fault);
+  return {std::move(image), ""};
 }
 
 void PictureCache::keep(const PictureRequest& request, const Image& image) const {
-  std::string content = key_opening_ + request.text + "\n";
-  const std::size_t start = content.size();
-  content.resize(start + picture_bytes(request));
-  std::memcpy(content.data() + start, image.values.data(), picture_bytes(request));
+  const std::string line = key_opening_ + request.text + "\n";
+  const std::string_view picture(reinterpret_cast<const char*>(image.values.data()), picture_bytes(request));
   // Two threads never keep the same picture at once (WorkerRenderer), so the temporary name is unique.
-  remap::write_file(file_of(request), content);
+  remap::write_file(file_of(request), line + checksum_line(line, picture) + std::string(picture),
+                    remap::Flush::kNo);
 }
 
 std::vector<std::string> PictureCache::other_versions() const {

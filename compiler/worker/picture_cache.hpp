@@ -17,8 +17,14 @@ class PictureCache {
   // `renderer`: WorkerDescription::renderer.
   PictureCache(const std::filesystem::path& folder, const std::string& worker, const std::string& renderer);
 
-  // Returns nothing if the picture is not in the cache or its file is damaged.
-  std::optional<Image> find(const PictureRequest& request) const;
+  // What the cache holds for a request: a picture, or nothing, and then why its file cannot be used if there
+  // is one
+  // (`FILE: its checksum does not match its content`).
+  struct Found {
+    std::optional<Image> image;
+    std::string damage;
+  };
+  Found find(const PictureRequest& request) const;
 
   // Throws kOutput if the picture cannot be written.
   void keep(const PictureRequest& request, const Image& image) const;

@@ -11,6 +11,7 @@
 #include "renderer/scene.hpp"
 #include "text/json_field.hpp"
 #include "text/number_text.hpp"
+#include "text/plain_text.hpp"
 
 namespace remapc {
 namespace {
@@ -21,6 +22,9 @@ using remap::ErrorKind;
 using remap::Field;
 using remap::Range;
 using remap::RoughnessConvention;
+
+// Of one renderer; models are listed, and parameters are options.
+constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
@@ -93,15 +97,16 @@ void require_once(const ModelDescription& model, ParameterRole role, bool needed
 
 ModelDescription read_model(const Field& field, const std::string& prefix) {
   ModelDescription model;
-  model.name = field["name"].text();
+  model.name = field["name"].line();
   const std::size_t slash = model.name.find('/');
   const bool named = slash != std::string::npos && slash != 0 && slash + 1 < model.name.size();
   if (!named || (!prefix.empty() && model.name.substr(0, slash) != prefix))
     field["name"].fail("is \"" + model.name + "\"; expected " + (prefix.empty() ? "PREFIX" : prefix) +
                        "/MODEL");
   const Field parameters = field["parameters"];
-  model.parameters =
-      parameters.list(1, [&](const Field& parameter) { return read_parameter(parameter, &model.roughness); });
+  model.parameters = parameters.list(
+      1, [&](const Field& parameter) { return read_parameter(parameter, &model.roughness); },
+      kMostParameters);
   require_once(model, ParameterRole::kRoughness, true, model.name);
   require_once(model, ParameterRole::kSpecular, true, model.name);
   require_once(model, ParameterRole::kDiffuse, false, model.name);
@@ -120,7 +125,10 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
 // Parses an answer. It must have the id of the request. nlohmann's message for invalid JSON
 // quotes only the place in the text; the message here quotes the line.
 ordered_json parse_answer(const std::string& line, std::int64_t id, const std::string& place) {
-  const auto shown = [&] { return line.size() > 80 ? line.substr(0, 77) + "..." : line; };
+  const auto shown = [&] { return remap::plain(line, 80); };
+  if (remap::is_nested_too_deep(line))
+    throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\", JSON nested deeper than " +
+                                       std::to_string(remap::kDeepestJson) + " levels");
   const ordered_json answer = ordered_json::parse(line, nullptr, false);
   if (!answer.is_object())
     throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\", which is not a line of JSON");
@@ -131,9 +139,14 @@ ordered_json parse_answer(const std::string& line, std::int64_t id, const std::s
   return answer;
 }
 
-std::optional<std::string> complaint_of(const ordered_json& answer) {
+// The complaint of an answer, for a message: its line breaks are spaces.
+std::optional<std::string> complaint_of(const ordered_json& answer, const std::string& place) {
   if (!answer.contains("error")) return std::nullopt;
-  return Field(answer, "answer")["error"].text();
+  const Field error = Field(answer, place)["error"];
+  error.require(error.json().is_string(), "a text");
+  std::string complaint = error.json().get<std::string>();
+  std::ranges::replace(complaint, '\n', ' ');
+  return complaint;
 }
 
 }  // namespace
@@ -174,13 +187,14 @@ std::string quit_line(std::int64_t id) { return ordered_json{{"id", id}, {"reque
 bool is_answer(const std::string& line) { return line.starts_with('{'); }
 
 std::optional<std::string> read_answer(const std::string& line, std::int64_t id, const std::string& place) {
-  return complaint_of(parse_answer(line, id, place));
+  return complaint_of(parse_answer(line, id, place), place);
 }
 
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
                                    const std::string& place) {
   const ordered_json answer = parse_answer(line, id, place);
-  if (const auto complaint = complaint_of(answer)) throw Error(ErrorKind::kInput, place + ": " + *complaint);
+  if (const auto complaint = complaint_of(answer, place))
+    throw Error(ErrorKind::kInput, place + ": " + *complaint);
   const Field field(answer, place);
   if (field["protocol"].count() != kWorkerProtocol)
     field["protocol"].fail("is version " + field["protocol"].json().dump() + "; expected " +
@@ -189,7 +203,8 @@ WorkerDescription read_description(const std::string& line, std::int64_t id, con
   description.renderer = field["renderer"].text();
   field["renderer"].require(!description.renderer.empty(), "a name and a version");
   description.meshes = read_flag(field, "meshes");
-  description.models = field["models"].list(1, [&](const Field& model) { return read_model(model, prefix); });
+  description.models = field["models"].list(
+      1, [&](const Field& model) { return read_model(model, prefix); }, kMostModels);
   return description;
 }
 

@@ -1,11 +1,12 @@
 #include "worker/worker.hpp"
 
-#include <cmath>
 #include <fstream>
 
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
+#include "text/plain_text.hpp"
 #include "worker/folders.hpp"
+#include "worker/picture_fault.hpp"
 #include "worker/shape_mesh.hpp"
 
 namespace remapc {
@@ -24,6 +25,14 @@ std::string quoted(const std::string& text) {
   std::string word = "'";
   for (const char c : text) c == '\'' ? word += "'\\''" : word += c;
   return word + "'";
+}
+
+// Parts of a message, which together leave room for the place and for how to install the worker.
+constexpr std::size_t kLongestWhat = 1000, kLongestLog = 500;
+
+// The last line of a log says most.
+std::string end_of(const std::string& log) {
+  return log.size() <= kLongestLog ? log : "..." + log.substr(log.size() - kLongestLog);
 }
 
 std::string without(const std::string& opening, const std::string& text) {
@@ -61,10 +70,15 @@ std::string Worker::place(const std::string& shown) const {
 void Worker::fail(const std::string& shown, const std::string& what) {
   usable_ = false;
   process_->kill();
-  std::string message = place(shown) + ": " + what;
-  if (const std::string log = process_->log_end(); !log.empty()) message += "; last lines of its log: " + log;
+  std::string message = remap::plain(what, kLongestWhat);
+  if (const std::string log = process_->log_end(); !log.empty())
+    message += "; last lines of its log: " + end_of(log);
   if (!has_answered_ && !entry_.install.empty()) message += "; to install it: " + entry_.install;
-  throw Error(ErrorKind::kInput, message);
+  throw error_of(shown, message);
+}
+
+Error Worker::error_of(const std::string& shown, const std::string& what) const {
+  return {ErrorKind::kInput, remap::plain(place(shown) + ": " + what)};
 }
 
 std::string Worker::next_answer(const std::string& shown) {
@@ -110,7 +124,7 @@ Image Worker::render(const PictureRequest& request) {
     fail(request.shown, without(place(request.shown) + ": ", error.what()));
   }
   // The worker is still usable; after other faults, answers no longer match requests.
-  if (complaint) throw Error(ErrorKind::kInput, place(request.shown) + ": " + *complaint);
+  if (complaint) throw error_of(request.shown, remap::plain(*complaint, kLongestWhat));
   return read_picture(request);
 }
 
@@ -130,13 +144,7 @@ Image Worker::read_picture(const PictureRequest& request) {
   std::ifstream file(picture_file_, std::ios::binary);
   if (!file.read(reinterpret_cast<char*>(image.values.data()), static_cast<std::streamsize>(expected)))
     fail(request.shown, "the picture cannot be read");
-  for (std::size_t i = 0; i < image.values.size(); ++i) {
-    if (std::isfinite(image.values[i])) continue;
-    const std::size_t pixel = i / channels;
-    fail(request.shown, "the picture is " + remap::number_text(static_cast<double>(image.values[i])) +
-                            " in row " + std::to_string(pixel / side) + ", column " +
-                            std::to_string(pixel % side) + " (values must be finite)");
-  }
+  if (const std::string fault = picture_fault(image); !fault.empty()) fail(request.shown, fault);
   return image;
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "remap/error.hpp"
 #include "renderer/image.hpp"
 #include "worker/child_process.hpp"
 #include "worker/protocol.hpp"
@@ -38,8 +39,12 @@ class Worker {
 
   const WorkerDescription& description() const { return description_; }
 
-  // Throws kInput, naming the request and the end of the worker's log, if rendering fails. After an answer
-  // with an error is_usable() stays true and the worker can be asked again.
+  // Throws kInput if rendering fails, or if the picture has what no picture may have (picture_fault.hpp).
+  // After an answer with an error is_usable() stays true and the worker can be asked again.
+  //
+  // Every message about a worker names it and the request, has the end of its log where it was ended, and is
+  // cut to remap::kLongestMessage: nothing that a worker writes is longer in a message, or has control
+  // characters.
   Image render(const PictureRequest& request);
   bool is_usable() const { return usable_; }
 
@@ -48,6 +53,8 @@ class Worker {
   // Sends a line and waits for the answer to it.
   std::string ask(const std::string& line, const std::string& shown);
   std::string next_answer(const std::string& shown);
+  // The error whose message begins with the place.
+  remap::Error error_of(const std::string& shown, const std::string& what) const;
   [[noreturn]] void fail(const std::string& shown, const std::string& what);
   Image read_picture(const PictureRequest& request);
 

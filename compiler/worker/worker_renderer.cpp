@@ -49,6 +49,7 @@ class WorkerRenderer::Turn {
 
 WorkerRenderer::WorkerRenderer(WorkerEntry entry, WorkerSettings settings)
     : entry_(std::move(entry)), settings_(settled(std::move(settings))) {
+  if (settings_.on_start) settings_.on_start();
   std::unique_ptr<Worker> first = start();
   description_ = first->description();
   if (settings_.cache) cache_.emplace(*settings_.cache, entry_.name, description_.renderer);
@@ -121,18 +122,36 @@ Image WorkerRenderer::render(const Material& material, const Scene& scene) const
                 "worker " + entry_.name + ": renders spheres only, not a " + shape_name(scene.shape));
   const PictureRequest request = picture_request(material, scene);
   const Turn turn(*this, request);
-  if (cache_) {
-    if (auto found = cache_->find(request)) {
-      ++cached_;
-      if (settings_.on_picture) settings_.on_picture();
-      return std::move(*found);
-    }
+  std::optional<Image> image = cached(request);
+  if (image) {
+    ++cached_;
+  } else {
+    image = render_anew(request);
+    ++rendered_;
+    keep(request, *image);
   }
-  Image image = render_anew(request);
-  ++rendered_;
   if (settings_.on_picture) settings_.on_picture();
-  if (cache_) cache_->keep(request, image);
-  return image;
+  return std::move(*image);
+}
+
+std::optional<Image> WorkerRenderer::cached(const PictureRequest& request) const {
+  if (!cache_) return std::nullopt;
+  PictureCache::Found found = cache_->find(request);
+  if (!found.damage.empty() && damaged_++ == 0) warn(found.damage + " (the picture is rendered anew)");
+  return std::move(found.image);
+}
+
+void WorkerRenderer::keep(const PictureRequest& request, const Image& image) const {
+  if (!cache_ || !keeps_) return;
+  try {
+    cache_->keep(request, image);
+  } catch (const Error& error) {
+    if (keeps_.exchange(false)) warn(std::string(error.what()) + " (further pictures are not kept)");
+  }
+}
+
+void WorkerRenderer::warn(const std::string& message) const {
+  if (settings_.on_warning) settings_.on_warning("worker " + entry_.name + ": cache: " + message);
 }
 
 PictureCount WorkerRenderer::pictures() const { return {rendered_, cached_}; }
@@ -140,6 +159,9 @@ PictureCount WorkerRenderer::pictures() const { return {rendered_, cached_}; }
 std::vector<std::string> WorkerRenderer::remarks() const {
   std::vector<std::string> remarks;
   if (!cache_) return remarks;
+  if (damaged_ > 1)
+    remarks.push_back("worker " + entry_.name + ": " + std::to_string(damaged_) + " pictures of the cache " +
+                      settings_.cache->string() + " were damaged; they were rendered anew");
   for (const std::string& version : cache_->other_versions())
     remarks.push_back("worker " + entry_.name + ": pictures of " + version + " in the cache " +
                       settings_.cache->string() + " are not used; this is " + description_.renderer);

@@ -26,6 +26,10 @@ struct WorkerSettings {
   unsigned processes = 0;                      // at most, of one worker at once; 0: one for each core
   WorkerLimits limits;
   std::function<void()> on_picture;  // called after every picture, from any thread
+  std::function<void()> on_start;  // called before the first process starts, which leaves files and processes
+  // Called from any thread with what a user should know at once: the first damaged picture of the cache, and
+  // that the cache cannot be written. The run goes on.
+  std::function<void(const std::string&)> on_warning;
 };
 
 // The number of pictures that a renderer has returned so far.
@@ -46,7 +50,8 @@ class WorkerRenderer final : public Renderer {
   Image render(const Material& material, const Scene& scene) const override;
 
   PictureCount pictures() const;
-  // Returns remarks for the user: pictures of other versions in the cache.
+  // Returns remarks for the user: pictures of other versions in the cache, and how many were damaged if it
+  // was more than the one of the warning.
   std::vector<std::string> remarks() const;
 
  private:
@@ -57,6 +62,9 @@ class WorkerRenderer final : public Renderer {
   std::unique_ptr<Worker> take_worker() const;
   void give_back(std::unique_ptr<Worker> worker) const;
   Image render_anew(const PictureRequest& request) const;
+  std::optional<Image> cached(const PictureRequest& request) const;
+  void keep(const PictureRequest& request, const Image& image) const;
+  void warn(const std::string& message) const;
 
   const WorkerEntry entry_;
   const WorkerSettings settings_;
@@ -69,7 +77,8 @@ class WorkerRenderer final : public Renderer {
   mutable std::vector<std::unique_ptr<Worker>> idle_;
   mutable std::size_t running_ = 0;        // number of processes
   mutable std::set<std::string> in_work_;  // pictures that a thread is rendering
-  mutable std::atomic<std::size_t> next_file_{0}, rendered_{0}, cached_{0};
+  mutable std::atomic<std::size_t> next_file_{0}, rendered_{0}, cached_{0}, damaged_{0};
+  mutable std::atomic<bool> keeps_{true};  // false after a picture could not be written
 };
 
 }  // namespace remapc

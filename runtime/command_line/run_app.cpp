@@ -15,9 +15,13 @@
 #include "command_line/help_text.hpp"
 #include "remap/error.hpp"
 #include "text/nearest_name.hpp"
+#include "text/plain_text.hpp"
 
 namespace remap {
 namespace {
+
+// Lists of names to choose from are the longest messages.
+constexpr std::size_t kLongestLine = 8000;
 
 // The command that the arguments chose, as deep as they went.
 const CLI::App& chosen_command(const CLI::App& app) {
@@ -158,7 +162,7 @@ int run_app(Command& command, int argc, const char* const* argv) noexcept {
 void print_message(const std::string& program, const std::string& message) {
   std::string line = program + ": " + message;
   std::replace(line.begin(), line.end(), '\n', ' ');
-  std::cerr << line << std::endl;
+  std::cerr << plain(line, kLongestLine) << std::endl;
 }
 
 bool terminal_watches_errors() noexcept { return ::isatty(STDERR_FILENO) == 1; }

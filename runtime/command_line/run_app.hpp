@@ -15,7 +15,8 @@ class Command;
 // flushed; failing to do so is a failure. Never throws.
 int run_app(Command& command, int argc, const char* const* argv) noexcept;
 
-// Prints one line to standard error: `program: message`. Line breaks in the message become spaces.
+// Prints one line to standard error: `program: message`. Line breaks in the message become spaces, other
+// control characters escapes (plain_text.hpp); of a message without end only the beginning is shown.
 void print_message(const std::string& program, const std::string& message);
 
 // Whether standard error is a terminal.

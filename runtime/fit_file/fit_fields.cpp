@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/limits.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -38,13 +39,14 @@ ModelSide read_side(const Field& field) {
 
 std::string read_id(const Field& field) {
   const std::string id = field.text();
-  field.require(is_valid_id(id), "a C++ identifier without leading or doubled underscore");
+  field.require(is_valid_id(id), kIdRule);
   return id;
 }
 
 std::string read_model(const Field& field) {
   const std::string model = field.text();
-  field.require(is_valid_model(model), "letters, digits and _ - . /");
+  field.require(is_valid_model(model),
+                "letters, digits and _ - . /, at most " + std::to_string(kLongestName));
   return model;
 }
 
@@ -90,6 +92,8 @@ Scaling read_output_scaling(const Field& field) {
 }
 
 Json network_json(const Network& network) {
+  if (const std::string fault = oversize(network); !fault.empty())
+    throw Error(ErrorKind::kInput, "network: " + fault);
   Json layers = Json::array();
   for (const Layer& layer : network.layers)
     layers.push_back({{"weights", numbers_json(layer.weights)}, {"biases", numbers_json(layer.biases)}});
@@ -112,6 +116,7 @@ Network read_network(const Field& field, std::size_t output_count) {
     return layer;
   });
   field["layers"].require(width == output_count, "a last layer of " + outputs_text(output_count));
+  if (const std::string fault = oversize(network); !fault.empty()) field.fail(fault);
   return network;
 }
 

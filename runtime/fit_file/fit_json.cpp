@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fit_file/fit_fields.hpp"
+#include "model/limits.hpp"
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "system/files.hpp"
@@ -238,6 +239,8 @@ std::optional<ImageSimilarity> read_similarity(const Field& field) {
 }  // namespace
 
 std::string fit_to_json(const Fit& fit) {
+  if (const std::string fault = oversize(fit); !fault.empty())
+    throw Error(ErrorKind::kInput, fit.id + ": " + fault);
   Json candidates = Json::array();
   for (const Candidate& candidate : fit.candidates) candidates.push_back(to_json(candidate));
   const Json json = {
@@ -272,6 +275,7 @@ Fit read_fit(const Field& root) {
   root["domain"]["specular"].require(fit.domain.specular.min == 0.0, "a range from 0");
   fit.mapping = read_mapping(root["mapping"]);
   if (root.json().contains("regimes")) fit.regimes = read_regimes(root["regimes"]);
+  if (const std::string fault = oversize(fit); !fault.empty()) root.fail(fault);
   fit.method = root["method"].text_dictionary();
   fit.candidates = root["candidates"].list(0, read_candidate);
   fit.alpha_error = read_figures(root["error_on_held_out_rows"]["alpha"]);

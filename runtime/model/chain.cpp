@@ -209,8 +209,7 @@ Fit compose(const std::vector<Fit>& steps, const std::string& id) {
   chain.target = steps.back().target;
   chain.id = id.empty() ? converter_id(chain.source.model, chain.target.model) : id;
   if (!is_valid_id(chain.id))
-    throw Error(ErrorKind::kUsage, "chain: invalid id '" + chain.id +
-                                       "' (use a C++ identifier without leading or doubled underscore)");
+    throw Error(ErrorKind::kUsage, "chain: invalid id '" + chain.id + "' (use " + kIdRule + ")");
   chain.domain = chain_domain(steps);
   chain.mapping = Chain{taken_apart(steps)};
   carry_errors(steps, &chain);

@@ -28,6 +28,18 @@ constexpr std::array<std::string_view, 92> kKeywords = {
     "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
     "xor_eq"};
 
+// Namespaces that the standard keeps for itself ([namespace.future]: std and std1, posix), that of every
+// header, and macros of systems and of the headers that a header includes.
+constexpr std::array<std::string_view, 9> kTakenNames = {"posix", "remap", "linux",    "unix", "i386",
+                                                         "NULL",  "NAN",   "INFINITY", "EOF"};
+
+bool is_taken(std::string_view id) {
+  const bool is_std =
+      id.starts_with("std") && id.find_first_not_of("0123456789", 3) == std::string_view::npos;
+  return is_std || std::find(kTakenNames.begin(), kTakenNames.end(), id) != kTakenNames.end() ||
+         std::find(kKeywords.begin(), kKeywords.end(), id) != kKeywords.end();
+}
+
 std::string identifier(const std::string& model) {
   std::string text;
   for (const char c : model) {
@@ -53,8 +65,8 @@ std::string converter_id(const std::string& source_model, const std::string& tar
 }
 
 bool is_valid_id(const std::string& id) {
-  if (id.empty() || id.find("__") != std::string::npos) return false;
-  if (std::find(kKeywords.begin(), kKeywords.end(), id) != kKeywords.end()) return false;
+  if (id.empty() || id.size() > kLongestName || id.find("__") != std::string::npos || is_taken(id))
+    return false;
   const char first = id.front();
   if (first == '_' || (first >= '0' && first <= '9')) return false;
   return std::all_of(id.begin(), id.end(), [](char c) { return is_identifier_character(c) || c == '_'; });
@@ -64,7 +76,7 @@ bool is_valid_model(const std::string& name) {
   const auto allowed = [](char c) {
     return is_identifier_character(c) || c == '_' || c == '-' || c == '.' || c == '/';
   };
-  return !name.empty() && std::all_of(name.begin(), name.end(), allowed);
+  return !name.empty() && name.size() <= kLongestName && std::all_of(name.begin(), name.end(), allowed);
 }
 
 bool is_valid_specular(const std::string& name) {

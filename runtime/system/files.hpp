@@ -1,25 +1,44 @@
 // Reads and writes files. A result appears under its final name complete or not at all.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace remap {
 
-// The whole file as bytes. Throws kInput with the reason of the system if it cannot be read.
-std::string read_file(const std::filesystem::path& path);
+// The most bytes that read_file() reads unless it is told otherwise: 100 times the largest file of text that
+// this project writes, and little enough for any machine that it runs on.
+inline constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
 
-// A hidden name in the folder of `path` for an unfinished file. It has the same extension, by which image
-// writers choose the format, and includes the process id.
+// Throws kInput unless `path` leads to a regular file. A reader that opens a pipe waits for a writer, and a
+// device has no end, so whoever hands a path that a user named to a library calls this first.
+void require_regular_file(const std::filesystem::path& path);
+
+// The whole file as bytes. Apart from regular files it reads only pipes that the caller's shell has opened
+// (/dev/stdin, /dev/fd/N, /proc/self/fd/N), which end when their writer does. Throws kInput with the reason
+// of the system if it cannot be read, and for more than `largest` bytes.
+std::string read_file(const std::filesystem::path& path, std::uintmax_t largest = kLargestFile);
+
+// A hidden name in the folder of `path` for an unfinished file: `.STEM.unfinished-MARK.EXTENSION` with the
+// mark of this process (process_mark.hpp), and the extension by which image writers choose the format. The
+// first call for a folder removes from it the unfinished files of processes of this machine that have ended:
+// those that were killed could not.
 std::filesystem::path unfinished_name(const std::filesystem::path& path);
 
-// Renames the finished file to its final name. On failure it removes `unfinished` and throws kOutput.
-void commit_file(const std::filesystem::path& unfinished, const std::filesystem::path& path);
+// Whether a result waits until the disk has it, so that a power cut leaves the old file or the new one. Only
+// what its reader can verify and make again does without.
+enum class Flush { kYes, kNo };
+
+// Gives the finished file its final name. On failure it removes `unfinished` and throws kOutput; a final name
+// of something that is not a file (a device, a pipe) fails.
+void commit_file(const std::filesystem::path& unfinished, const std::filesystem::path& path,
+                 Flush flush = Flush::kYes);
 
 // Writes `content` under an unfinished name, checks the close and renames. Creates missing parent folders.
 // Throws kOutput and then leaves an existing file unchanged.
-void write_file(const std::filesystem::path& path, std::string_view content);
+void write_file(const std::filesystem::path& path, std::string_view content, Flush flush = Flush::kYes);
 
 // Copies a file byte for byte and replaces `to`, which is complete or unchanged. Throws kInput if `from` is
 // not a readable file, kOutput if the copy cannot be written.

@@ -8,6 +8,8 @@
 
 #include "cli/remapc_session.hpp"
 #include "compiler/worker/fake_session.hpp"
+#include "system/process_mark.hpp"
+#include "worker/folders.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -93,6 +95,109 @@ TEST_CASE("remapc sweep: no worker stays behind when it is interrupted, or kille
     if (signal == SIGINT) CHECK_THAT(result.errors, Contains("interrupted"));
     CHECK(fake.nobody_is_left());
   }
+}
+
+namespace {
+
+// The folders for pictures of processes that have ended.
+std::size_t abandoned_folders() {
+  std::size_t count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(remapc::PrivateFolder().path().parent_path())) {
+    const std::string name = entry.path().filename(), opening = "remap-pictures-";
+    if (name.starts_with(opening) &&
+        is_mark_of_the_dead(name.substr(opening.size(), name.rfind('-') - opening.size())))
+      ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("remapc: a signal that ends a run with workers leaves no process and no folder of pictures") {
+  const Session session;
+  for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
+    for (const bool is_sweep : {true, false}) {
+      const remapc::FakeSession fake;
+      auto arguments = sweep(session, fake, "a.csv", "hang' --after '4");
+      if (!is_sweep)
+        arguments = {"render",       "--model",   "fake/ggx",
+                     "--set",        "alpha=0.2", "--set",
+                     "specular=0.5", "--worker",  "fake=" + fake.command("hang"),
+                     "--no-cache",   "-o",        session.path("a.exr")};
+      arguments.insert(arguments.begin(), REMAPC_PROGRAM);
+      const std::size_t before = abandoned_folders();
+      Process process(arguments);
+      wait_for_pictures(fake, is_sweep ? 4 : 0);
+      for (int i = 0; i < 200 && fake.log_lines("process").empty(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      process.send(signal);
+      const ProcessResult result = process.wait();
+      INFO(signal << " " << result.errors);
+      CHECK(result.signal == 0);
+      CHECK(result.exit_code == 1);
+      CHECK_THAT(result.errors, Contains("interrupted"));
+      CHECK(fake.nobody_is_left());
+      CHECK(abandoned_folders() == before);
+      CHECK_FALSE(std::filesystem::exists(session.path(is_sweep ? "a.csv" : "a.exr")));
+    }
+  }
+}
+
+TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said by check, show and --json",
+          "[slow]") {
+  const Session session;
+  const remapc::FakeSession fake;
+  auto arguments = sweep(session, fake, "a.csv", "oren-nayar");
+  for (std::string& word : arguments)
+    if (word == "5") word = "8";  // alphas and, below, speculars: as many as a fit needs
+  std::replace(arguments.begin(), arguments.end(), std::string("2"), std::string("3"));
+  const std::string words = ": the source's light is multiplied by 1.";
+  ProcessResult result = session.remapc(arguments);
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.errors, Contains("fake/ggx to mitsuba/ggx-plain" + words) && Contains("--accept-light"));
+  CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
+  arguments.insert(arguments.end(), {"--accept-light", "--json"});
+  result = session.remapc(arguments);
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.errors, Contains("remapc: warning: " + session.path("a.csv") + words));
+  CHECK_THAT(result.output, Contains("\"irradiance_scale\": 1.") && Contains("\"diffuse_error\": 0.") &&
+                                Contains("\"light_warning\": \"the source's light"));
+  result = session.remapc({"check", session.path("a.csv")});
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Contains("warning: light" + words));
+
+  std::string table = read_file(session.path("a.csv"));
+  table.erase(table.find("# light_accepted"), std::string("# light_accepted: yes\n").size());
+  session.write("b.csv", table);
+  result = session.remapc({"check", "--json", session.path("b.csv")});
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.output, Contains("\"kind\": \"light\"") && Contains("\"severity\": \"error\""));
+  CHECK(session.remapc({"check", "--accept-light", session.path("b.csv")}).exit_code == 0);
+  auto fit = session.fit("b.csv");
+  CHECK_THAT(session.remapc(fit).errors, Contains("light" + words));
+  fit.push_back("--accept-light");
+  REQUIRE(session.remapc(fit).exit_code == 0);
+  for (const char* form : {"--fits", "--json"}) {
+    std::vector<std::string> show = {"show", "fake_ggx_to_mitsuba_ggx_plain", "--fits", session.path("fits")};
+    if (std::string(form) == "--json") show.push_back(form);
+    result = session.remapc(show);
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.errors, Contains("remapc: warning: fake_ggx_to_mitsuba_ggx_plain" + words));
+    CHECK_THAT(result.output, Contains("irradiance_scale"));
+  }
+}
+
+TEST_CASE("remapc sweep: a cache that cannot be written is a warning", "[slow]") {
+  const Session session;
+  const remapc::FakeSession fake;
+  session.write("blocked", "x");
+  const ProcessResult result = session.remapc(sweep(session, fake, "a.csv", "", "blocked"));
+  INFO(result.errors);
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.errors, Contains("remapc: warning: worker fake: cache: "));
+  CHECK(std::filesystem::exists(session.path("a.csv")));
 }
 
 TEST_CASE("remapc renderers: what is there is listed, and why the rest is not", "[slow]") {

@@ -151,7 +151,7 @@ TEST_CASE("texremap: a terminated run removes its files", "[slow]") {
   const Session session;
   session.write_pair("exr", 1600);
   const std::string roughness = read_file(session.path("r.exr")), specular = read_file(session.path("s.exr"));
-  const int signal = GENERATE(SIGTERM, SIGINT);
+  const int signal = GENERATE(SIGTERM, SIGINT, SIGHUP);
   const ProcessResult result = interrupted(session, signal);
   INFO(result.errors);
   CHECK(result.exit_code == 1);

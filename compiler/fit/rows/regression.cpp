@@ -6,6 +6,7 @@
 
 #include "text/errors.hpp"
 #include "text/number_text.hpp"
+#include "text/plain_text.hpp"
 
 namespace remapc {
 namespace {
@@ -74,8 +75,7 @@ bool alpha_needs_specular(const std::vector<TableRow>& rows) {
 std::string fit_id(const std::string& id, const std::string& source_model, const std::string& target_model) {
   const std::string chosen = id.empty() ? remap::converter_id(source_model, target_model) : id;
   if (!remap::is_valid_id(chosen))
-    throw usage_error("id: '" + chosen +
-                      "' is not valid (use a C++ identifier without a leading or double underscore)");
+    throw usage_error("id: '" + remap::plain(chosen, 60) + "' is not valid (use " + remap::kIdRule + ")");
   return chosen;
 }
 

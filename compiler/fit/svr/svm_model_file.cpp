@@ -9,14 +9,13 @@
 #include <optional>
 #include <vector>
 
+#include "model/limits.hpp"
 #include "system/files.hpp"
 #include "text/errors.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
-
-constexpr std::size_t kLargestVectorCount = 1'000'000;
 
 std::string excerpt(std::string_view text) {
   std::string shown(text.substr(0, 40));
@@ -105,12 +104,12 @@ Header read_header(ModelText& text) {
     if (key == "gamma" && !(text.number(value, key) > 0.0))
       text.fail("gamma must be above 0, not " + excerpt(value));
     if (key == "rho") text.number(value, key);
-    if (key == "total_sv") text.count(value, key, kLargestVectorCount);
+    if (key == "total_sv") text.count(value, key, remap::kMostVectors);
   }
   for (const char* key : {"svm_type", "kernel_type", "gamma", "total_sv", "rho"})
     if (!values.contains(key)) text.fail(std::string("the header has no line ") + key);
   return {text.number(values["gamma"], "gamma"), text.number(values["rho"], "rho"),
-          text.count(values["total_sv"], "total_sv", kLargestVectorCount)};
+          text.count(values["total_sv"], "total_sv", remap::kMostVectors)};
 }
 
 // Reads a line `weight index:value index:value ...` with indices from 1 in increasing order.

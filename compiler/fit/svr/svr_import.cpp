@@ -14,6 +14,7 @@
 #include "remap/version.hpp"
 #include "system/files.hpp"
 #include "text/errors.hpp"
+#include "text/json_field.hpp"
 
 namespace remapc {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 [[noreturn]] void fail(const std::string& place, const std::string& what) {
-  throw input_error(place + ": " + what);
+  throw input_error(remap::plain(place + ": " + what));
 }
 
 // Requires an object with exactly the fields `names`; fields of `optional` may be missing.
@@ -100,7 +101,7 @@ remap::Fit fit_around(const Json& description, const std::string& place) {
   blank.id = "blank";
   blank.mapping = remap::Svr{{{{}}, {}, 1.0, 0.0, {}, {}}, {{{}}, {}, 1.0, 0.0, {}, {}}};
   blank.tool_version = remap::kVersion;
-  Json json = Json::parse(remap::fit_to_json(blank));
+  Json json = remap::parse_json(remap::fit_to_json(blank), place);
   for (const auto& [key, value] : description.items())
     if (key != "alpha" && key != "specular") json[key] = value;
   remap::Fit fit = remap::fit_from_json(json.dump(), place);
@@ -112,12 +113,7 @@ remap::Fit fit_around(const Json& description, const std::string& place) {
 
 remap::Fit import_svr(const std::filesystem::path& path) {
   const std::string place = path.string();
-  Json json;
-  try {
-    json = Json::parse(remap::read_file(path));
-  } catch (const Json::exception& failure) {
-    fail(place, std::string("invalid JSON: ") + failure.what());
-  }
+  Json json = remap::parse_json(remap::read_file(path), place);
   require_fields(json, place, {"source", "target", "domain", "alpha", "specular"}, {"id"});
   remap::Fit fit = fit_around(json, place);
   remap::Svr svr;

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "system/files.hpp"
 #include "text/errors.hpp"
 #include "warp/input/tabulated_set.hpp"
 #include "warp/space/quadrature.hpp"
@@ -39,6 +40,7 @@ std::size_t cell_of(const QuadratureDirection& direction) {
 }  // namespace
 
 std::vector<float> read_merl(const std::filesystem::path& file) {
+  remap::require_regular_file(file);
   std::ifstream stream(file, std::ios::binary);
   std::array<std::int32_t, 3> counts{};
   stream.read(reinterpret_cast<char*>(counts.data()), sizeof counts);

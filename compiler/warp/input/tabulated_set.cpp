@@ -17,6 +17,9 @@
 namespace remapc {
 namespace {
 
+// Of 33 MB each on disk; the database has 100.
+constexpr std::size_t kMostBrdfs = 10'000;
+
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kNoEntry = ~std::uint32_t{0};
@@ -129,6 +132,9 @@ void read_brdf_list(TabulatedSet& set) {
   std::vector<std::vector<float>> columns;
   for (std::string line; std::getline(lines, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (columns.size() == kMostBrdfs)
+      throw input_error(set.table.string() + ": has more than " + std::to_string(kMostBrdfs) +
+                        " BRDFs, the most that are read");
     if (!line.empty()) columns.push_back(read_merl(set.table.parent_path() / line));
   }
   if (columns.empty())

@@ -122,11 +122,21 @@ std::optional<double> mean_ssim(const Fit& fit);
 // become underscores.
 std::string converter_id(const std::string& source_model, const std::string& target_model);
 
-// Whether `id` can name a namespace and a file: a C++ identifier other than a keyword, without a leading or
-// doubled underscore.
+// The most letters of an id and of a model: file systems end at 255, of which unfinished files and extensions
+// need some.
+inline constexpr std::size_t kLongestName = 128;
+
+// What an id must be, for messages.
+inline constexpr const char* kIdRule =
+    "a C++ identifier of at most 128 letters, without leading or doubled underscore, that C++ does not use "
+    "itself";
+
+// Whether `id` can name a namespace and a file: kIdRule. C++ uses keywords, `std` and macros of
+// its headers.
 bool is_valid_id(const std::string& id);
 
-// Whether `name` can name a model in file names, messages and generated code: letters, digits and `_ - . /`.
+// Whether `name` can name a model in file names, messages and generated code: letters, digits and `_ - . /`,
+// at most kLongestName of them.
 bool is_valid_model(const std::string& name);
 
 // Whether `name` can name a specular parameter: an identifier other than the name of a width parameter.

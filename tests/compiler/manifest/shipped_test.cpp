@@ -17,6 +17,7 @@
 #include "support/campaign.hpp"
 #include "system/files.hpp"
 #include "table/domain.hpp"
+#include "table/light.hpp"
 #include "table/row_regime.hpp"
 
 using namespace remapc;
@@ -250,4 +251,21 @@ TEST_CASE("shipped: the fits are those of the manifest, and the report is up to 
     INFO(file.name);
     CHECK((remap::read_file(kFits / file.name) == file.text));
   }
+}
+
+TEST_CASE("shipped tables: the manifest accepts the light of those that need it, and of no other") {
+  std::size_t accepted = 0;
+  for (const ManifestItem& item : load_manifest(kFits).items) {
+    const std::filesystem::path path = kFits / "tables" / (item.id + ".csv");
+    if (!std::filesystem::exists(path)) {
+      CHECK_FALSE(item.accept_light);
+      continue;
+    }
+    const std::string text = remap::read_file(path);
+    const auto remark = light_remark(light_match(parse_csv(text, item.id).comments));
+    INFO(item.id);
+    CHECK(item.accept_light == (remark && remark->is_error));
+    accepted += item.accept_light ? 1 : 0;
+  }
+  CHECK(accepted == 2);
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/renderer/oren_nayar.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remapc {
@@ -62,6 +63,31 @@ class BothRenderers final : public DisguisedRenderer {
   }
 
   double light_;
+};
+
+// The built-in renderer, plus `disguised/clay`: GGX on a diffuse of Oren and Nayar.
+class ClayRenderer final : public DisguisedRenderer {
+ public:
+  explicit ClayRenderer(double sigma) : sigma_(sigma) {}
+
+ private:
+  ModelDescription disguise() const override {
+    ModelDescription changed = builtin().model("mitsuba/ggx");
+    changed.name = "disguised/clay";
+    return changed;
+  }
+  Image render_disguise(const Material& material, const Scene& scene) const override {
+    Material glossy = material;
+    glossy.model = "mitsuba/ggx";
+    glossy.parameters["diffuse"] = {0.0};
+    Image image = builtin().render(glossy, scene);
+    const Image clay = oren_nayar_picture(scene, sigma_);
+    const auto diffuse = static_cast<float>(material.parameters.at("diffuse")[0]);
+    for (std::size_t i = 0; i < clay.values.size(); ++i) image.values[i] += diffuse * clay.values[i];
+    return image;
+  }
+
+  double sigma_;
 };
 
 // The built-in renderer, plus `disguised/law`: `inner` with its specular computed by a function of the given

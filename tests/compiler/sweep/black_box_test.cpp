@@ -9,6 +9,7 @@
 #include "probe/picture_taker.hpp"
 #include "remap/error.hpp"
 #include "renderer/fresnel.hpp"
+#include "table/light.hpp"
 
 using namespace remapc;
 
@@ -29,10 +30,12 @@ double mixed(double level) { return 0.3 * level + 0.7 * level * level; }
 
 TEST_CASE("sweep: a renderer with other names, scales and light is matched as if light were equal") {
   const auto samples = grid_samples({0.1, 0.7}, 3, {0.0, 1.0}, 4);
+  SweepOptions options = sweep_options("mitsuba/ward", "disguised/metal", "natural", samples, 96);
+  options.accept_light = true;
   for (const double light : {0.013, 0.5, 1.0, 7.5}) {
     const BothRenderers renderers(light);
-    const Table table =
-        sweep(renderers, sweep_options("mitsuba/ward", "disguised/metal", "natural", samples, 96));
+    const Table table = sweep(renderers, options);
+    CHECK(comment(table, "light_accepted") == (light == 1.0 ? "" : "yes"));
     CHECK(std::stod(comment(table, "irradiance_scale")) == Approx(light).epsilon(1e-6));
     CHECK(comment(table, "diffuse_scale") == "1");
     // The disguise divides Ward's alpha by 0.8 and multiplies its specular by 4.
@@ -45,9 +48,11 @@ TEST_CASE("sweep: a renderer with other names, scales and light is matched as if
 }
 
 TEST_CASE("sweep: light is matched in the other direction too") {
+  SweepOptions options =
+      sweep_options("disguised/metal", "mitsuba/ward", "paper", {{0.3, 2.0}, {0.6, 1.0}}, 96);
+  options.accept_light = true;
   for (const double light : {0.013, 7.5}) {
-    const Table table = sweep(BothRenderers(light), sweep_options("disguised/metal", "mitsuba/ward", "paper",
-                                                                  {{0.3, 2.0}, {0.6, 1.0}}, 96));
+    const Table table = sweep(BothRenderers(light), options);
     CHECK(std::stod(comment(table, "irradiance_scale")) == Approx(1.0 / light).epsilon(1e-6));
     CHECK(table.rows[0].specular2 == Approx(0.5).epsilon(1e-6));
     CHECK(table.rows[1].specular2 == Approx(0.25).epsilon(1e-6));
@@ -73,6 +78,7 @@ TEST_CASE("sweep: one and three stages match unknown light, width, specular and 
           sweep_options("mitsuba/ward", "disguised/metal", "natural", {{0.2, 0.4}, {0.4, 0.7}}, 96);
       options.stages = stages;
       options.diffuse = 0.35;
+      options.accept_light = true;
       const Table table = sweep(BothRenderers(light), options);
       REQUIRE(table.has_diffuse);
       for (const TableRow& row : table.rows) {
@@ -274,4 +280,39 @@ TEST_CASE("black box: a source that is quadratic in specular takes one picture a
     CHECK(row.alpha2 == Approx(row.alpha1).margin(1e-6));
     CHECK(row.specular2 == Approx(0.4 * row.specular1 + 0.3 * row.specular1 * row.specular1).epsilon(1e-5));
   }
+}
+
+TEST_CASE("black box: a diffuse lobe of another shape is no other light: an error, unless it is accepted") {
+  const ClayRenderer renderer(0.7);
+  const auto samples = grid_samples({0.15, 0.7}, 6, {0.0, 0.5}, 3);
+  SweepOptions options = sweep_options("disguised/clay", "mitsuba/ggx", "natural", samples, 64);
+  CHECK_THROWS_WITH(
+      sweep(renderer, options),
+      Catch::StartsWith("disguised/clay to mitsuba/ggx: the source's light is multiplied by 1.") &&
+          Catch::Contains("specular2 is ") && Catch::Contains(" % larger for it") &&
+          Catch::Contains("--accept-light goes on"));
+  options.accept_light = true;
+  const Table accepted = sweep(renderer, options);
+  const LightMatch match = light_match(accepted.comments);
+  CHECK(match.scale > 1.1);
+  CHECK(match.diffuse_error > 0.03);
+  CHECK(match.accepted);
+  // What the rule is about: the same lobe, and yet another specular.
+  for (const TableRow& row : accepted.rows)
+    if (row.specular1 > 0.1) CHECK(row.specular2 > 1.05 * row.specular1);
+  REQUIRE(light_remark(match).has_value());
+  CHECK_FALSE(light_remark(match)->is_error);
+  options.match_irradiance = false;
+  options.accept_light = false;
+  for (const TableRow& row : sweep(renderer, options).rows)
+    if (row.status == RowStatus::kOk) CHECK(row.specular2 == Approx(row.specular1).margin(1e-5));
+}
+
+TEST_CASE("black box: a diffuse lobe that differs little is a remark, not an error") {
+  SweepOptions options = sweep_options("disguised/clay", "mitsuba/ggx", "natural",
+                                       grid_samples({0.2, 0.6}, 2, {0.0, 0.5}, 2), 64);
+  const LightMatch match = light_match(sweep(ClayRenderer(0.12), options).comments);
+  REQUIRE(light_remark(match).has_value());
+  CHECK_FALSE(light_remark(match)->is_error);
+  CHECK_FALSE(light_remark(light_match(sweep(ClayRenderer(0.0), options).comments)).has_value());
 }

@@ -130,3 +130,37 @@ TEST_CASE("column map: the error for an unknown preset or column names the neare
   CHECK_THROWS_WITH(column_map("sztrajman-2018"), Catch::Contains("did you mean sztrajman-2019?"));
   CHECK_THROWS_WITH(column_map("alpa1=x"), Catch::Contains("did you mean alpha1?"));
 }
+
+TEST_CASE("csv: two columns of one name are refused, with their places") {
+  CHECK_THROWS_WITH(parse_table("alpha1,specular1,alpha2,specular2,alpha2\n1,1,1,1,1\n", "t.csv"),
+                    "t.csv:1:35: the column alpha2 appears twice, as number 3 and 5 (remove one)");
+  CHECK_NOTHROW(parse_table("alpha1,specular1,alpha2,specular2,,\n1,1,1,1,,\n", "t.csv"));
+}
+
+TEST_CASE("csv: what is too large is refused with the limit, and no message repeats it") {
+  const std::string header = "alpha1,specular1,alpha2,specular2";
+  std::string wide = header, long_cell = std::string(90'000, 'x');
+  for (std::size_t i = 0; i < kMostCsvColumns; ++i) wide += ",c" + std::to_string(i);
+  CHECK_THROWS_WITH(parse_table(wide + "\n1,1\n", "t.csv"),
+                    "t.csv:1:1: the header has 1004 columns; at most 1000 are read");
+  CHECK_THROWS_WITH(parse_table(header + "\n" + std::string(100'001, '1'), "t.csv"),
+                    "t.csv:2:1: the line has 100001 bytes; at most 100000 are read");
+  std::string many = header + "\n";
+  for (std::size_t i = 0; i <= kMostCsvRows; ++i) many += "1,1,1,1\n";
+  CHECK_THROWS_WITH(parse_table(many, "t.csv"),
+                    Catch::Contains("t.csv:2000002:1: the table has more than 2000000 rows"));
+  try {
+    parse_table(header + "\n" + long_cell + ",1,1,1\n", "t.csv");
+    FAIL("accepted");
+  } catch (const remap::Error& error) {
+    CHECK(std::string(error.what()).size() < 200);
+  }
+}
+
+TEST_CASE("csv: control characters of comments and cells are shown as escapes") {
+  const std::string header = "alpha1,specular1,alpha2,specular2\n";
+  const Table table = parse_table("# source: a\tb\x1b[2J\xe2\x80\xae\n" + header + "1,1,1,1\n", "t.csv");
+  CHECK(table.comments.front().second == "a\\x09b\\x1b[2J\\u202e");
+  CHECK_THROWS_WITH(parse_table(header + std::string("1,\0,1,1\n", 8), "t.csv"),
+                    Catch::Contains("specular1 is \"\\x00\"; expected a number"));
+}

@@ -17,6 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compiler/renderer/oren_nayar.hpp"
 #include "renderer/renderer.hpp"
 
 namespace {
@@ -61,6 +62,9 @@ void spoil(const json& request, remapc::Image* image) {
   const std::size_t middle = (side / 2 * side + side / 2) * channels;
   if (has_fault("nan")) values[middle] = std::nanf("");
   if (has_fault("short")) values.pop_back();
+  if (has_fault("negative")) values[middle] = -0.01f * values[middle];
+  if (has_fault("rounding")) values[0] = -1e-7f * values[middle];
+  if (has_fault("huge")) values[middle] = 1e38f;
   if (has_fault("bright"))
     for (float& value : values) value *= 3.14159265f;
   if (has_fault("gamma"))
@@ -144,7 +148,14 @@ remapc::Image picture(const json& request) {
   if (has_fault("clamping"))
     for (double& value : material.parameters["specular"]) value = std::min(value, 1.0);
   if (has_fault("inverted")) material.parameters["alpha"][0] = 1.0 - 0.9 * material.parameters["alpha"][0];
+  const double diffuse = material.parameters["diffuse"][0];
+  if (has_fault("oren-nayar")) material.parameters["diffuse"] = {0.0};
   remapc::Image image = remapc::make_builtin_renderer()->render(material, place);
+  if (has_fault("oren-nayar")) {
+    const remapc::Image clay = remapc::oren_nayar_picture(place, 0.7);
+    for (std::size_t i = 0; i < clay.values.size(); ++i)
+      image.values[i] += static_cast<float>(diffuse) * clay.values[i];
+  }
   const std::size_t channels = request.at("channels");
   if (channels == 3 && image.channels == 1) {
     std::vector<float> rgb;
@@ -168,7 +179,21 @@ bool misbehave(const json& request) {
     std::cout << json{{"id", request.at("id")}, {"error", "no licence left"}} << std::endl;
   if (has_fault("no-file")) std::cout << json{{"id", request.at("id")}} << std::endl;
   if (has_fault("flood")) std::cout << std::string(20 << 20, 'x') << std::endl;
-  for (const char* fault : {"garbage", "wrong-id", "refuse", "no-file", "flood"})
+  const auto complain = [&](const json& error) {
+    std::cout << json{{"id", request.at("id")}, {"error", error}} << std::endl;
+  };
+  if (has_fault("error-number")) complain(5);
+  if (has_fault("error-long")) complain(std::string(5'000'000, 'x'));
+  if (has_fault("error-lines")) complain("line 1\nline 2 \x1b[31m\xe2\x80\xae");
+  if (has_fault("deep"))
+    std::cout << "{\"id\": " << request.at("id") << ", \"error\": " << std::string(65'700, '[')
+              << std::string(65'700, ']') << "}" << std::endl;
+  if (has_fault("talkative")) {
+    std::cerr << std::string(7000, 'y') << "\x1b[31m the end" << std::endl;
+    std::exit(3);
+  }
+  for (const char* fault : {"garbage", "wrong-id", "refuse", "no-file", "flood", "error-number", "error-long",
+                            "error-lines", "deep"})
     if (has_fault(fault)) return true;
   return false;
 }
@@ -196,10 +221,12 @@ void answer(const json& request) {
   }
 }
 
-// Starts a child process, as renderers do; it keeps running unless remapc ends it.
-void start_child() {
+// Starts a child process, as renderers do; it keeps running unless remapc ends it. With a session of its own
+// it has left the group of the worker.
+void start_child(bool has_session) {
   const pid_t child = ::fork();
   if (child == 0) {
+    if (has_session) ::setsid();
     ::execlp("sleep", "sleep", "3600", nullptr);
     ::_exit(127);
   }
@@ -211,7 +238,7 @@ void start_child() {
 int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; i += 2) options[std::string(argv[i]).substr(2)] = argv[i + 1];
   log_line("process " + std::to_string(::getpid()));
-  if (options["fault"] == "child") start_child();
+  if (options["fault"] == "child" || options["fault"] == "daemon") start_child(options["fault"] == "daemon");
   if (options["fault"] == "banner") std::cout << "Fake renderer 1\nLoading...\n" << std::endl;
   if (options["fault"] == "mute") std::this_thread::sleep_for(std::chrono::hours(1));
   for (std::string line; std::getline(std::cin, line);) {

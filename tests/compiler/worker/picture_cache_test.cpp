@@ -1,4 +1,7 @@
 // The picture cache: versions, requests, damaged files and threads.
+#include <cmath>
+#include <limits>
+
 #include <catch2/catch.hpp>
 
 #include "compiler/worker/fake_session.hpp"
@@ -58,19 +61,84 @@ TEST_CASE("picture cache: another version of the renderer renders again, and rep
   CHECK_THAT(renderer.remarks()[0], Contains("pictures of Fake-1-") && Contains("this is Fake 2"));
 }
 
-TEST_CASE("picture cache: a truncated or changed file is rendered again") {
+TEST_CASE("picture cache: a damaged picture is rendered again, and said once") {
   const FakeSession session;
-  { WorkerRenderer(session.entry(), session.settings(true)).render(fake_material(), kSmallScene); }
+  WorkerSettings settings = session.settings(true);
+  std::vector<std::string> warnings;
+  settings.on_warning = [&](const std::string& message) { warnings.push_back(message); };
+  const auto render = [&] {
+    const WorkerRenderer renderer(session.entry(), settings);
+    return renderer.render(fake_material(), kSmallScene).values;
+  };
+  const std::vector<float> good = render();
   const auto files = pictures_below(session.path("cache"));
   REQUIRE(files.size() == 1);
-  fs::resize_file(files[0], fs::file_size(files[0]) - 1);
-  { WorkerRenderer(session.entry(), session.settings(true)).render(fake_material(), kSmallScene); }
-  CHECK(session.pictures() == 2);
-  std::string content = remap::read_file(files[0]);
-  content[content.find("0.2")] = '1';  // the key of another request
-  remap::write_file(files[0], content);
-  { WorkerRenderer(session.entry(), session.settings(true)).render(fake_material(), kSmallScene); }
+  const std::string whole = remap::read_file(files[0]);
+  const auto flipped = [&](std::size_t place) {
+    std::string content = whole;
+    content[place] = static_cast<char>(content[place] ^ 1);
+    return content;
+  };
+  const std::size_t key = whole.find("0.2"), checksum = whole.find('\n') + 3, picture = whole.size() - 500;
+  std::size_t rendered = 1;
+  for (const std::string& content :
+       {flipped(key), flipped(checksum), flipped(picture), flipped(whole.size() - 1), whole + "x",
+        whole.substr(0, whole.size() - 1), whole.substr(0, 20), std::string()}) {
+    remap::write_file(files[0], content);
+    warnings.clear();
+    CHECK(render() == good);
+    CHECK(session.pictures() == ++rendered);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Contains("worker fake: cache: " + files[0].string() + ": ") &&
+                                Contains("(the picture is rendered anew)"));
+    CHECK(remap::read_file(files[0]) == whole);  // repaired
+  }
+}
+
+TEST_CASE("picture cache: numbers that no picture may hold are not used, even with a checksum that fits") {
+  const FakeSession session;
+  const PictureRequest request = picture_request(fake_material(), kSmallScene);
+  const PictureCache cache(session.path("cache"), "fake", "Fake 1");
+  Image image{32, 32, 1, std::vector<float>(32 * 32, 0.5f)};
+  cache.keep(request, image);
+  CHECK(cache.find(request).image.has_value());
+  for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity(), 1e38f, -1.0f}) {
+    image.values[32 * 3 + 5] = bad;
+    cache.keep(request, image);
+    CHECK_FALSE(cache.find(request).image.has_value());
+    CHECK_THAT(cache.find(request).damage, Contains("in row 3, column 5"));
+  }
+}
+
+TEST_CASE("picture cache: several damaged pictures are one warning and one remark") {
+  const FakeSession session;
+  WorkerSettings settings = session.settings(true);
+  int warnings = 0;
+  settings.on_warning = [&](const std::string&) { ++warnings; };
+  const auto render = [](const WorkerRenderer& renderer) {
+    for (const double alpha : {0.1, 0.2, 0.3}) renderer.render(fake_material(alpha), kSmallScene);
+  };
+  render(WorkerRenderer(session.entry(), settings));
+  for (const fs::path& file : pictures_below(session.path("cache"))) fs::resize_file(file, 99);
+  const WorkerRenderer renderer(session.entry(), settings);
+  render(renderer);
+  CHECK(warnings == 1);
+  REQUIRE(renderer.remarks().size() == 1);
+  CHECK_THAT(renderer.remarks()[0], Contains("3 pictures of the cache"));
+}
+
+TEST_CASE("picture cache: one that cannot be written is one warning, and the run goes on") {
+  const FakeSession session;
+  remap::write_file(session.path("cache"), "not a folder");
+  WorkerSettings settings = session.settings(true);
+  std::vector<std::string> warnings;
+  settings.on_warning = [&](const std::string& message) { warnings.push_back(message); };
+  const WorkerRenderer renderer(session.entry(), settings);
+  for (const double alpha : {0.1, 0.2, 0.3})
+    CHECK(renderer.render(fake_material(alpha), kSmallScene).width == 32);
   CHECK(session.pictures() == 3);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("worker fake: cache: ") && Contains("(further pictures are not kept)"));
 }
 
 TEST_CASE("picture cache: threads that need the same picture render it once") {

@@ -1,8 +1,14 @@
 // Failing workers: their error messages, and that no process or file remains.
+#include <map>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include "compiler/worker/fake_session.hpp"
 #include "system/parallel.hpp"
+#include "system/process_mark.hpp"
+#include "text/plain_text.hpp"
 
 using namespace remapc;
 using Catch::Matchers::Contains;
@@ -174,5 +180,64 @@ TEST_CASE("worker: a wait ends when the program is asked to stop") {
     FAIL("expected an interruption");
   } catch (const remap::Error& error) {
     CHECK(error.kind() == remap::ErrorKind::kInterrupted);
+  }
+}
+
+TEST_CASE("worker: every message names the worker, is short, and has no control characters") {
+  const FakeSession session;
+  const std::map<std::string, std::string> words = {
+      {"error-number", "expected a text, found 5"},
+      {"error-long", std::string(900, 'x')},
+      {"error-lines", "line 1 line 2 \\x1b[31m\\u202e"},
+      {"deep", "JSON nested deeper than 100 levels"},
+      {"talkative", "ended with exit code 3; last lines of its log: ..."},
+      {"negative", "in row 16, column 16 (values must not be negative)"},
+      {"huge", "the picture is 1e+38 in row 16, column 16 (values must not be above 1e18)"}};
+  for (const auto& [fault, part] : words) {
+    const std::string message = render_error(session, fault);
+    INFO(fault);
+    CHECK(message.starts_with(kPlace));
+    CHECK(message.find(kPlace, 1) == std::string::npos);
+    CHECK_THAT(message, Contains(part));
+    CHECK(message.size() <= remap::kLongestMessage);
+    CHECK(remap::is_plain_text(message));
+  }
+  CHECK_THAT(render_error(session, "talkative"), Contains(" [31m the end"));
+  CHECK(render_error(session, "rounding") == "no error");
+  CHECK(session.nobody_is_left());
+}
+
+TEST_CASE("worker: a child that has left the group of its worker is killed, too") {
+  const FakeSession session;
+  {
+    const WorkerRenderer renderer(session.entry("daemon"), session.settings());
+    renderer.render(fake_material(), kSmallScene);
+    REQUIRE(session.log_lines("process").size() == 2);
+    for (const std::string& id : session.log_lines("process")) CHECK_FALSE(is_gone(std::stoi(id)));
+  }
+  for (const std::string& id : session.log_lines("process")) CHECK(is_gone(std::stoi(id)));
+}
+
+TEST_CASE("private folder: those of processes that have ended are deleted at once, all others stay") {
+  std::filesystem::path parent;
+  { parent = PrivateFolder().path().parent_path(); }
+  const std::string tag = remap::process_mark().substr(0, 9);
+  const pid_t dead = ::fork();
+  if (dead == 0) ::_exit(0);
+  int status = 0;
+  REQUIRE(::waitpid(dead, &status, 0) == dead);
+  const auto folder_of = [&](const std::string& mark) {
+    return parent / ("remap-pictures-" + mark + "-aBc123");
+  };
+  const std::filesystem::path left = folder_of(tag + std::to_string(dead)),
+                              own = folder_of(remap::process_mark()),
+                              foreign = folder_of("00000000-" + std::to_string(dead));
+  for (const auto& folder : {left, own, foreign}) std::filesystem::create_directory(folder);
+  std::ofstream(left / "0.f32") << "x";
+  { const PrivateFolder another; }
+  CHECK_FALSE(std::filesystem::exists(left));
+  for (const auto& folder : {own, foreign}) {
+    CHECK(std::filesystem::exists(folder));
+    std::filesystem::remove(folder);
   }
 }

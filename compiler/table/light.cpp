@@ -1,0 +1,50 @@
+#include "table/light.hpp"
+
+#include <cmath>
+
+#include "text/errors.hpp"
+#include "text/number_text.hpp"
+#include "text/report_text.hpp"
+
+namespace remapc {
+namespace {
+
+std::string change_text(double scale) {
+  return percent(std::fabs(scale - 1.0)) + (scale > 1.0 ? " larger" : " smaller");
+}
+
+}  // namespace
+
+std::optional<LightRemark> light_remark(const LightMatch& match) {
+  const double change = std::fabs(match.scale - 1.0);
+  if (!(change > kSaidLightChange || match.diffuse_error > kSaidLightChange)) return std::nullopt;
+  const std::string left = "the diffuse pictures differ by " + percent(match.diffuse_error);
+  if (!(change > kSaidLightChange)) return LightRemark{false, left + " (specular is not changed by it)"};
+  LightRemark remark{change > kMostLightChange && !match.accepted, ""};
+  remark.text = "the source's light is multiplied by " + remap::number_text(remap::rounded(match.scale, 4)) +
+                " to match diffuse, after which " + left + ": specular2 is " + change_text(match.scale) +
+                " for it, which is right only if the lights of the renderers differ";
+  if (remark.is_error)
+    remark.text +=
+        " (check the diffuse of both models; --no-irradiance-matching leaves the light as it is, "
+        "--accept-light goes on)";
+  return remark;
+}
+
+void require_light(const LightMatch& match, const std::string& place) {
+  const auto remark = light_remark(match);
+  if (remark && remark->is_error) throw input_error(place + ": " + remark->text);
+}
+
+LightMatch light_match(const Comments& comments) {
+  LightMatch match;
+  for (const auto& [key, value] : comments) {
+    const double number = remap::parse_number(value).value_or(0.0);
+    if (key == kLightScaleComment && number > 0.0) match.scale = number;
+    if (key == kDiffuseErrorComment) match.diffuse_error = number;
+    if (key == kLightAcceptedComment) match.accepted = value == "yes";
+  }
+  return match;
+}
+
+}  // namespace remapc

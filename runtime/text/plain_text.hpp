@@ -1,0 +1,22 @@
+// Text from files and other programs, made fit for terminals, comments of generated code and messages.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace remap {
+
+// The most bytes of a message of this project that tell of another's text: a screen of it.
+inline constexpr std::size_t kLongestMessage = 2000;
+
+// Whether `text` is UTF-8 that reads everywhere as it is written: no control characters, no line breaks of
+// Unicode, and no marks that turn the direction of what follows (U+202E and the like), which can make a
+// comment look like code and code like a comment.
+bool is_plain_text(std::string_view text);
+
+// `text` with every byte and character that is_plain_text() refuses written as an escape (`\x1b`, `\u202e`),
+// cut to at most `longest` bytes, the last three of which are `...` where something is missing.
+std::string plain(std::string_view text, std::size_t longest = kLongestMessage);
+
+}  // namespace remap
