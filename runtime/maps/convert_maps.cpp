@@ -274,12 +274,10 @@ void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapSt
 }
 
 void Conversion::clamp_bad(std::size_t count, Scratch& scratch) const {
+  // NaN becomes the lowest value.
   const auto clamp = [count](float* row, const Range& range) {
     const float low = static_cast<float>(range.min), high = static_cast<float>(range.max);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!(row[i] >= 0.0f)) row[i] = low;
-      if (row[i] > kLargest) row[i] = high;
-    }
+    for (std::size_t i = 0; i < count; ++i) row[i] = row[i] >= low ? std::min(row[i], high) : low;
   };
   for (const Parameter parameter : sources_) {
     Range range{0.0, 1.0};

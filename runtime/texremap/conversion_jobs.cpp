@@ -102,6 +102,7 @@ class TreeJobs {
   void copy_others(const FoundSet& set, int tile, ConversionJob& job) const;
   std::map<fs::path, fs::path> outputs(const FoundSet& set) const;
   void require_no_collisions() const;
+  void require_encoding_used() const;
   void fail(const std::string& message) { jobs_.left_out.push_back({message, true}); }
   std::string place(const FoundSet& set) const { return shown(root_ / set.folder / set.name); }
 
@@ -134,6 +135,7 @@ JobList TreeJobs::list() {
         jobs_.left_out.push_back({shown(root_) + "/" + remark, set.state == SetState::kFaulty});
   }
   require_no_collisions();
+  require_encoding_used();
   if (jobs_.jobs.empty() && jobs_.left_out.empty())
     throw Error(ErrorKind::kUsage, root_.string() + ": no texture set found by file names (use " +
                                        (options_.recursive ? "" : "--recursive for subfolders, or ") +
@@ -243,6 +245,16 @@ std::map<fs::path, fs::path> TreeJobs::outputs(const FoundSet& set) const {
   for (const DiagnosisMap& map : choice_.diagnoses)
     sources.emplace(set.folder / set_file_name(map.name, names), first.path);
   return sources;
+}
+
+// --roughness-encoding speaks of maps that are found as roughness.
+void TreeJobs::require_encoding_used() const {
+  if (options_.encoding.empty() || converted_.empty()) return;
+  const auto speaks_of = [](const FoundSet& set) { return !set.width || !convention_of(set.width->role); };
+  if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
+    throw Error(ErrorKind::kUsage,
+                "--roughness-encoding: applies to nothing, because the names of all maps say what "
+                "they hold (remove this option)");
 }
 
 // Names are compared byte by byte after `.` and `..` are resolved in the text; links and case-insensitive

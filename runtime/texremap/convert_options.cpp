@@ -155,7 +155,7 @@ void add_rare_options(Command& command, ConvertOptions& options) {
         "Also write this map of doubts, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined"}});
   add_group(command, options, "Rare: checks",
             {{"--bad-texels", &O::bad_texels, "NAME",
-              "NaN, infinite and negative values: keep, clamp (to the domain) or fail"}});
+              "NaN, infinite and negative values: keep, clamp (all values to the domain) or fail"}});
   command.option("--bad-texels")->capture_default_str();
   add_group(command, options, "Rare: speed",
             {{"--instructions", &O::instructions, "NAME",

@@ -103,6 +103,7 @@ JobReport& JobReport::operator+=(const JobReport& other) {
   append(warnings, other.warnings);
   results.insert(results.end(), other.results.begin(), other.results.end());
   was_done = was_done && other.was_done;
+  has_8_bits = has_8_bits || other.has_8_bits;
   if (other.failure) failure = failure ? *failure + "; " + *other.failure : other.failure;
   for (const auto& [note, count] : other.colors) colors[note] += count;
   if (!estimated_f0) estimated_f0 = other.estimated_f0;

@@ -67,7 +67,8 @@ struct JobReport {
   std::optional<DielectricF0> estimated_f0;  // only from a specular to a metallic workflow
   std::vector<std::string> warnings;
   std::optional<std::string> failure;
-  bool was_done = false;  // by the earlier run that this one resumes
+  bool was_done = false;    // by the earlier run that this one resumes
+  bool has_8_bits = false;  // a result does
   MapStatistics statistics;
   double seconds = 0.0;           // sum over all tiles, even where tiles ran in parallel
   std::uintmax_t bytes_read = 0;  // sizes of the files on disk

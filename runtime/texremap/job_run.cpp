@@ -171,6 +171,12 @@ FinishedFile finished_file(const std::filesystem::path& path, const std::filesys
   return {path, std::filesystem::file_size(content), hash.hex()};
 }
 
+void require_8_bits(bool has_8_bits) {
+  if (!has_8_bits)
+    throw Error(ErrorKind::kUsage,
+                "--dither: applies to nothing, because no result has 8 bits (remove this option)");
+}
+
 WidthSource width_source(const TextureSet& set) {
   const SetParameter* map = set.map_of(Parameter::kWidth);
   if (map == nullptr) return {{}, set.convention};
@@ -343,6 +349,10 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   std::vector<TargetMap> targets = open_targets(set, plan, choice);
   note_doubts(set, targets, report);
   note_colors(set, targets, report);
+  for (const TargetMap& target : targets)
+    for (const Channel& channel : target.writer.layout().channels)
+      report.has_8_bits = report.has_8_bits || channel.type == PixelType::kUint8;
+  if (options_.dither && !is_tree_) require_8_bits(report.has_8_bits);
   PassOptions pass = pass_;
   pass.target_convention = width;
   pass.progress = progress;
@@ -459,7 +469,12 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
     line.finish(report.statistics.texel_count);
     sets.finish(i, std::move(report));
   });
-  return sets.reports();
+  std::vector<JobReport> reports = sets.reports();
+  const auto is_converted = [](const JobReport& report) { return !report.failure && !report.was_done; };
+  if (options.dither && !options.dry_run && std::any_of(reports.begin(), reports.end(), is_converted))
+    require_8_bits(std::any_of(reports.begin(), reports.end(),
+                               [](const JobReport& report) { return report.has_8_bits; }));
+  return reports;
 }
 
 }  // namespace remap

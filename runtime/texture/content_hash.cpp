@@ -10,6 +10,7 @@
 #include <xxhash.h>
 
 #include "remap/error.hpp"
+#include "system/files.hpp"
 
 namespace remap {
 
@@ -28,6 +29,7 @@ void ContentHash::add_file(const std::filesystem::path& path) {
   const auto fail = [&] {
     throw Error(ErrorKind::kInput, path.string() + ": cannot be read: " + std::strerror(errno));
   };
+  require_regular_file(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) fail();
   std::vector<char> buffer(std::size_t{1} << 20);

@@ -10,6 +10,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "remap/error.hpp"
+#include "system/files.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
@@ -117,6 +118,7 @@ void ImageReader::State::fail(const std::string& what) const {
 void ImageReader::State::open() {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) fail("is a folder, not an image file");
+  require_regular_file(path);
   // OpenImageIO gives no reason if a file cannot be opened.
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) fail(std::string("cannot be read: ") + std::strerror(errno));

@@ -37,7 +37,7 @@ struct TargetParameter {
 enum class BadTexels {
   kKeep,   // NaN and infinity stay if the pixel type can hold them; negative roughness becomes the lowest of
            // the domain, negative specular 0
-  kClamp,  // NaN and negative values become the lowest value of the domain, infinity the highest
+  kClamp,  // every value is clamped to the domain, NaN to its lowest value
   kFail,   // the first invalid value ends the conversion
 };
 
