@@ -181,7 +181,11 @@ void write_file(const fs::path& path, std::string_view content, Flush flush) {
   commit_file(unfinished, path, flush);
 }
 
-void copy_whole_file(const fs::path& from, const fs::path& to) {
+void flush_to_disk(const fs::path& path, const fs::path& shown) {
+  if (!is_on_disk(path)) fail_to_write(shown, std::strerror(errno));
+}
+
+fs::path copy_unfinished(const fs::path& from, const fs::path& to) {
   std::error_code failure;
   if (!fs::is_regular_file(from, failure))
     throw Error(ErrorKind::kInput,
@@ -194,8 +198,10 @@ void copy_whole_file(const fs::path& from, const fs::path& to) {
     throw Error(ErrorKind::kOutput,
                 to.string() + ": cannot be copied from " + from.string() + ": " + failure.message());
   }
-  commit_file(unfinished, to);
+  return unfinished;
 }
+
+void copy_whole_file(const fs::path& from, const fs::path& to) { commit_file(copy_unfinished(from, to), to); }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;

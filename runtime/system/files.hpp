@@ -40,6 +40,14 @@ void commit_file(const std::filesystem::path& unfinished, const std::filesystem:
 // Throws kOutput and then leaves an existing file unchanged.
 void write_file(const std::filesystem::path& path, std::string_view content, Flush flush = Flush::kYes);
 
+// Waits until the disk has the content of a finished file, or the names in a folder: before and after renames
+// that do not flush, for several files at once. Throws kOutput, naming `shown`, if the system refuses.
+void flush_to_disk(const std::filesystem::path& path, const std::filesystem::path& shown);
+
+// Copies a file byte for byte to an unfinished name beside `to`, for commit_file(). Throws as
+// copy_whole_file().
+std::filesystem::path copy_unfinished(const std::filesystem::path& from, const std::filesystem::path& to);
+
 // Copies a file byte for byte and replaces `to`, which is complete or unchanged. Throws kInput if `from` is
 // not a readable file, kOutput if the copy cannot be written.
 void copy_whole_file(const std::filesystem::path& from, const std::filesystem::path& to);

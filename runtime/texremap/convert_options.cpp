@@ -47,6 +47,7 @@ void add_source_options(Command& command, ConvertOptions& options) {
       ->excludes(command.option("--fit"))
       ->type_name("MODEL");
   add_converters_option(command);
+  command.option("--converters")->excludes(command.option("--fit"));
 }
 
 // The footer of the command explains the value MAP.

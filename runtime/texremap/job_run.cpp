@@ -166,6 +166,7 @@ void require_replaceable(const std::vector<std::filesystem::path>& files, const 
 }
 
 FinishedFile finished_file(const std::filesystem::path& path, const std::filesystem::path& content) {
+  flush_to_disk(content, path);
   ContentHash hash;
   hash.add_file(content);
   return {path, std::filesystem::file_size(content), hash.hex()};
@@ -298,19 +299,45 @@ void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>&
   }
 }
 
-// Gives the finished files of a set, and its copies, their names.
+// Copies that are finished and have no final name yet; those that do not get one are removed.
+class FinishedCopies {
+ public:
+  FinishedCopies() = default;
+  void add(const PlannedCopy& copy) {
+    files_.emplace_back(copy_unfinished(copy.source, copy.path), copy.path);
+  }
+  ~FinishedCopies() {
+    std::error_code ignored;
+    for (const auto& [unfinished, path] : files_) std::filesystem::remove(unfinished, ignored);
+  }
+  FinishedCopies(const FinishedCopies&) = delete;
+  FinishedCopies& operator=(const FinishedCopies&) = delete;
+
+  // Under temporary and final names.
+  const std::vector<std::pair<std::filesystem::path, std::filesystem::path>>& files() const { return files_; }
+
+ private:
+  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> files_;
+};
+
+// Gives the finished files of a set, and its copies, their names. They are on the disk before; the lock of
+// the folder is held for the renames alone.
 void JobRunner::commit(const ConversionJob& job, const TargetPlan& plan, const std::string& inputs,
                        std::vector<TargetMap>& finished) {
   if (is_tree_) journal_.claim(options_.force);
   journal_.begin(results_of(plan));
+  FinishedCopies copies;
+  for (const PlannedCopy& copy : plan.copies) copies.add(copy);
   std::vector<FinishedFile> files;
   for (const TargetMap& target : finished)
     files.push_back(finished_file(target.writer.path(), target.writer.finished_file()));
-  for (const PlannedCopy& copy : plan.copies) files.push_back(finished_file(copy.path, copy.source));
+  for (const auto& [unfinished, path] : copies.files()) files.push_back(finished_file(path, unfinished));
   journal_.commit(job.name + (job.tile.empty() ? "" : " " + job.tile), inputs, files, options_.force, [&] {
-    for (TargetMap& target : finished) target.writer.commit();
-    for (const PlannedCopy& copy : plan.copies) copy_whole_file(copy.source, copy.path);
+    for (TargetMap& target : finished) target.writer.commit(Flush::kNo);
+    for (const auto& [unfinished, path] : copies.files()) commit_file(unfinished, path, Flush::kNo);
   });
+  std::error_code ignored;
+  if (std::filesystem::exists(job.folder, ignored)) flush_to_disk(job.folder, job.folder);
 }
 
 void JobRunner::run(const ConversionJob& job, const std::function<void(double)>& progress,

@@ -12,6 +12,7 @@
 
 #include "remap/channel_view.hpp"
 #include "remap/transfer.hpp"
+#include "system/files.hpp"
 
 namespace remap {
 
@@ -148,7 +149,7 @@ class ImageWriter {
   const std::filesystem::path& finished_file() const noexcept;
 
   // Renames the finished file to its final name and replaces an existing file.
-  void commit();
+  void commit(Flush flush = Flush::kYes);
 
  private:
   struct State;

@@ -125,7 +125,13 @@ void ImageReader::State::open() {
   OIIO::ImageSpec hints;
   hints.attribute(kUnassociatedAlpha, 1);
   input = OIIO::ImageInput::open(path.string(), &hints);
-  if (!input) fail("cannot be read as an image: " + first_line(OIIO::geterror(), "unknown format"));
+  if (!input) {
+    const std::string reason = first_line(OIIO::geterror(), "unknown format");
+    // Of a file that cannot be opened a second time OpenImageIO says that it is no image.
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> second(std::fopen(path.c_str(), "rb"), std::fclose);
+    fail(second ? "cannot be read as an image: " + reason
+                : std::string("cannot be read: ") + std::strerror(errno));
+  }
   (void)input->geterror();  // discards remarks on unusual headers
   find_planes();
   // A color space that OpenImageIO assumed is neither read nor written.

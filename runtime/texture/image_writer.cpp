@@ -230,8 +230,8 @@ void ImageWriter::finish() {
 
 const fs::path& ImageWriter::finished_file() const noexcept { return state_->unfinished; }
 
-void ImageWriter::commit() {
-  commit_file(state_->unfinished, state_->path);
+void ImageWriter::commit(Flush flush) {
+  commit_file(state_->unfinished, state_->path, flush);
   state_->is_committed = true;
 }
 
