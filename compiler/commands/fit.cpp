@@ -15,6 +15,7 @@
 #include "fit/network/material_network.hpp"
 #include "fit/parametric/parametric_form.hpp"
 #include "fit/rows/split.hpp"
+#include "model/limits.hpp"
 #include "remap/fit_file.hpp"
 #include "report/fit_plot.hpp"
 #include "system/files.hpp"
@@ -80,6 +81,21 @@ void report(const FitCommand& command, const std::filesystem::path& path, const 
             << errors_text(fit, "held out") << "\n";
 }
 
+// A network that could not be written is not trained.
+void require_layers(const std::vector<std::size_t>& hidden, std::size_t inputs, std::size_t outputs) {
+  std::size_t width = inputs, numbers = 2 * (inputs + outputs);
+  for (const std::size_t units : hidden) {
+    numbers += units * (width + 1);
+    width = units;
+  }
+  numbers += outputs * (width + 1);
+  if (hidden.size() < remap::kMostLayers && numbers <= remap::kMostNetworkNumbers) return;
+  throw usage_error("--layers: a network of " + std::to_string(hidden.size() + 1) + " layers and " +
+                    std::to_string(numbers) + " numbers is too large (at most " +
+                    std::to_string(remap::kMostLayers) + " and " +
+                    std::to_string(remap::kMostNetworkNumbers) + ")");
+}
+
 // A table of metallic materials can only be fitted from specular to metallic, by a network.
 void require_material_options(const FitCommand& command) {
   if (!command.swap)
@@ -142,6 +158,7 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
   LightMatch light = light_match(table.comments);
   light.accepted = light.accepted || command.options.accept_light;
   require_light(light, table.name);
+  require_layers(command.options.regression.mlp.hidden, 6, 4);
   require_output_folder(command.folder);
   const remap::WorkflowFit fit = [&] {
     ShareProgress progress("fit", command.table.path);
@@ -154,6 +171,7 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
 
 void run_on(const Table& given, const std::string& bytes, const FitCommand& command, const remap::Command&) {
   const Table table = command.swap ? swapped(given) : given;
+  require_layers(command.options.regression.mlp.hidden, 2, 1);
   require_output_folder(command.folder);
   if (!command.plot.empty()) require_plot(command.plot);
   const FittedTable fitted = [&] {

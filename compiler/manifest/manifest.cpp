@@ -165,6 +165,8 @@ void require_unique(const std::vector<ManifestItem>& items, const std::string& p
     if (!remap::is_valid_id(id)) throw input_error(place + ": id \"" + id + "\" is not " + remap::kIdRule);
 }
 
+}  // namespace
+
 Manifest manifest_from_json(std::string_view text, const std::string& place) {
   const nlohmann::ordered_json json = remap::parse_json(text, place);
   const Field root(json, place);
@@ -201,8 +203,6 @@ Manifest manifest_from_json(std::string_view text, const std::string& place) {
   require_unique(items, place);
   return manifest;
 }
-
-}  // namespace
 
 Manifest load_manifest(const std::filesystem::path& fit_folder) {
   const std::filesystem::path path = fit_folder / kManifestName;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -68,9 +69,12 @@ struct Manifest {
   std::vector<ManifestItem> items;
 };
 
-// Loads the manifest of a folder. Throws kInput if it has none, and, opened by its path, for text that is not
-// a manifest of version kManifestVersion, an id that is defined twice or is not an identifier, and an inverse
-// or chain of an unknown item.
+// Reads the text of a manifest. Throws kInput, opened by `place`, for text that is not a manifest of version
+// kManifestVersion, an id that is defined twice or is not an identifier, and an inverse or chain of an
+// unknown item.
+Manifest manifest_from_json(std::string_view text, const std::string& place);
+
+// Loads the manifest of a folder, whose path is the place. Throws kInput if it has none, too.
 Manifest load_manifest(const std::filesystem::path& fit_folder);
 
 // Returns the ids of the items that an item is made from.

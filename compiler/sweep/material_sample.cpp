@@ -15,6 +15,7 @@
 #include "sweep/provenance.hpp"
 #include "system/parallel.hpp"
 #include "table/domain.hpp"
+#include "table/light.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {

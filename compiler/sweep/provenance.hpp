@@ -8,6 +8,7 @@
 #include "probe/picture_taker.hpp"
 #include "renderer/steady_renderer.hpp"
 #include "sweep/sweep_options.hpp"
+#include "table/light.hpp"
 #include "table/row_regime.hpp"
 
 namespace remapc {

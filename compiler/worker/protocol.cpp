@@ -139,14 +139,14 @@ ordered_json parse_answer(const std::string& line, std::int64_t id, const std::s
   return answer;
 }
 
-// The complaint of an answer, for a message: its line breaks are spaces.
+// The complaint of an answer, for a message: its line breaks are spaces, and it is cut.
 std::optional<std::string> complaint_of(const ordered_json& answer, const std::string& place) {
   if (!answer.contains("error")) return std::nullopt;
   const Field error = Field(answer, place)["error"];
   error.require(error.json().is_string(), "a text");
   std::string complaint = error.json().get<std::string>();
   std::ranges::replace(complaint, '\n', ' ');
-  return complaint;
+  return remap::plain(complaint);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ inline constexpr std::size_t kMostSpecularPowers = 16, kMostAlphaPowers = 32, kM
 // Gaussians of each output.
 inline constexpr std::size_t kMostVectors = 4096;
 // Chebyshev polynomials of each parameter of a series.
-inline constexpr std::size_t kMostPolynomials = 32;
+inline constexpr std::size_t kMostPolynomials = 24;
 // Of each network.
 inline constexpr std::size_t kMostLayers = 6, kMostNetworkNumbers = 20'000;
 // Of a chain. Steps of steps multiply: at most this many numbers times steps.

@@ -231,3 +231,16 @@ TEST_CASE("remapc fit: one specular, one width and a constant target are fitted 
     check_failure(fit("flat.csv", model), 1, "alpha2 stays at 0.3 between alpha1 0.1");
   }
 }
+
+TEST_CASE("remapc fit: a network that could not be written is not trained") {
+  const Session session;
+  const std::string table = REMAP_SOURCE_DIR "/fits/tables/mitsuba_ward_to_mitsuba_as.csv";
+  for (const auto& [layers, words] :
+       {std::pair("4096,4096", "--layers: a network of 3 layers and "),
+        std::pair("2,2,2,2,2,2",
+                  "--layers: a network of 7 layers and 45 numbers is too large (at most 6 and 20000)")})
+    check_failure(
+        session.remapc({"fit", table, "--model", "mlp", "--layers", layers, "-o", session.path("f")}), 2,
+        words);
+  CHECK(session.file_count() == 0);
+}

@@ -23,6 +23,7 @@ static_assert(std::endian::native == std::endian::little, "the file format is li
 
 constexpr std::array<std::int32_t, 3> kCounts = {90, 90, 180};
 constexpr std::size_t kCells = 90 * 90 * 180;
+constexpr std::size_t kFileBytes = sizeof kCounts + 3 * kCells * sizeof(double);
 constexpr std::array<double, 3> kScales = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
 
 std::size_t cell(double share, std::int32_t count) {
@@ -41,14 +42,16 @@ std::size_t cell_of(const QuadratureDirection& direction) {
 
 std::vector<float> read_merl(const std::filesystem::path& file) {
   remap::require_regular_file(file);
+  const bool is_whole = std::filesystem::file_size(file) == kFileBytes;
   std::ifstream stream(file, std::ios::binary);
   std::array<std::int32_t, 3> counts{};
   stream.read(reinterpret_cast<char*>(counts.data()), sizeof counts);
-  std::vector<double> values(3 * kCells);
-  if (stream && counts == kCounts)
+  const bool is_merl = is_whole && stream && counts == kCounts;
+  std::vector<double> values(is_merl ? 3 * kCells : 0);
+  if (is_merl)
     stream.read(reinterpret_cast<char*>(values.data()),
                 static_cast<std::streamsize>(values.size() * sizeof(double)));
-  if (!stream || counts != kCounts)
+  if (!is_merl || !stream)
     throw input_error(file.string() +
                       ": is not a BRDF of the MERL database (90 x 90 x 180 cells of three channels)");
   std::vector<float> samples;

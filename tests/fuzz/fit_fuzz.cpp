@@ -1,0 +1,17 @@
+// Fits as JSON, of every kind. What is read can be written, and is then read as the same.
+#include "fuzz/fuzz.hpp"
+#include "remap/fit_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return remap::read_or_refuse([&] {
+    const remap::AnyFit any = remap::any_fit_from_json(remap::text_of(data, size), "fit.json");
+    std::visit(
+        [](const auto& fit) {
+          const std::string text = remap::fit_to_json(fit);
+          if (remap::fit_to_json(std::get<std::decay_t<decltype(fit)>>(
+                  remap::any_fit_from_json(text, "again.json"))) != text)
+            std::abort();
+        },
+        any);
+  });
+}

@@ -1,0 +1,10 @@
+// Tables as CSV, of both forms, and their checks.
+#include "fuzz/fuzz.hpp"
+#include "table/check.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return remap::read_or_refuse([&] {
+    const remapc::AnyTable table = remapc::parse_any_table(remap::text_of(data, size), "table.csv", {});
+    std::visit([](const auto& any) { remapc::check_table(any); }, table);
+  });
+}
