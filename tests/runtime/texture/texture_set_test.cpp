@@ -1,6 +1,10 @@
 // The choice of channels and files for the parameters of a converter.
 #include "texture/texture_set.hpp"
 
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
@@ -160,4 +164,25 @@ TEST_CASE("image reader: folders and missing parts are refused with the reason")
   CHECK_THROWS_WITH(ImageReader(files.folder.path()), Contains("is a folder"));
   CHECK_THROWS_WITH(ImageReader(files.image("one.exr", {"Y"}), 1),
                     Contains("part 1 not found (number of parts: 1)"));
+}
+
+TEST_CASE("texture set: a lack of open files is no fault of the image") {
+  const Files files;
+  const auto image = files.image("r.exr", {"Y"});
+  // As many as are open, and one: the library opens the file again.
+  const int next = ::open("/dev/null", O_RDONLY);
+  ::close(next);
+  rlimit limits{};
+  ::getrlimit(RLIMIT_NOFILE, &limits);
+  rlimit few = limits;
+  few.rlim_cur = static_cast<rlim_t>(next) + 1;
+  ::setrlimit(RLIMIT_NOFILE, &few);
+  std::string message;
+  try {
+    ImageReader reader(image);
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  ::setrlimit(RLIMIT_NOFILE, &limits);
+  CHECK_THAT(message, Contains("r.exr: cannot be read: Too many open files"));
 }
