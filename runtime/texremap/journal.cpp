@@ -239,7 +239,8 @@ void Journal::claim(bool force) {
 
 bool Journal::is_own(const fs::path& path) const {
   const std::lock_guard lock(state_->mutex);
-  if (state_->entry_of(path) == nullptr) state_->content.read(state_->file);  // a run at the same time wrote it
+  if (state_->entry_of(path) == nullptr)
+    state_->content.read(state_->file);  // a run at the same time wrote it
   return state_->entry_of(path) != nullptr;
 }
 
