@@ -198,10 +198,13 @@ void note_colors(const TextureSet& set, const std::vector<TargetMap>& targets, J
         if (channel == nullptr || !is_color(channel->parameter) || channel->index > 0) continue;
         const PixelType type = target.writer.layout(static_cast<int>(p)).channels[c].type;
         const ColorStorage& storage = *part.changes.colors;
-        if (!is_integer(type) && !storage.chosen) continue;
-        const TransferReason reason = storage.chosen     ? TransferReason::kUser
-                                      : storage.followed ? TransferReason::kFile
-                                                         : TransferReason::kUsual;
+        const auto source = set.parameters.find(channel->parameter);
+        const bool is_asked =
+            source != set.parameters.end() && source->second.transfer_reason == TransferReason::kUser;
+        if (!is_integer(type) && !storage.chosen && !is_asked) continue;
+        const TransferReason reason = storage.chosen                         ? TransferReason::kUser
+                                      : storage.followed && is_integer(type) ? TransferReason::kFile
+                                                                             : TransferReason::kUsual;
         ++report.colors[{channel->parameter, true, storage.of(type), reason}];
       }
     }

@@ -1,5 +1,6 @@
 #include "texremap/journal.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -12,6 +13,7 @@
 
 #include "remap/error.hpp"
 #include "system/files.hpp"
+#include "text/plain_text.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {
@@ -33,7 +35,7 @@ struct Entry {
 // A name as the journal writes it. Names that are not UTF-8, which JSON cannot hold, have % and two digits
 // for each byte that is not ASCII.
 std::string journal_name(const fs::path& path, const fs::path& folder) {
-  const std::string name = path.lexically_relative(folder).generic_string();
+  const std::string name = path.lexically_normal().lexically_relative(folder).generic_string();
   try {
     (void)Json(name).dump();
     return name;
@@ -147,18 +149,25 @@ class FolderLock {
   int folder_;
 };
 
+// Of a text from a journal, which anybody may have written.
+std::string shown_note(const std::string& text) {
+  constexpr std::size_t kShown = 200;
+  return text.empty() ? "none" : plain(text, kShown);
+}
+
 std::string details_of(const ConversionNote& note) {
-  std::string text = note.source + " to " + note.target;
-  for (const auto& [name, value] : note.details)
-    if (!value.empty()) text += ", " + name + " " + value;
+  std::string text = shown_note(note.source) + " to " + shown_note(note.target);
+  constexpr std::size_t kShown = 8;
+  for (std::size_t i = 0; i < std::min(note.details.size(), kShown); ++i)
+    if (const auto& [name, value] = note.details[i]; !value.empty())
+      text += ", " + shown_note(name) + " " + shown_note(value);
   return text;
 }
 
-// `target mitsuba/ggx instead of mitsuba/as`: the first difference.
+// `target mitsuba/ggx there, mitsuba/as here`: the first difference.
 std::string difference(const ConversionNote& owner, const ConversionNote& own) {
   const auto differ = [](const std::string& what, const std::string& there, const std::string& here) {
-    const auto shown = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
-    return what + " " + shown(there) + " there, " + shown(here) + " here";
+    return what + " " + shown_note(there) + " there, " + shown_note(here) + " here";
   };
   if (owner.source != own.source) return differ("source", owner.source, own.source);
   if (owner.target != own.target) return differ("target", owner.target, own.target);
@@ -209,8 +218,9 @@ void Journal::State::append(const Json& json) const {
     throw Error(ErrorKind::kOutput, file.string() + ": cannot be written: " + std::strerror(failure));
 }
 
-Journal::Journal(fs::path folder, ConversionNote conversion) : state_(std::make_unique<State>()) {
-  state_->folder = std::move(folder);
+Journal::Journal(const fs::path& folder, ConversionNote conversion) : state_(std::make_unique<State>()) {
+  state_->folder = folder.lexically_normal();
+  if (!state_->folder.has_filename()) state_->folder = state_->folder.parent_path();  // `out/`
   state_->file = state_->folder / kJournalName;
   state_->conversion = std::move(conversion);
   state_->content.read(state_->file);

@@ -48,7 +48,7 @@ struct FinishedFile {
 class Journal {
  public:
   // The journal of `folder`, which need not exist.
-  Journal(std::filesystem::path folder, ConversionNote conversion);
+  Journal(const std::filesystem::path& folder, ConversionNote conversion);
   ~Journal();
 
   // Throws kOutput, naming the difference, if the folder belongs to another conversion.

@@ -11,6 +11,7 @@
 
 #include "remap/error.hpp"
 #include "system/files.hpp"
+#include "text/plain_text.hpp"
 #include "texture/image_library.hpp"
 
 namespace remap {
@@ -27,19 +28,38 @@ std::string lossy_compression(const OIIO::ImageSpec& spec, const std::string& fo
   return "";
 }
 
-// Whether a PNG has a chunk with its color space before the pixels.
-bool png_tells_color_space(std::FILE* file) {
+struct PngChunk {
+  std::string name;
+  std::uintmax_t end = 0;  // as it claims, in the file
+};
+
+// The chunks of a PNG before its pixels; none of another file.
+std::vector<PngChunk> leading_png_chunks(std::FILE* file) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
   std::array<unsigned char, 8> head{};
-  for (long place = 8; std::fseek(file, place, SEEK_SET) == 0;) {
-    if (std::fread(head.data(), 1, head.size(), file) != head.size()) return false;
-    const std::string_view name(reinterpret_cast<const char*>(head.data()) + 4, 4);
-    if (name == "sRGB" || name == "gAMA") return true;
-    if (name == "IDAT") return false;
+  const auto read_at = [&](std::uintmax_t place) {
+    return ::fseeko(file, static_cast<off_t>(place), SEEK_SET) == 0 &&
+           std::fread(head.data(), 1, head.size(), file) == head.size();
+  };
+  std::vector<PngChunk> chunks;
+  if (!read_at(0) ||
+      !std::equal(head.begin(), head.end(), kSignature.begin(),
+                  [](unsigned char byte, char letter) { return byte == static_cast<unsigned char>(letter); }))
+    return chunks;
+  for (std::uintmax_t place = kSignature.size(); read_at(place); place = chunks.back().end) {
+    const std::string name(reinterpret_cast<const char*>(head.data()) + 4, 4);
+    if (name == "IDAT") break;
     std::uint32_t length = 0;  // big-endian
     for (std::size_t i = 0; i < 4; ++i) length = length << 8 | head[i];
-    place += static_cast<long>(length) + 12;  // header and checksum
+    chunks.push_back({name, place + length + 12});  // header and checksum
   }
-  return false;
+  return chunks;
+}
+
+bool png_tells_color_space(std::FILE* file) {
+  const std::vector<PngChunk> chunks = leading_png_chunks(file);
+  return std::any_of(chunks.begin(), chunks.end(),
+                     [](const PngChunk& chunk) { return chunk.name == "sRGB" || chunk.name == "gAMA"; });
 }
 
 // OpenImageIO assumes sRGB for files of these formats without a color space.
@@ -122,6 +142,10 @@ void ImageReader::State::open() {
   // OpenImageIO gives no reason if a file cannot be opened.
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) fail(std::string("cannot be read: ") + std::strerror(errno));
+  // libpng allocates and fills as much as a chunk claims.
+  for (const PngChunk& chunk : leading_png_chunks(file.get()))
+    if (chunk.end > fs::file_size(path))
+      fail("is damaged: chunk " + plain(chunk.name) + " claims to be longer than the file");
   OIIO::ImageSpec hints;
   hints.attribute(kUnassociatedAlpha, 1);
   input = OIIO::ImageInput::open(path.string(), &hints);

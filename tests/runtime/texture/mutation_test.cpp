@@ -65,6 +65,18 @@ void convert(const std::filesystem::path& file, const std::filesystem::path& fol
 
 }  // namespace
 
+TEST_CASE("damaged files: a PNG chunk longer than the file is refused before memory is taken for it") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "long.png";
+  write_image(path, test_spec(4, 4, {"Y"}, OIIO::TypeUInt8), noise);
+  std::string bytes = read_file(path);
+  // Behind the header, 33 bytes: a text of 2.8 GB.
+  bytes.insert(33, std::string("\xa8\x00\x00\x00tEXtKey", 11));
+  write_file(path, bytes);
+  CHECK_THROWS_WITH(ImageReader(path),
+                    Catch::Matchers::Contains("chunk tEXt claims to be longer than the file"));
+}
+
 TEST_CASE("damaged files: converted or refused, nothing else", "[slow][campaign]") {
   const int mutations = campaign_length(500);
   const auto converter = make_lowered_converter(example_fit());

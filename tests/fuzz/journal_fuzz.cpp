@@ -1,0 +1,23 @@
+// Journals of output folders.
+#include <fstream>
+#include <unistd.h>
+
+#include "fuzz/fuzz.hpp"
+#include "system/files.hpp"
+#include "texremap/journal.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::filesystem::path folder = "/dev/shm/remap-fuzz-journal-" + std::to_string(::getpid());
+  const std::filesystem::path map = folder / "a_rough.tga";
+  std::filesystem::create_directories(folder);
+  std::ofstream(map, std::ios::binary) << "map";
+  std::ofstream(folder / remap::kJournalName, std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  return remap::read_or_refuse([&] {
+    const remap::Journal journal(folder, {"mitsuba/ward", "mitsuba/as", "1f", {{"version", "0.1.0"}}});
+    (void)journal.is_own(map);
+    (void)journal.is_done("2e", {map});
+    (void)remap::JournalLookup().target_of(map);
+    journal.require_own();
+  });
+}
