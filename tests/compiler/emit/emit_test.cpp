@@ -120,12 +120,17 @@ TEST_CASE("emit: warps are headers of whole materials") {
 
 TEST_CASE("emit: no text of a fit leaves its comment") {
   const std::string fits = std::string(REMAP_SOURCE_DIR) + "/fits/";
-  const std::vector<std::string> remarks = {"ends in a backslash \\", "and in one before blanks \\ \t ",
-                                            "and in its trigraph ?\?/", "turned \xe2\x80\xae about",
-                                            "split\nin two\\", std::string("cut\0off", 7), "feed\fed"};
+  const std::vector<std::string> remarks = {"ends in a backslash \\",
+                                            "and in one before blanks \\ \t ",
+                                            "and in its trigraph ?\?/",
+                                            "turned \xe2\x80\xae about",
+                                            "split\nin two\\",
+                                            std::string("cut\0off", 7),
+                                            "feed\fed"};
   const auto check = [&](const std::string& header) {
-    CHECK(header.find("// ends in a backslash \\.\n// and in one before blanks \\.\n// and in its trigraph ?\?/.\n"
-                      "// turned \\u202e about\n// split\n// in two\\.\n// cut\\x00off\n// feed\\x0ced\n") !=
+    CHECK(header.find(
+              "// ends in a backslash \\.\n// and in one before blanks \\.\n// and in its trigraph ?\?/.\n"
+              "// turned \\u202e about\n// split\n// in two\\.\n// cut\\x00off\n// feed\\x0ced\n") !=
           std::string::npos);
   };
   auto fit = remap::load_fit(fits + "mitsuba_phong_to_mitsuba_ggx.json");

@@ -150,13 +150,12 @@ TEST_CASE("fit file: ids that C++ or a file system uses itself are refused, and 
   const auto read = [&](const std::string& id) {
     return fit_from_json(replaced(json, "\"a_b_to_c_d\"", "\"" + id + "\""), "x.json");
   };
-  for (const std::string bad : {"std", "std2", "posix", "remap", "linux", "unix", "NULL", "namespace", "co_await",
-                                "_a", "a__b", "9a", "a b", "a-b", ""})
+  for (const std::string bad : {"std", "std2", "posix", "remap", "linux", "unix", "NULL", "namespace",
+                                "co_await", "_a", "a__b", "9a", "a b", "a-b", ""})
     CHECK_THROWS_WITH(read(bad), Catch::StartsWith("x.json.id: expected " + std::string(kIdRule)));
   for (const std::string good : {"standard", "std_to_a", "posixy", "a"}) CHECK(read(good).id == good);
   CHECK(read(std::string(kLongestName, 'a')).id.size() == kLongestName);
-  for (const std::size_t length : {kLongestName + 1, std::size_t{100'000}})
-    try {
+  for (const std::size_t length : {kLongestName + 1, std::size_t{100'000}}) try {
       read(std::string(length, 'a'));
       FAIL("accepted");
     } catch (const Error& error) {

@@ -56,17 +56,25 @@ TEST_CASE("nearest name: a slip is forgiven, another word is not") {
   CHECK(suggestion("renderman", names) == " (choose mitsuba/ward, mitsuba/ggx, cycles-5/ggx)");
 }
 
-TEST_CASE("plain text: controls, marks of direction and what is no UTF-8 are refused, and written as escapes") {
+TEST_CASE(
+    "plain text: controls, marks of direction and what is no UTF-8 are refused, and written as escapes") {
   for (const std::string good : {"", "a b", "\xc3\xbc", "\xe2\x82\xac", "\xf0\x9f\x98\x80", "\\x1b"}) {
     CHECK(is_plain_text(good));
     CHECK(plain(good) == good);
   }
-  const std::vector<std::pair<std::string, std::string>> bad = {
-      {"a\nb", "a\\x0ab"},         {std::string(1, '\0'), "\\x00"},   {"\x1b[2J", "\\x1b[2J"},
-      {"\x7f", "\\x7f"},           {"\xc2\x9b", "\\u009b"},          {"\xe2\x80\xae", "\\u202e"},
-      {"\xe2\x81\xa6", "\\u2066"}, {"\xe2\x80\xa8", "\\u2028"},      {"\xd8\x9c", "\\u061c"},
-      {"\xff", "\\xff"},           {"\xc0\x80", "\\xc0\\x80"},      {"\xe2\x82", "\\xe2\\x82"},
-      {"\xed\xa0\x80", "\\xed\\xa0\\x80"}};
+  const std::vector<std::pair<std::string, std::string>> bad = {{"a\nb", "a\\x0ab"},
+                                                                {std::string(1, '\0'), "\\x00"},
+                                                                {"\x1b[2J", "\\x1b[2J"},
+                                                                {"\x7f", "\\x7f"},
+                                                                {"\xc2\x9b", "\\u009b"},
+                                                                {"\xe2\x80\xae", "\\u202e"},
+                                                                {"\xe2\x81\xa6", "\\u2066"},
+                                                                {"\xe2\x80\xa8", "\\u2028"},
+                                                                {"\xd8\x9c", "\\u061c"},
+                                                                {"\xff", "\\xff"},
+                                                                {"\xc0\x80", "\\xc0\\x80"},
+                                                                {"\xe2\x82", "\\xe2\\x82"},
+                                                                {"\xed\xa0\x80", "\\xed\\xa0\\x80"}};
   for (const auto& [text, escaped] : bad) {
     CHECK_FALSE(is_plain_text(text));
     CHECK(plain(text) == escaped);
@@ -86,7 +94,8 @@ TEST_CASE("parse JSON: nested deeper than 100 levels is refused, whatever the de
   const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
   CHECK_NOTHROW(parse_json(nested(100), "x.json"));
   for (const std::size_t depth : {101u, 65'700u, 10'000'000u}) {
-    CHECK_THROWS_WITH(parse_json(nested(depth), "x.json"), "x.json: invalid JSON: nested deeper than 100 levels");
+    CHECK_THROWS_WITH(parse_json(nested(depth), "x.json"),
+                      "x.json: invalid JSON: nested deeper than 100 levels");
     CHECK_THROWS_WITH(parse_json("{\"a\": " + nested(depth) + "}", "x.json"), Catch::Contains("100 levels"));
   }
   CHECK_NOTHROW(parse_json("\"" + std::string(200, '[') + "\\\"" + std::string(200, '{') + "\"", "x.json"));
@@ -108,8 +117,9 @@ TEST_CASE("JSON field: texts and names of fields hold no control characters") {
   for (const std::string bad : {"a\\nb", "a\\u0000b", "a\\u202eb", "a\\u0085b"}) {
     const auto json = parse_json("{\"text\": \"" + bad + "\", \"map\": {\"" + bad + "\": \"x\"}}", "x.json");
     const Field field(json, "x.json");
-    CHECK_THROWS_WITH(field["text"].text(), Catch::Contains("x.json.text: expected a text of one line without "
-                                                            "control characters, found "));
+    CHECK_THROWS_WITH(field["text"].text(),
+                      Catch::Contains("x.json.text: expected a text of one line without "
+                                      "control characters, found "));
     CHECK_THROWS_WITH(field["map"].text_dictionary(), Catch::Contains("found the name \"a\\"));
   }
 }
