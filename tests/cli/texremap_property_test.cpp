@@ -417,7 +417,8 @@ double allowed(const Place& place, double expected) {
   const OIIO::TypeDesc type = place.image.spec.format;
   const std::string extension = fs::path(place.path).extension().string();
   if (extension == ".jpg") return 4.0 / 255.0;
-  if (extension == ".hdr") return 0.012 * std::max(expected, 0.3);
+  // Three values share an exponent: a step is 1/256 where the largest is 0.5 to 1.
+  if (extension == ".hdr") return 1.0 / 256.0 + 0.012 * std::max(expected, 0.3);
   const double own = 1.5e-3;
   if (type == OIIO::TypeUInt8) return 1.01 / 255.0 + 0.5 * own;
   if (type == OIIO::TypeUInt16) return 1.01 / 65535.0 + own;
