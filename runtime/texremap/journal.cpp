@@ -112,12 +112,6 @@ void Content::read(const fs::path& journal) {
   }
 }
 
-std::string hash_of_file(const fs::path& path) {
-  ContentHash hash;
-  hash.add_file(path);
-  return hash.hex();
-}
-
 bool is_as_written(const fs::path& path, const Entry& entry) {
   std::error_code failure;
   if (!entry.is_finished || !fs::is_regular_file(path, failure) ||

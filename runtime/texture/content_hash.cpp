@@ -54,4 +54,10 @@ std::string ContentHash::hex() const {
   return text;
 }
 
+std::string hash_of_file(const std::filesystem::path& path) {
+  ContentHash hash;
+  hash.add_file(path);
+  return hash.hex();
+}
+
 }  // namespace remap

@@ -27,4 +27,7 @@ class ContentHash {
   std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> state_;
 };
 
+// The hash of one file.
+std::string hash_of_file(const std::filesystem::path& path);
+
 }  // namespace remap

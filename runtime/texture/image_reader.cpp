@@ -56,15 +56,12 @@ std::vector<PngChunk> leading_png_chunks(std::FILE* file) {
   return chunks;
 }
 
-bool png_tells_color_space(std::FILE* file) {
-  const std::vector<PngChunk> chunks = leading_png_chunks(file);
-  return std::any_of(chunks.begin(), chunks.end(),
-                     [](const PngChunk& chunk) { return chunk.name == "sRGB" || chunk.name == "gAMA"; });
-}
-
 // OpenImageIO assumes sRGB for files of these formats without a color space.
-bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format, std::FILE* file) {
-  if (format == "png") return png_tells_color_space(file);
+bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format,
+                       const std::vector<PngChunk>& chunks) {
+  if (format == "png")
+    return std::any_of(chunks.begin(), chunks.end(),
+                       [](const PngChunk& chunk) { return chunk.name == "sRGB" || chunk.name == "gAMA"; });
   if (format == "jpeg" || format == "tiff") return spec.get_int_attribute("Exif:ColorSpace") == 1;
   return true;
 }
@@ -143,7 +140,8 @@ void ImageReader::State::open() {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) fail(std::string("cannot be read: ") + std::strerror(errno));
   // libpng allocates and fills as much as a chunk claims.
-  for (const PngChunk& chunk : leading_png_chunks(file.get()))
+  const std::vector<PngChunk> chunks = leading_png_chunks(file.get());
+  for (const PngChunk& chunk : chunks)
     if (chunk.end > fs::file_size(path))
       fail("is damaged: chunk " + plain(chunk.name) + " claims to be longer than the file");
   OIIO::ImageSpec hints;
@@ -159,7 +157,7 @@ void ImageReader::State::open() {
   (void)input->geterror();  // discards remarks on unusual headers
   find_planes();
   // A color space that OpenImageIO assumed is neither read nor written.
-  if (!tells_color_space(spec(), input->format_name(), file.get()))
+  if (!tells_color_space(spec(), input->format_name(), chunks))
     for (OIIO::ImageSpec& level_spec : levels) level_spec.erase_attribute("oiio:ColorSpace");
   layout = layout_of(spec(), input->format_name(), path);
 }

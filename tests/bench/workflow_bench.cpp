@@ -92,7 +92,7 @@ FamilyError family_error(const remap::WorkflowConversion& there, const remap::Wo
     sum.metallic += std::pow(result.metallic - truth.metallic, 2) / kCount;
     for (std::size_t c = 0; c < 3; ++c)
       sum.base_color +=
-          std::pow(workflow_test::to_srgb(result.base_color[c]) - workflow_test::to_srgb(truth.base_color[c]),
+          std::pow(remap::linear_to_srgb(result.base_color[c]) - remap::linear_to_srgb(truth.base_color[c]),
                    2) /
           (3.0 * kCount);
   }

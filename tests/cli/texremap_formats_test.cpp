@@ -257,14 +257,11 @@ TEST_CASE("texremap: a JPEG stays one, with a warning") {
   CHECK_THAT(result.errors, Contains("jpeg compression changes values") && Contains("specular read as srgb"));
   const TestImage in = read_image(session.path("r.jpg")), color = read_image(session.path("s.jpg")),
                   out = read_image(session.path("out/r.jpg"));
-  const auto linear = [](float stored) {  // IEC 61966-2-1
-    return stored <= 0.04045f ? stored / 12.92f : std::pow((stored + 0.055f) / 1.055f, 2.4f);
-  };
   // Quality 100 rounds the coefficients of 8 x 8 cosines to integers, an error of a few steps of 1/255 at
   // most.
   for (int x = 0; x < 64; ++x) {
-    const std::array<float, 3> specular = {linear(color.at(x, 3, 0)), linear(color.at(x, 3, 1)),
-                                           linear(color.at(x, 3, 2))};
+    const auto read = [&](int c) { return color_read(color.at(x, 3, c), color.spec.format); };
+    const std::array<float, 3> specular = {read(0), read(1), read(2)};
     CHECK(out.at(x, 3, 0) == Approx(converted_texel(in.at(x, 3, 0), specular)[0]).margin(4.0 / 255.0));
   }
 }

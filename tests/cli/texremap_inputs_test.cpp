@@ -29,17 +29,8 @@ std::vector<std::string> maps(const Session& session, const std::string& roughne
           "-o",          session.path("out")};
 }
 
-// The definition of sRGB, IEC 61966-2-1.
-float linear(float stored) {
-  return stored <= 0.04045f
-             ? stored / 12.92f
-             : static_cast<float>(std::pow((static_cast<double>(stored) + 0.055) / 1.055, 2.4));
-}
-float stored(float linear) {
-  return linear <= 0.0031308f
-             ? 12.92f * linear
-             : static_cast<float>(1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055);
-}
+float linear(float stored) { return static_cast<float>(srgb_to_linear(static_cast<double>(stored))); }
+float stored(float linear) { return static_cast<float>(linear_to_srgb(static_cast<double>(linear))); }
 
 bool same_channel(const TestImage& a, const TestImage& b, int channel) {
   for (int y = 0; y < a.spec.height; ++y)

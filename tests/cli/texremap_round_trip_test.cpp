@@ -38,13 +38,9 @@ int byte(const TestImage& image, std::size_t texel, std::size_t channel) {
   return image.bytes[texel * static_cast<std::size_t>(image.spec.nchannels) + channel];
 }
 
-double linear(double stored) {
-  const double value = stored / 255.0;
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
-double in_srgb(double value) {
-  return 255.0 * (value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055);
-}
+// In steps of 8 bits.
+double linear(double stored) { return srgb_to_linear(stored / 255.0); }
+double in_srgb(double value) { return 255.0 * linear_to_srgb(value); }
 
 // The rounding errors of base color and metallic may add up.
 constexpr double kMostSteps = 1.5;

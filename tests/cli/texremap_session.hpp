@@ -14,6 +14,7 @@
 #include "remap/converter.hpp"
 #include "remap/shipped_converters.hpp"
 #include "support/process.hpp"
+#include "support/srgb.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
 #include "system/files.hpp"
@@ -91,13 +92,6 @@ inline float as_stored(float value, OIIO::TypeDesc type) {
 
 inline bool is_whole(OIIO::TypeDesc type) { return type == OIIO::TypeUInt8 || type == OIIO::TypeUInt16; }
 
-// IEC 61966-2-1, in doubles and apart from the code under test.
-inline double srgb_to_linear(double stored) {
-  return stored <= 0.04045 ? stored / 12.92 : std::pow((stored + 0.055) / 1.055, 2.4);
-}
-inline double linear_to_srgb(double value) {
-  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-}
 // The linear value of a color: whole numbers are sRGB.
 inline float color_read(float stored, OIIO::TypeDesc type) {
   return is_whole(type) ? static_cast<float>(srgb_to_linear(static_cast<double>(stored))) : stored;

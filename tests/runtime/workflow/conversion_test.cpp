@@ -36,7 +36,9 @@ FamilyError family_error(const WorkflowConversion& back, const WorkflowConversio
     const MetallicMaterial result = to_metallic(back, material);
     metallic += squared(result.metallic - truth.metallic);
     for (std::size_t c = 0; c < 3; ++c)
-      color += squared(to_srgb(result.base_color[c]) - to_srgb(truth.base_color[c])) / 3.0;
+      color +=
+          squared(remap::linear_to_srgb(result.base_color[c]) - remap::linear_to_srgb(truth.base_color[c])) /
+          3.0;
   }
   return {std::sqrt(metallic / count), std::sqrt(color / count)};
 }

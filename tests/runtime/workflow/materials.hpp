@@ -6,19 +6,17 @@
 #include <cmath>
 #include <random>
 
+#include "support/srgb.hpp"
 #include "workflow/conversion.hpp"
 
 namespace workflow_test {
 
 using Rgb = std::array<double, 3>;
 
-inline double to_srgb(double v) {
-  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-}
-inline double from_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-
 // As a map of 8 bits in sRGB holds it.
-inline double in_8_bits(double linear) { return from_srgb(std::round(255.0 * to_srgb(linear)) / 255.0); }
+inline double in_8_bits(double linear) {
+  return remap::srgb_to_linear(std::round(255.0 * remap::linear_to_srgb(linear)) / 255.0);
+}
 
 inline remap::WorkflowConversion plain(remap::WorkflowFormula formula, double f0 = 0.04) {
   remap::WorkflowConversion conversion;
