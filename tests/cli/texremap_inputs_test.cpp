@@ -272,7 +272,7 @@ TEST_CASE("texremap inputs: contradicting options are refused", "[slow]") {
           "--bad-texels: unknown treatment 'drop' (choose keep, clamp, fail)");
   refused({"--roughness", r, "--specular", s, "-o", out, "--only", "specualr"}, "did you mean specular?");
   refused({"--glossiness", r, "--specular", s, "-o", out, "--roughness-encoding", "alpha"},
-          "--roughness-encoding cannot be used with --glossiness");
+          "--glossiness cannot be used with --roughness-encoding");
 }
 
 TEST_CASE("texremap inputs: grey in a JPEG may be a step from grey") {
