@@ -32,7 +32,6 @@ void add_check_command(remap::Command& app);
 
 void add_fit_command(remap::Command& app);
 void add_compare_command(remap::Command& app);
-void add_import_command(remap::Command& app);
 
 void add_emit_command(remap::Command& app);
 void add_export_command(remap::Command& app);

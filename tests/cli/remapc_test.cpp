@@ -39,8 +39,8 @@ TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") 
 
 TEST_CASE("remapc: every command has help with an example", "[slow]") {
   const Session session;
-  for (const std::string command : {"render", "preview", "sweep", "sample", "check", "fit", "import", "emit",
-                                    "export", "eval", "compare", "list", "show"}) {
+  for (const std::string command : {"render", "preview", "sweep", "sample", "check", "fit", "emit", "export",
+                                    "eval", "compare", "list", "show"}) {
     const ProcessResult result = session.remapc({command, "--help"});
     CHECK(result.exit_code == 0);
     CHECK(result.output.find("Example:\n  remapc " + command) != std::string::npos);
