@@ -20,7 +20,6 @@ int main(int argc, char** argv) {
   remapc::add_fit_command(app);
   remapc::add_compare_command(app);
   remapc::add_emit_command(app);
-  remapc::add_export_command(app);
   remapc::add_chain_command(app);
   remapc::add_invert_command(app);
   remapc::add_build_command(app);

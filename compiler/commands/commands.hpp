@@ -34,7 +34,6 @@ void add_fit_command(remap::Command& app);
 void add_compare_command(remap::Command& app);
 
 void add_emit_command(remap::Command& app);
-void add_export_command(remap::Command& app);
 void add_chain_command(remap::Command& app);
 void add_invert_command(remap::Command& app);
 void add_build_command(remap::Command& app);
