@@ -23,10 +23,8 @@ void add_check_command(remap::Command& app);
 
 void add_fit_command(remap::Command& app);
 void add_compare_command(remap::Command& app);
-void add_import_command(remap::Command& app);
 
 void add_emit_command(remap::Command& app);
-void add_export_command(remap::Command& app);
 void add_chain_command(remap::Command& app);
 void add_invert_command(remap::Command& app);
 void add_build_command(remap::Command& app);

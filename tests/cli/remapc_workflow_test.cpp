@@ -60,7 +60,6 @@ TEST_CASE("remapc with analytic fits: what works on width and specular refuses t
     check_failure(session.remapc(words), 2, "painted_to_metal: converts whole materials");
   };
   refused({"eval", "painted_to_metal", session.path("t.csv")});
-  refused({"export", "painted_to_metal"});
   refused({"invert", "painted_to_metal"});
 }
 
