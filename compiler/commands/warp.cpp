@@ -5,8 +5,6 @@
 #include <chrono>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "remap/fit_file.hpp"
@@ -14,6 +12,7 @@
 #include "report/warp_report.hpp"
 #include "system/files.hpp"
 #include "text/errors.hpp"
+#include "text/json.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 #include "warp/input/copied_set.hpp"
@@ -97,7 +96,7 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::
       static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
 }
 
-nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
+remap::Json report_of(const WarpDiagnostics& found) {
   return {{"dimensions", found.dimensions},
           {"source_dimensions", found.source_dimensions},
           {"template_dimensions", found.target_dimensions},
@@ -149,7 +148,7 @@ void warp_textures(const WarpCommand& command) {
   if (source.is_albedo) file.method[remap::kWarpSourceMaps] = remap::kDiffuseAlone;
   file.copy_rms_error = remap::rounded_up(copy_rms_error(fit, source.material, target.material), 3);
 
-  nlohmann::ordered_json json;
+  remap::Json json;
   if (!command.output.empty()) {
     remap::write_file(command.output, fit_to_json(file));
     json["fit"] = command.output.string();
@@ -220,8 +219,8 @@ void warp_tables(const WarpCommand& command) {
       write_copied_set(command.copy, copy_exactly(match, from, to), frame_of(source),
                        {to, frame_of(target), table != nullptr ? table->table : std::filesystem::path()});
   if (!command.json) return print_words(command.copy, match.diagnostics);
-  nlohmann::ordered_json json = {{"diagnostics", report_of(match.diagnostics)},
-                                 {"warnings", warnings_of(match.diagnostics)}};
+  remap::Json json = {{"diagnostics", report_of(match.diagnostics)},
+                      {"warnings", warnings_of(match.diagnostics)}};
   for (const std::filesystem::path& file : files) json["files"].push_back(file.string());
   std::cout << json.dump(2) << "\n";
 }

@@ -269,8 +269,8 @@ std::vector<StudyPlot> conductors_plots(const ConductorsStudy& study) {
   return {there, trip};
 }
 
-nlohmann::ordered_json conductors_json(const ConductorsStudy& study) {
-  nlohmann::ordered_json curves = nlohmann::ordered_json::array();
+remap::Json conductors_json(const ConductorsStudy& study) {
+  remap::Json curves = remap::Json::list();
   for (const ConductorCurve& curve : study.curves)
     curves.push_back({{"alpha", curve.alpha},
                       {"ok", curve.ok},

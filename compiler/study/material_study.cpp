@@ -89,7 +89,7 @@ void StudyPlot::add_rows(double alpha, const std::vector<const TableRow*>& rows)
   curves.insert(curves.end(), {ok, flagged});
 }
 
-StudyReport study_report(const std::vector<std::string>& words, nlohmann::ordered_json figures,
+StudyReport study_report(const std::vector<std::string>& words, remap::Json figures,
                          const std::string& plot_name, const std::vector<StudyPlot>& plots) {
   StudyReport report{"", std::move(figures), {}, plot_name, plot_script(plots), {}};
   for (const std::string& sentence : words) report.summary += sentence + "\n";

@@ -53,7 +53,7 @@ struct StudyPlot {
 
 // A report of findings, one sentence each, which the figures repeat as `words`; its plot draws `plots` side
 // by side.
-StudyReport study_report(const std::vector<std::string>& words, nlohmann::ordered_json figures,
+StudyReport study_report(const std::vector<std::string>& words, remap::Json figures,
                          const std::string& plot_name, const std::vector<StudyPlot>& plots);
 
 // Formats a share as a percentage, rounded to three significant digits: `0.123 %`.

@@ -180,8 +180,8 @@ std::string sensitivity_csv(const WarpsOptions& options, const WarpsResult& resu
   return csv.text();
 }
 
-nlohmann::ordered_json summary_json(const WarpSummary& summary) {
-  nlohmann::ordered_json json = named(summary.figures).json();
+remap::Json summary_json(const WarpSummary& summary) {
+  remap::Json json = named(summary.figures).json();
   if (summary.change) json["change"] = *summary.change;
   if (!summary.cost) return json;
   json["folds"] = summary.cost->folds;
@@ -192,13 +192,12 @@ nlohmann::ordered_json summary_json(const WarpSummary& summary) {
   return json;
 }
 
-nlohmann::ordered_json report_json(const WarpsOptions& options, const WarpsResult& result) {
-  nlohmann::ordered_json json = {{"width", options.cases.front().width},
-                                 {"height", options.cases.front().height}};
+remap::Json report_json(const WarpsOptions& options, const WarpsResult& result) {
+  remap::Json json = {{"width", options.cases.front().width}, {"height", options.cases.front().height}};
   for (const WarpCase& studied : options.cases)
     json["sets"].push_back({{"name", studied.name}, {"stroke_sets", studied.strokes.size()}});
   for (std::size_t v = 0; v < result.variants.size(); ++v) {
-    nlohmann::ordered_json& entry = json[group_name(result.variants[v].group)][result.variants[v].name];
+    remap::Json& entry = json[group_name(result.variants[v].group)][result.variants[v].name];
     entry = summary_json(summary_of(result, v));
     for (std::size_t set = 0; set < options.cases.size(); ++set)
       entry["sets"][options.cases[set].name] = summary_json(summary_of(result, v, set));
