@@ -27,9 +27,8 @@ struct WarpCommand {
   std::string source, target;
   std::string source_model = "mitsuba/ggx", target_model = "mitsuba/ggx";
   std::vector<std::string> masks, boxes, paintings;  // source, template, source, template ...
-  std::string method = "registration";
-  std::string distance;  // empty: relative, plain where both are profiles
-  WarpOptions options;   // without method and distance
+  std::string distance;                              // empty: relative, plain where both are profiles
+  bool exact = false;
   std::filesystem::path output, copy, report;
   bool json = false;
 };
@@ -54,10 +53,7 @@ std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& s
 }
 
 WarpOptions options_of(const WarpCommand& command, AppearanceDistance usual) {
-  WarpOptions options = command.options;
-  options.method = *remap::value_named(kWarpMethods, command.method);
-  options.distance = remap::value_named(kAppearanceDistances, command.distance).value_or(usual);
-  return options;
+  return {remap::value_named(kAppearanceDistances, command.distance).value_or(usual), command.exact};
 }
 
 remap::WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::size_t stroke_count) {
@@ -66,7 +62,7 @@ remap::WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::
   file.source_model = command.source_model;
   file.template_model = command.target_model;
   file.warp = fit.compiled;
-  file.method = {{"method", command.method},
+  file.method = {{"method", "registration"},
                  {"distance", command.distance.empty() ? std::string("relative") : command.distance},
                  {"strokes", std::to_string(stroke_count)},
                  {"source", std::filesystem::path(command.source).filename().string()},
@@ -82,7 +78,7 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::
       "Warp " + file.id,
       {{"source", command.source + ", " + command.source_model},
        {"template", command.target + ", " + command.target_model},
-       {"method", command.method + ", " + file.method.at("strokes") + " stroke pairs"},
+       {"stroke pairs", file.method.at("strokes")},
        {"dimensions", std::to_string(found.dimensions) + " (source " +
                           std::to_string(found.source_dimensions) + ", template " +
                           std::to_string(found.target_dimensions) + ")"},
@@ -247,21 +243,16 @@ void add_stroke_options(remap::Command& app, WarpCommand& command) {
       ->delimiter(' ');
 }
 
-void add_method_options(remap::Command& app, WarpCommand& command) {
-  app.option_group("Models and method");
+void add_model_options(remap::Command& app, WarpCommand& command) {
+  app.option_group("Models");
   app.add_option("--source-model MODEL", command.source_model, "BRDF model of the source's maps");
   app.add_option("--template-model MODEL", command.target_model,
                  "BRDF model of the template's maps and of the result");
-  app.add_flag("--exact", command.options.exact, "Copy texels of the template instead of blending them");
+  app.add_flag("--exact", command.exact, "Copy texels of the template instead of blending them");
   app.option_group(remap::kRareOptions);
-  app.add_option("--method", command.method, "Method that finds the warp")
-      ->one_of(remap::names_of(kWarpMethods));
   app.add_option("--distance", command.distance,
                  "Distance between reflectances (default: relative; plain for scattering profiles)")
       ->one_of(remap::names_of(kAppearanceDistances));
-  app.add_option("--dimensions", command.options.dimensions,
-                 "Dimensions of appearance space, 0: as many as needed")
-      ->range(0, 3);
 }
 
 }  // namespace
@@ -285,7 +276,7 @@ void add_warp_command(remap::Command& app) {
       "--report FILE", options.report,
       "Pictures of materials, strokes, appearance spaces and result: .html with the diagnostics, or .png");
   command->add_flag("--json", options.json, "Print the diagnostics as JSON to standard output");
-  add_method_options(*command, options);
+  add_model_options(*command, options);
   command->footer(
       "Example:\n"
       "  remapc warp brown_leaf green_leaf \\\n"

@@ -97,12 +97,13 @@ StudyReport study_report(const std::vector<std::string>& words, remap::Json figu
   return report;
 }
 
-std::string short_text(double value, int digits) {
-  if (value == 0.0 || !std::isfinite(value)) return number_text(value);
-  const double unit = std::pow(10.0, digits - 1 - static_cast<int>(std::floor(std::log10(std::fabs(value)))));
-  return number_text(unit >= 1.0 ? std::round(value * unit) / unit : std::round(value * unit) * (1.0 / unit));
+std::string percent_text(double share) {
+  const double value = 100.0 * share;
+  if (value == 0.0 || !std::isfinite(value)) return number_text(value) + " %";
+  const double unit = std::pow(10.0, 2 - static_cast<int>(std::floor(std::log10(std::fabs(value)))));
+  return number_text(unit >= 1.0 ? std::round(value * unit) / unit
+                                 : std::round(value * unit) * (1.0 / unit)) +
+         " %";
 }
-
-std::string percent_text(double share) { return short_text(100.0 * share) + " %"; }
 
 }  // namespace remapc

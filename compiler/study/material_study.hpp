@@ -1,5 +1,5 @@
-// What the studies of measured materials share: sweeps with light at 45 degrees and uniform weights, the
-// setting of section 4.1 of the paper, their reports and plots.
+// Parts of the study of dielectrics: sweeps with light at 45 degrees and uniform weights, the
+// setting of section 4.1 of the paper, reports and plots.
 #pragma once
 
 #include <functional>
@@ -58,8 +58,5 @@ StudyReport study_report(const std::vector<std::string>& words, remap::Json figu
 
 // Formats a share as a percentage, rounded to three significant digits: `0.123 %`.
 std::string percent_text(double share);
-
-// Formats a number, rounded to `digits` significant digits.
-std::string short_text(double value, int digits = 3);
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// Runs `remapc sweep` with stages and diffuse, `remapc sample`, and the studies of measured materials.
+// Runs `remapc sweep` with stages and diffuse, `remapc sample`, and the study of dielectrics.
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -65,23 +65,6 @@ TEST_CASE("remapc sweep: invalid stages, diffuse and conductors give exit code 2
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("remap-study conductors: writes tables and a summary") {
-  const Session session;
-  const ProcessResult result = session.study(study(session, "conductors", {"--alphas", "0.2,0.4"}));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
-  CHECK(result.output.find("figure 6: smooth") != std::string::npos);
-  CHECK(result.output.find("figure 7: the ") != std::string::npos);
-  CHECK(result.output.find("Schlick (from F0) against exact Fresnel") != std::string::npos);
-  for (const std::string file : {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"})
-    CHECK(fs::exists(session.path("conductors/" + file)));
-  CHECK(session.remapc({"check", session.path("conductors/as_to_ward.csv")}).output.find("contradiction") ==
-        std::string::npos);
-  const ProcessResult json = session.study(study(session, "conductors", {"--alphas", "0.2", "--json"}));
-  CHECK(json.output.find("\"slope\": ") != std::string::npos);
-  CHECK(json.output.find("null") == std::string::npos);
-}
-
 TEST_CASE("remap-study dielectrics: compares one, two and three stages") {
   const Session session;
   const ProcessResult result = session.study(study(session, "dielectrics", {"--alphas", "0.3", "--json"}));
@@ -102,14 +85,13 @@ TEST_CASE("remap-study: wrong usage gives exit code 2, help has an example", "[s
     check_failure(session.study(arguments), 2, message, "remap-study");
   };
   fails({}, "no command given (try --help)");
-  fails({"conductor"}, "conductors");
-  fails(study(session, "conductors", {"--alphas", "0.4,0.2"}),
+  fails({"dielectric"}, "dielectrics");
+  fails(study(session, "dielectrics", {"--alphas", "0.4,0.2"}),
         "--alphas: values must increase and lie between 0.01 and 1");
   fails(study(session, "dielectrics", {"--diffuse", "-1"}), "--diffuse: -1 is out of range (0 to 1)");
   CHECK(session.file_count() == 0);
-  for (const std::string name : {"conductors", "dielectrics"})
-    CHECK(session.study({name, "--help"}).output.find("Example:\n  remap-study " + name) !=
-          std::string::npos);
+  CHECK(session.study({"dielectrics", "--help"}).output.find("Example:\n  remap-study dielectrics") !=
+        std::string::npos);
 }
 
 TEST_CASE("remapc sample: a table of named columns that check reads and fit --swap inverts", "[slow]") {

@@ -133,35 +133,3 @@ TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes",
   check_failure(session.study({"workflows", "--pictures"}), 2, "--pictures requires -o FOLDER",
                 "remap-study");
 }
-
-TEST_CASE("remap-study warp: figures as JSON, tables, a plot and sheets", "[needs][slow]") {
-  const Session session;
-  const ProcessResult result = session.study({"warp", "--size", "32", "--stroke-sets", "1", "--material",
-                                              "wood", "--json", "-o", session.path("study"), "--pictures"});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
-  for (const std::string key :
-       {"\"method\": {", "\"registration\": {", "\"dimensions\": {", "\"points\": {", "\"nodes\": {",
-        "\"error\": ", "\"folds\": ", "\"table_difference\": ", "\"wood\": {", "\"seconds\": "})
-    CHECK(result.output.find(key) != std::string::npos);
-  CHECK(read_file(session.path("study/warp.csv")).find("\nwood,0,method,registration,") != std::string::npos);
-  CHECK(read_file(session.path("study/warp_sensitivity.csv"))
-            .find("\nset,group,variant,first,second,change\n") != std::string::npos);
-  for (const std::string name : {"methods", "sampling", "strokes"})
-    CHECK(contrast(session.path("study/warp_" + name + "_wood.png")) > 0.2f);
-  check_plot(session, result, "warp.svg");
-}
-
-TEST_CASE("remap-study warp: wrong usage gives exit code 2, folders without sets give 1", "[slow]") {
-  const Session session;
-  const auto fails = [&](std::vector<std::string> arguments, int exit_code, const std::string& message) {
-    arguments.insert(arguments.begin(), "warp");
-    check_failure(session.study(arguments), exit_code, message, "remap-study");
-  };
-  fails({"--size", "8"}, 2, "--size: 8 is out of range (32 to 2048)");
-  fails({"--stroke-sets", "0"}, 2, "--stroke-sets: 0 is out of range (1 to 100)");
-  fails({"--pictures"}, 2, "--pictures requires -o FOLDER");
-  fails({"--material", "moss"}, 2, "moss");
-  fails({"--sets", session.path("none")}, 1, "none: cannot be read");
-  CHECK(session.file_count() == 0);
-}
