@@ -84,27 +84,6 @@ TEST_CASE("remap-study environments: --json has the means of each method and pai
   CHECK(session.file_count() == 0);
 }
 
-TEST_CASE("remap-study environments: wrong usage gives exit code 2, unreadable maps give 1", "[slow]") {
-  const Session session;
-  const auto fails = [&](const std::vector<std::string>& arguments, int exit_code,
-                         const std::string& message) {
-    check_failure(session.study(arguments), exit_code, message, "remap-study");
-  };
-  fails({}, 2, "command");
-  fails(small_study({"--pair", "mitsuba/ward"}), 2, "use SOURCE:TARGET");
-  fails(small_study({"--pair", "mitsuba/wart:mitsuba/as"}), 2, "did you mean mitsuba/ward?");
-  fails(small_study({"--exposure", "0"}), 2, "--exposure: 0 is out of range (must be above 0)");
-  fails(small_study({"--pictures"}), 2, "--pictures requires -o FOLDER");
-  fails(small_study({"--environment", session.path("none.exr")}), 1, "none.exr: cannot be read");
-  CHECK(session.file_count() == 0);
-}
-
-TEST_CASE("remap-study environments: has help with an example") {
-  const ProcessResult result = Session().study({"environments", "--help"});
-  CHECK(result.exit_code == 0);
-  CHECK(result.output.find("Example:\n  remap-study environments") != std::string::npos);
-}
-
 TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes", "[needs][slow]") {
   const Session session;
   const std::vector<std::string> small = {
@@ -130,8 +109,6 @@ TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes",
   for (const std::string key :
        {"\"gltf\": {", "\"projection\": {", "\"worst_ssim\": ", "\"uniform, 8-bit\": {"})
     CHECK(figures.find(key) != std::string::npos);
-  check_failure(session.study({"workflows", "--pictures"}), 2, "--pictures requires -o FOLDER",
-                "remap-study");
 }
 
 TEST_CASE("remap-study warp: figures as JSON, tables, a plot and sheets", "[needs][slow]") {
@@ -150,18 +127,4 @@ TEST_CASE("remap-study warp: figures as JSON, tables, a plot and sheets", "[need
   for (const std::string name : {"methods", "sampling", "strokes"})
     CHECK(contrast(session.path("study/warp_" + name + "_wood.png")) > 0.2f);
   check_plot(session, result, "warp.svg");
-}
-
-TEST_CASE("remap-study warp: wrong usage gives exit code 2, folders without sets give 1", "[slow]") {
-  const Session session;
-  const auto fails = [&](std::vector<std::string> arguments, int exit_code, const std::string& message) {
-    arguments.insert(arguments.begin(), "warp");
-    check_failure(session.study(arguments), exit_code, message, "remap-study");
-  };
-  fails({"--size", "8"}, 2, "--size: 8 is out of range (32 to 2048)");
-  fails({"--stroke-sets", "0"}, 2, "--stroke-sets: 0 is out of range (1 to 100)");
-  fails({"--pictures"}, 2, "--pictures requires -o FOLDER");
-  fails({"--material", "moss"}, 2, "moss");
-  fails({"--sets", session.path("none")}, 1, "none: cannot be read");
-  CHECK(session.file_count() == 0);
 }

@@ -58,13 +58,6 @@ std::size_t line_count(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-void check_refused(const ProcessResult& result, const std::string& message) {
-  INFO(result.errors);
-  CHECK(result.exit_code == 2);
-  CHECK_THAT(result.last_error(), Contains(message));
-  CHECK(result.output.empty());
-}
-
 }  // namespace
 
 TEST_CASE("texremap convert: notes in one line that the match looks different and which model is closer") {
@@ -151,20 +144,6 @@ TEST_CASE("texremap path: --to RENDERER with --via chooses among the paths that 
   const Json json = json_of(path("mitsuba/ward", "cycles-5", {"--via", "mitsuba/ggx", "--json"}));
   CHECK(json["models"][1] == "mitsuba/ggx");
   CHECK_THAT(json["models"].back().get<std::string>(), !Contains("beckmann"));
-}
-
-TEST_CASE("texremap: --to RENDERER of the source's own model is refused") {
-  check_refused(path("mitsuba/ward", "mitsuba"), "--to: mitsuba/ward is a model of mitsuba already");
-  check_refused(convert("mitsuba/ward", "mitsuba"), "--to: mitsuba/ward is a model of mitsuba already");
-}
-
-TEST_CASE("texremap: a renderer as the source is refused with its models") {
-  const std::string message = "source model: cycles-5 is a renderer (choose one of its models: cycles-5/";
-  check_refused(path("cycles-5", "mitsuba/ward"), message);
-  check_refused(path("cycles-5", "mitsuba"), message);
-  check_refused(convert("cycles-5", "mitsuba/ward"), message);
-  check_refused(path("mitsuba/ward", "mitsuba/as", {"--via", "cycles-5"}), "model: cycles-5 is a renderer");
-  check_refused(path("mitsuba/ward", "cyclse-5"), "unknown target model 'cyclse-5' (did you mean cycles-5/");
 }
 
 TEST_CASE("texremap: a workflow is compared with the models of its own renderer") {

@@ -252,13 +252,9 @@ TEST_CASE("texremap: unreadable files and folders are named, and the others are 
   CHECK(tree.results() == std::vector<std::string>{"a_rough.png", "a_spec.png", "c_rough.png", "c_spec.png"});
 }
 
-TEST_CASE("texremap: a link to itself is refused as input, and no output is written through a link") {
+TEST_CASE("texremap: no output is written through a link") {
   const Session session;
   session.write_pair("png", 16, OIIO::TypeUInt8);
-  fs::create_symlink("loop.png", session.path("loop.png"));
-  const ProcessResult in = session.convert("loop.png", "s.png");
-  CHECK(in.exit_code == 1);
-  CHECK_THAT(in.last_error(), Contains("loop.png: cannot be read: Too many levels of symbolic links"));
   fs::create_directory(session.path("out"));
   fs::create_symlink(session.path("elsewhere.png"), session.path("out/s.png"));
   const ProcessResult out = session.convert("r.png", "s.png");

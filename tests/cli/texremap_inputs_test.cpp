@@ -249,32 +249,6 @@ TEST_CASE("texremap inputs: a converted map is not converted again", "[slow]") {
   CHECK(convert(session, again).exit_code == 0);
 }
 
-TEST_CASE("texremap inputs: contradicting options are refused", "[slow]") {
-  const Session session;
-  session.write_pair("exr", kSize);
-  const auto refused = [&](std::vector<std::string> words, const std::string& message) {
-    const ProcessResult result = convert(session, words);
-    INFO(result.errors);
-    CHECK(result.exit_code == 2);
-    CHECK_THAT(result.last_error(), Contains(message));
-    CHECK_FALSE(fs::exists(session.path("out")));
-  };
-  const std::string r = session.path("r.exr"), s = session.path("s.exr"), out = session.path("out");
-  refused({"--specular", s, "-o", out}, "--roughness is required (a map or a number; or use --glossiness)");
-  refused({"--roughness", r, "--specular", s}, "--output is required");
-  refused({"--roughness", "0.1,0.2,0.3", "--specular", s, "-o", out},
-          "--roughness: has three values (give one)");
-  refused({"--roughness", r, "--specular", s + ":R,G", "-o", out}, "(use FILE:CHANNEL or FILE:R,G,B)");
-  refused({"--roughness", r, "--specular", s, "-o", out, "--roughness-encoding", "rouhgness"},
-          "did you mean roughness?");
-  refused({"--roughness", r, "--specular", s, "-o", out, "--color-space", "srbg"}, "did you mean srgb?");
-  refused({"--roughness", r, "--specular", s, "-o", out, "--bad-texels", "drop"},
-          "--bad-texels: unknown treatment 'drop' (choose keep, clamp, fail)");
-  refused({"--roughness", r, "--specular", s, "-o", out, "--only", "specualr"}, "did you mean specular?");
-  refused({"--glossiness", r, "--specular", s, "-o", out, "--roughness-encoding", "alpha"},
-          "--roughness-encoding cannot be used with --glossiness");
-}
-
 TEST_CASE("texremap inputs: grey in a JPEG may be a step from grey") {
   const Session session;
   const auto write = [&](float red) {

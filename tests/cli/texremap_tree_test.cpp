@@ -113,14 +113,11 @@ TEST_CASE("texremap tree: results inside the tree are neither read nor overwritt
   CHECK_THAT(again.last_error(), Contains("1 of 1 sets failed"));
 }
 
-TEST_CASE("texremap tree: --names adds file-name habits", "[slow]") {
+TEST_CASE("texremap tree: --names adds file-name habits") {
   const Tree tree;
   tree.map("in/a_zzz.png", kGrey);
   write_file(tree.path("names.json"),
              R"({"habits": [{"name": "ours", "rules": [{"words": ["zzz"], "role": "roughness"}]}]})");
-  const ProcessResult unknown = tree.convert_tree({"--specular", "0.04"});
-  CHECK(unknown.exit_code == 2);
-  CHECK_THAT(unknown.last_error(), Contains("no texture set found by file names (use --recursive"));
   REQUIRE(tree.convert_tree({"--specular", "0.04", "--names", tree.path("names.json")}).exit_code == 0);
   CHECK(tree.results() == Names{"a_specular.png", "a_zzz.png"});
 }
@@ -191,23 +188,6 @@ TEST_CASE("texremap tree: the number of threads changes no bit") {
     CHECK(contents.back() == contents.front());
   }
   CHECK(tree.results().size() == 14);
-}
-
-TEST_CASE("texremap tree: contradicting options are refused") {
-  const Tree tree;
-  tree.map("in/a_rough.png", kGrey);
-  const auto refused = [&](const std::vector<std::string>& more, const std::string& message) {
-    const ProcessResult result = tree.convert_tree(more);
-    CHECK(result.exit_code == 2);
-    CHECK_THAT(result.last_error(), Contains(message));
-    CHECK_FALSE(fs::exists(tree.path("out")));
-  };
-  refused({"--roughness", tree.path("in/a_rough.png")}, "--roughness cannot be used with a folder");
-  refused({"--specular", tree.path("in/a_rough.png")}, "cannot be used with a folder (give numbers)");
-  const ProcessResult result = tree.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as",
-                                              "--recursive", "--roughness", "0.4", "--specular", "0.04"});
-  CHECK(result.exit_code == 2);
-  CHECK_THAT(result.last_error(), Contains("--recursive requires a folder of sets (give DIR)"));
 }
 
 TEST_CASE("texremap tree: --resume makes only missing and changed sets", "[slow]") {
