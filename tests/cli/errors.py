@@ -28,9 +28,14 @@ SECONDS = 120
 
 
 def run_shell(command, folder, programs):
+    """The exit code, and the output with the errors after it. These are files, as `ulimit -f` is for files."""
     environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}", LC_ALL="C", PWD=str(folder))
-    return subprocess.run(["/bin/sh", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                          capture_output=True, timeout=SECONDS)
+    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
+        run = subprocess.run(["/bin/sh", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+                             stdout=output, stderr=errors, timeout=SECONDS)
+        for stream in (output, errors):
+            stream.seek(0)
+        return run.returncode, (output.read() + errors.read()).decode(errors="replace")
 
 
 def copy(folder, to):
@@ -74,15 +79,15 @@ def shown(command, inputs, programs):
         folder = Path(name).resolve()
         copy(inputs, folder)
         before = contents(folder)
-        run = run_shell(command, folder, programs)
+        code, text = run_shell(command, folder, programs)
         after = contents(folder)
-        text = (run.stdout + run.stderr).decode(errors="replace").replace(str(folder), "$PWD")
+    text = text.replace(str(folder), "$PWD")
     text = re.sub(r"\b\d+\.\d\d s\b", "0.00 s", text)
     text = re.sub(r"unfinished-[\da-f]+-\d+", "unfinished", text)
     lines = [line for line in text.splitlines() if line.strip()] or ["(nothing)"]
-    if run.returncode != 1:
-        lines[0] = f"{run.returncode} {lines[0]}"
-    faults = ["was not refused"] if run.returncode == 0 else []
+    if code != 1:
+        lines[0] = f"{code} {lines[0]}"
+    faults = ["was not refused"] if code == 0 else []
     faults += [f"left {path}" for path in sorted(after.keys() - before.keys())]
     faults += [f"changed {path}" for path in sorted(before) if after.get(path, b"") != before[path]]
     return lines, faults
@@ -98,9 +103,9 @@ def check(path, programs, record):
         (Path(inputs) / "shipped").symlink_to(ROOT / "fits")
         for part in parts:
             if isinstance(part, str) and part.startswith("> "):
-                run = run_shell(part[2:], Path(inputs), programs)
-                if run.returncode != 0:
-                    sys.exit(f"{path}: {part}: exit code {run.returncode}: {run.stderr.decode(errors='replace')}")
+                code, text = run_shell(part[2:], Path(inputs), programs)
+                if code != 0:
+                    sys.exit(f"{path}: {part}: exit code {code}: {text}")
         results = pool.map(lambda case: shown(case[0], inputs, programs), cases)
         for case, (lines, faults) in zip(cases, results):
             if lines != case[1] and not record:

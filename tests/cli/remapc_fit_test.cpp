@@ -58,17 +58,6 @@ TEST_CASE("remapc fit: each kind of regression can be asked for, and a form", "[
   CHECK(kind() == "parametric");
 }
 
-TEST_CASE("remapc fit: without gnuplot on the path a plot is refused before the work", "[slow]") {
-  const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
-  auto fit = session.fit("t.csv", "out");
-  fit.insert(fit.end(), {"--plot", session.path("plot.svg")});
-  std::vector<std::string> bare = {"/usr/bin/env", "PATH=" + session.path(""), REMAPC_PROGRAM};
-  bare.insert(bare.end(), fit.begin(), fit.end());
-  check_failure(run(bare), 1, "on Debian the package gnuplot-nox");
-  CHECK_FALSE(fs::exists(session.path("out/mitsuba_ward_to_mitsuba_as.json")));
-}
-
 TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plotted", "[slow]") {
   const Session session;
   session.write("exact.csv", made_table(12, 4));  // of the paper's form

@@ -84,13 +84,10 @@ TEST_CASE("remap-study dielectrics: compares one, two and three stages") {
 
 TEST_CASE("remapc sample: a table of named columns that check reads and fit --swap inverts", "[slow]") {
   const Session session;
-  const std::vector<std::string> sample = {"sample",       "--source",    "mitsuba/ggx-metallic",
-                                           "--target",     "mitsuba/ggx", "--vary",
-                                           "metallic",     "--range",     "roughness=0.4,0.9",
-                                           "--resolution", "32",          "--count",
-                                           "50",           "--seed",      "7",
-                                           "--json",       "-o",          session.path("t.csv")};
-  const ProcessResult result = session.remapc(sample);
+  const ProcessResult result = session.remapc(split_words(
+      "sample --source mitsuba/ggx-metallic --target mitsuba/ggx --vary metallic --range roughness=0.4,0.9 "
+      "--resolution 32 --count 50 --seed 7 --json -o " +
+      session.path("t.csv")));
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
   CHECK(result.output.find("\"rows\": 50") != std::string::npos);
@@ -101,9 +98,10 @@ TEST_CASE("remapc sample: a table of named columns that check reads and fit --sw
 TEST_CASE("remapc sweep: roles and fixed values of parameters are given on the command line") {
   const Session session;
   const ProcessResult result =
-      session.remapc({"sweep", "--source", "mitsuba/ggx-metallic", "--target", "mitsuba/ggx", "--resolution",
-                      "32", "--roughness-samples", "2", "--specular-samples", "2", "--source-specular",
-                      "metallic", "--source-set", "base_color=0.8", "-o", session.path("t.csv")});
+      session.remapc(split_words("sweep --source mitsuba/ggx-metallic --target mitsuba/ggx --resolution 32 "
+                                 "--roughness-samples 2 --specular-samples 2 --source-specular metallic "
+                                 "--source-set base_color=0.8 -o " +
+                                 session.path("t.csv")));
   INFO(result.errors);
   REQUIRE(result.exit_code == 0);
   const std::string table = read_file(session.path("t.csv"));

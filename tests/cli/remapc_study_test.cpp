@@ -14,19 +14,10 @@ namespace {
 // The arguments of a study of two pairs that takes a second.
 std::vector<std::string> small_study(const std::vector<std::string>& more = {},
                                      const std::string& fits = REMAP_SOURCE_DIR "/fits") {
-  std::vector<std::string> arguments = {"environments",
-                                        "--pair",
-                                        "mitsuba/ward:mitsuba/as",
-                                        "--pair",
-                                        "mitsuba/beckmann:mitsuba/ggx",
-                                        "--alphas",
-                                        "0.2,0.5",
-                                        "--resolution",
-                                        "16",
-                                        "--samples",
-                                        "64",
-                                        "--fits",
-                                        fits};
+  std::vector<std::string> arguments = split_words(
+      "environments --pair mitsuba/ward:mitsuba/as --pair mitsuba/beckmann:mitsuba/ggx --alphas 0.2,0.5 "
+      "--resolution 16 --samples 64 --fits " +
+      fits);
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }

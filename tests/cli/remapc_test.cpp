@@ -52,29 +52,6 @@ TEST_CASE("remapc sweep: killed or interrupted it leaves nothing under the final
   }
 }
 
-TEST_CASE("remapc emit: --check finds a changed, a missing and an orphaned header", "[slow]") {
-  const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
-  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
-  const std::vector<std::string> emit = {
-      "emit", "--all", "--fits", session.path("fits"), "-o", session.path("generated")};
-  REQUIRE(session.remapc(emit).exit_code == 0);
-  auto check = emit;
-  check.emplace_back("--check");
-  CHECK(session.remapc(check).exit_code == 0);
-
-  const std::string header = session.path("generated/mitsuba_ward_to_mitsuba_as.hpp");
-  const std::string original = read_file(header);
-  write_file(header, original + "\n");
-  check_failure(session.remapc(check), 1, "out of date (run `remapc emit --all`)");
-  CHECK(session.remapc(check).output.find("differs from its fit") != std::string::npos);
-  fs::remove(header);
-  CHECK(session.remapc(check).output.find(".hpp: missing") != std::string::npos);
-  write_file(header, original);
-  session.write("generated/old_to_gone.hpp", "");
-  CHECK(session.remapc(check).output.find("old_to_gone.hpp: no fit of this name") != std::string::npos);
-}
-
 TEST_CASE("remapc render: writes an EXR that OpenImageIO's own tools read") {
   const Session session;
   const ProcessResult result =

@@ -19,25 +19,12 @@ namespace {
 std::vector<std::string> sweep(const Session& session, const remapc::FakeSession& fake,
                                const std::string& table, const std::string& fault = "",
                                const std::string& cache = "cache") {
-  return {"sweep",
-          "--source",
-          "fake/ggx",
-          "--target",
-          "mitsuba/ggx-plain",
-          "--resolution",
-          "32",
-          "--roughness-samples",
-          "5",
-          "--specular-samples",
-          "2",
-          "--roughness-range",
-          "0.2,0.9",
-          "--worker",
-          "fake=" + fake.command(fault),
-          "--cache",
-          session.path(cache),
-          "-o",
-          session.path(table)};
+  std::vector<std::string> words = split_words(
+      "sweep --source fake/ggx --target mitsuba/ggx-plain --resolution 32 --roughness-samples 5 "
+      "--specular-samples 2 --roughness-range 0.2,0.9");
+  words.insert(words.end(), {"--worker", "fake=" + fake.command(fault), "--cache", session.path(cache), "-o",
+                             session.path(table)});
+  return words;
 }
 
 // Until the workers have made `count` pictures.

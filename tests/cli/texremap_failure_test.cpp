@@ -101,22 +101,6 @@ ProcessResult interrupted(const Session& session, int signal) {
 
 }  // namespace
 
-TEST_CASE("texremap: a file-size limit is a failure for every format and leaves nothing", "[slow]") {
-  const Session session;
-  const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
-  write_pair_of(session, extension, 256);
-  for (const rlim_t limit : {rlim_t{500}, rlim_t{20'000}}) {  // the message must fit within the limit, too
-    const std::string threads = limit == 500 ? "1" : "2";
-    const ProcessResult result =
-        session.convert("r." + extension, "s." + extension, {"--quiet", "--threads", threads}, {limit});
-    INFO(extension << " limited to " << limit << ": " << result.errors);
-    CHECK(result.exit_code == 1);
-    CHECK(result.signal == 0);
-    CHECK_THAT(result.last_error(), Contains("cannot be written"));
-    CHECK(session.file_count() == 0);
-  }
-}
-
 TEST_CASE("texremap: a missing last byte is noticed", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
@@ -197,25 +181,6 @@ TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the ot
   const ProcessResult result = tree.convert_tree({"--json", "--threads", "1"});
   check_others_whole(tree, result, "exr");
   CHECK_THAT(result.errors, Contains("No space left on device"));
-}
-
-TEST_CASE("texremap: a disk that is full from the start gets no file", "[slow]") {
-  const Session session;
-  const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga", "bmp", "hdr");
-  const bool is_hdr = extension == "hdr";
-  const std::vector<std::string> channels = {"R", "G", "B"};
-  write_image(session.path("s." + extension),
-              test_spec(64, 64, channels, is_hdr ? OIIO::TypeFloat : OIIO::TypeUInt8), noise);
-  ProcessLimits limits;
-  limits.file_bytes = 0;
-  std::vector<std::string> words = session.conversion("", "s." + extension);
-  words[6] = "0.3";
-  words.insert(words.end(), {"--only", "specular"});
-  // Standard error is a file here, so the message does not fit either.
-  const ProcessResult result = session.texremap(words, limits);
-  CHECK(result.exit_code == 1);
-  CHECK(result.signal == 0);
-  CHECK(session.file_count() == 0);
 }
 
 TEST_CASE("texremap: an unwritable folder is named, and nothing is left in it", "[needs]") {

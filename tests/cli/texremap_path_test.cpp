@@ -35,24 +35,6 @@ std::vector<std::string> path_words(const std::string& from, const std::string& 
   return words;
 }
 
-void check_refused(const ProcessResult& result, const std::string& message) {
-  INFO(result.errors);
-  CHECK(result.exit_code == 2);
-  CHECK_THAT(result.last_error(), Contains(message));
-  CHECK(result.output.empty());
-}
-
-// The first pair of models without a path; empty names if all pairs have one.
-PathRequest missing_pair() {
-  const ConverterGraph graph = shipped_graph();
-  for (const std::string& from : graph.models())
-    for (const std::string& to : graph.models()) {
-      const std::vector<std::string> reached = graph.reachable_from(from);
-      if (from != to && std::find(reached.begin(), reached.end(), to) == reached.end()) return {from, to, {}};
-    }
-  return {};
-}
-
 // The first path of two steps, with the model between them; empty names if there is none.
 PathRequest detour() {
   for (const auto& first : shipped_converters())
@@ -92,15 +74,6 @@ TEST_CASE("texremap path: --json holds what the text says") {
   CHECK(json["steps"][0]["domain"] == json["domain"]);
   CHECK(json["reason"].is_string());
   for (const auto& other : json["alternatives"]) CHECK(other["expected_error"] >= json["expected_error"]);
-}
-
-TEST_CASE("texremap path: a missing link is named", "[needs]") {
-  const PathRequest missing = missing_pair();
-  if (missing.source.empty()) return skip("separate-models", "a path joins all models that ship");
-  const Session session;
-  check_refused(session.texremap(path_words(missing.source, missing.target)),
-                missing.source + " to " + missing.target + ": no converters lead there (" + missing.source +
-                    " reaches ");
 }
 
 TEST_CASE("texremap list: shows image errors, and with --models what each model reaches") {

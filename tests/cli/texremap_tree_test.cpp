@@ -97,22 +97,6 @@ TEST_CASE("texremap tree: a failed set does not stop the others and makes the ex
   CHECK_THAT(result.last_error(), Contains("4 of 6 sets failed"));
 }
 
-TEST_CASE("texremap tree: results inside the tree are neither read nor overwritten") {
-  const Tree tree;
-  tree.map("in/a_rough.png", kGrey);
-  tree.map("in/a_spec.png", kGrey);
-  std::vector<std::string> words = {"--recursive"};
-  const auto convert = [&] {
-    return tree.texremap({"convert", tree.path("in"), "--recursive", "--from", "mitsuba/ward", "--to",
-                          "mitsuba/as", "-o", tree.path("in/converted")});
-  };
-  REQUIRE(convert().exit_code == 0);
-  const ProcessResult again = convert();
-  CHECK(again.exit_code == 1);
-  CHECK_THAT(again.errors, Contains("a_rough.png: already exists (--force overwrites)"));
-  CHECK_THAT(again.last_error(), Contains("1 of 1 sets failed"));
-}
-
 TEST_CASE("texremap tree: --names adds file-name habits") {
   const Tree tree;
   tree.map("in/a_zzz.png", kGrey);

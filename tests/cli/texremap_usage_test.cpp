@@ -72,16 +72,9 @@ TEST_CASE("texremap: --fit evaluates that fit") {
   session.write_pair("exr");
   const Fit fit = example_fit();
   write_file(session.path("fit.json"), fit_to_json(fit));
-  const std::vector<std::string> words = {"convert",
-                                          "--fit",
-                                          session.path("fit.json"),
-                                          "--roughness",
-                                          session.path("r.exr"),
-                                          "--specular",
-                                          session.path("s.exr"),
-                                          "-o",
-                                          session.path("out")};
-  REQUIRE(session.texremap(words).exit_code == 0);
+  require_success(
+      session.texremap({"convert", "--fit", session.path("fit.json"), "--roughness", session.path("r.exr"),
+                        "--specular", session.path("s.exr"), "-o", session.path("out")}));
   const TestImage in = read_image(session.path("r.exr")), out = read_image(session.path("out/r.exr"));
   CHECK(out.spec.get_string_attribute("remap:converter") == fit.id);
   const auto converter = make_lowered_converter(fit);

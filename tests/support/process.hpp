@@ -48,6 +48,9 @@ class Process {
   void collect(int status, long peak_kilobytes);
 };
 
+// The words of a command, which has blanks between them and no quotes.
+std::vector<std::string> split_words(const std::string& command);
+
 // Starts it and waits for it.
 ProcessResult run(const std::vector<std::string>& arguments, const ProcessLimits& limits = {});
 
