@@ -59,8 +59,7 @@ std::vector<std::string> build_of(const Session& session, std::vector<std::strin
 }
 
 std::vector<std::string> built_ids(const ProcessResult& result) {
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  require_success(result);
   std::vector<std::string> ids;
   const auto json = nlohmann::json::parse(result.output);
   for (const auto& item : json["built"]) ids.push_back(item["id"]);
@@ -133,7 +132,7 @@ TEST_CASE("remapc build: converters.json that is not of the last build is made a
   items["chains"] = items["sweeps"] = nlohmann::json::array();
   session.write("fits/manifest.json", items.dump());
   session.write("t.csv", made_table(14, 4));
-  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);  // of no item of the manifest
+  require_success(session.remapc(session.fit("t.csv")));  // of no item of the manifest
   const std::string list = session.path("generated/converters.json"), id = "a_b_to_mitsuba_ward";
   const auto is_current = [&] {
     return session
@@ -171,7 +170,7 @@ TEST_CASE("remapc build: a table that was changed after its fit is reported") {
       "fits/manifest.json",
       R"({"format": "remap-manifest", "version": 1, "published": [], "sweeps": [], "inverses": [], "chains": []})");
   session.write("fits/tables/t.csv", made_table(14, 4));
-  REQUIRE(session.remapc(session.fit("fits/tables/t.csv")).exit_code == 0);
+  require_success(session.remapc(session.fit("fits/tables/t.csv")));
   CHECK(session.remapc(build_of(session, {"--check"})).output.find("out of date with the fits") !=
         std::string::npos);
   CHECK(built_ids(session.remapc(build_of(session))).empty());
@@ -190,7 +189,7 @@ TEST_CASE("remapc build: items that left the manifest are reported, and removed 
   auto items = quick_manifest();
   items["chains"] = nlohmann::json::array();
   session.write("fits/manifest.json", items.dump());
-  REQUIRE(session.remapc(build_of(session)).exit_code == 0);
+  require_success(session.remapc(build_of(session)));
   items["published"] = items["sweeps"] = nlohmann::json::array();
   session.write("fits/manifest.json", items.dump());
   const ProcessResult check = session.remapc(build_of(session, {"--check"}));
@@ -259,7 +258,7 @@ TEST_CASE("remapc fit --swap: the table's target becomes the source") {
   session.write("t.csv", made_table(24, 6));
   std::vector<std::string> swap = session.fit("t.csv", "swapped");
   swap.push_back("--swap");
-  REQUIRE(session.remapc(swap).exit_code == 0);
+  require_success(session.remapc(swap));
   const auto swapped =
       nlohmann::json::parse(read_file(session.path("swapped/mitsuba_as_to_mitsuba_ward.json")));
   CHECK(swapped["source"]["specular"] == "f0");
@@ -269,12 +268,10 @@ TEST_CASE("remapc fit --swap: the table's target becomes the source") {
 TEST_CASE("remapc invert: the inverse says what it is of, and how near it is", "[slow]") {
   const Session session;
   session.write("t.csv", made_table(24, 6));
-  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
+  require_success(session.remapc(session.fit("t.csv")));
   const ProcessResult inverted =
-      session.remapc({"invert", session.path("fits/mitsuba_ward_to_mitsuba_as.json"), "-o",
-                      session.path("inverse"), "--json"});
-  INFO(inverted.errors);
-  REQUIRE(inverted.exit_code == 0);
+      require_success(session.remapc({"invert", session.path("fits/mitsuba_ward_to_mitsuba_as.json"), "-o",
+                                      session.path("inverse"), "--json"}));
   const auto json = nlohmann::json::parse(inverted.output);
   CHECK(json["inverse_of"] == "mitsuba_ward_to_mitsuba_as");
   CHECK(json["alpha_error"]["max"].get<double>() < 2e-3);
@@ -283,12 +280,10 @@ TEST_CASE("remapc invert: the inverse says what it is of, and how near it is", "
 TEST_CASE("remapc chain: composes one fit") {
   const Session session;
   session.write("fits/manifest.json", published_manifest().dump());
-  REQUIRE(session.remapc(build_of(session)).exit_code == 0);
+  require_success(session.remapc(build_of(session)));
   const ProcessResult made =
-      session.remapc({"chain", "a_b_to_mitsuba_ward", "mitsuba_ward_to_mitsuba_ward_duer", "--fits",
-                      session.path("fits"), "-o", session.path("mine"), "--json"});
-  INFO(made.errors);
-  REQUIRE(made.exit_code == 0);
+      require_success(session.remapc({"chain", "a_b_to_mitsuba_ward", "mitsuba_ward_to_mitsuba_ward_duer",
+                                      "--fits", session.path("fits"), "-o", session.path("mine"), "--json"}));
   CHECK(nlohmann::json::parse(made.output)["lowered_within"]["alpha"].get<double>() <= 1e-5);
   CHECK(read_file(session.path("mine/a_b_to_mitsuba_ward_duer.json")) ==
         read_file(session.path("fits/a_b_to_mitsuba_ward_duer.json")));

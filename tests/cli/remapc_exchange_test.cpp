@@ -48,9 +48,8 @@ std::vector<std::string> data_lines(const std::string& file) {
 TEST_CASE("remapc import: models of libsvm become a fit that list, show and emit take", "[slow]") {
   const Session session;
   write_models(session);
-  const ProcessResult result = session.remapc({"import", session.path("d.json"), "-o", session.path("fits")});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result =
+      require_success(session.remapc({"import", session.path("d.json"), "-o", session.path("fits")}));
   CHECK(result.errors.find("2 vectors for alpha, 2 for f0; errors unknown (--table measures them)") !=
         std::string::npos);
   const Fit fit = load_fit(session.path("fits/my_svr.json"));
@@ -69,10 +68,9 @@ TEST_CASE("remapc import: a table measures the errors") {
   const Session session;
   write_models(session);
   session.write("t.csv", made_table(8, 3));
-  const ProcessResult result = session.remapc({"import", session.path("d.json"), "--table",
-                                               session.path("t.csv"), "-o", session.path("fits"), "--json"});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result =
+      require_success(session.remapc({"import", session.path("d.json"), "--table", session.path("t.csv"),
+                                      "-o", session.path("fits"), "--json"}));
   CHECK(result.output.find("\"rows\": 24") != std::string::npos);
   CHECK(load_fit(session.path("fits/my_svr.json")).alpha_error.rms > 0.0);
   const ProcessResult shown = session.remapc({"show", "my_svr", "--fits", session.path("fits")});
@@ -85,13 +83,11 @@ TEST_CASE("remapc export: a parametric fit is a table over its width, an importe
   session.write("t.csv", made_table(8, 3));
   auto fit = session.fit("t.csv");
   fit.insert(fit.end(), {"--form", "paper"});
-  REQUIRE(session.remapc(fit).exit_code == 0);
-  REQUIRE(session.remapc({"import", session.path("d.json"), "-o", session.path("fits")}).exit_code == 0);
+  require_success(session.remapc(fit));
+  require_success(session.remapc({"import", session.path("d.json"), "-o", session.path("fits")}));
   const std::string table = session.path("lut/one.csv");
-  ProcessResult result = session.remapc(
-      {"export", "mitsuba_ward_to_mitsuba_as", "--fits", session.path("fits"), "--size", "5", "-o", table});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  ProcessResult result = require_success(session.remapc(
+      {"export", "mitsuba_ward_to_mitsuba_as", "--fits", session.path("fits"), "--size", "5", "-o", table}));
   CHECK(result.output.empty());
   CHECK(result.errors.find("linear lookup deviates from the fit by at most") != std::string::npos);
   CHECK(read_file(table).starts_with("# format: remap-lookup\n# format_version: 1\n"));

@@ -11,12 +11,10 @@ namespace fs = std::filesystem;
 
 TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it in the fit", "[slow]") {
   const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
-  const ProcessResult fitted =
+  require_success(session.remapc(session.sweep("t.csv")));
+  const ProcessResult fitted = require_success(
       session.remapc({"fit", session.path("t.csv"), "--layers", "4", "--starts", "1", "--activation", "silu",
-                      "-o", session.path("fits"), "--plot", session.path("plot.svg")});
-  INFO(fitted.errors);
-  REQUIRE(fitted.exit_code == 0);
+                      "-o", session.path("fits"), "--plot", session.path("plot.svg")}));
   for (const std::string word : {"parametric ", "svr ", "mlp ", "chosen", "chroma shift"})
     CHECK(fitted.errors.find(word) != std::string::npos);
   CHECK(fitted.output.empty());
@@ -39,7 +37,7 @@ TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it i
 
 TEST_CASE("remapc fit: each kind of regression can be asked for, and a form", "[slow]") {
   const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  require_success(session.remapc(session.sweep("t.csv")));
   const auto fit = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"fit", session.path("t.csv"), "-o", session.path("fits")});
     return session.remapc(more);
@@ -79,7 +77,7 @@ TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plott
 
 TEST_CASE("remapc fit: gnuplot's failure is shown", "[slow]") {
   const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  require_success(session.remapc(session.sweep("t.csv")));
   session.write("bin/gnuplot",
                 "#!/bin/sh\n[ \"$1\" = --version ] || { echo 'line 3: no such thing' >&2; exit 1; }\n");
   fs::permissions(session.path("bin/gnuplot"), fs::perms::owner_all);
@@ -93,12 +91,10 @@ TEST_CASE("remapc fit: gnuplot's failure is shown", "[slow]") {
 
 TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "[slow]") {
   const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
-  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
+  require_success(session.remapc(session.sweep("t.csv")));
+  require_success(session.remapc(session.fit("t.csv")));
   const ProcessResult result =
-      session.remapc({"compare", session.path("t.csv"), "--fits", session.path("fits")});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+      require_success(session.remapc({"compare", session.path("t.csv"), "--fits", session.path("fits")}));
   CHECK(result.output.find("mitsuba_ward_to_mitsuba_as (parametric") != std::string::npos);
   CHECK(result.output.find("fitted from this table, training rows included") != std::string::npos);
   CHECK(result.output.find("alpha and specular unchanged") != std::string::npos);
@@ -116,8 +112,8 @@ TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "
 TEST_CASE("remapc compare: fits of one id are told apart by their files", "[slow]") {
   const Session session;
   session.write("t.csv", made_table(8, 3));
-  REQUIRE(session.remapc(session.fit("t.csv", "a")).exit_code == 0);
-  REQUIRE(session.remapc(session.fit("t.csv", "b")).exit_code == 0);
+  require_success(session.remapc(session.fit("t.csv", "a")));
+  require_success(session.remapc(session.fit("t.csv", "b")));
   const std::string a = session.path("a/mitsuba_ward_to_mitsuba_as.json");
   const std::string b = session.path("b/mitsuba_ward_to_mitsuba_as.json");
   const ProcessResult both = session.remapc({"compare", session.path("t.csv"), a, b});
@@ -135,7 +131,7 @@ TEST_CASE("remapc fit: the same seed gives the same bytes for every kind and any
       std::vector<std::string> fit = {"fit", session.path("t.csv"),     "--model", model, "--jobs", jobs,
                                       "-o",  session.path(model + jobs)};
       if (model == "mlp" || model == "auto") fit.insert(fit.end(), {"--layers", "4", "--starts", "2"});
-      REQUIRE(session.remapc(fit).exit_code == 0);
+      require_success(session.remapc(fit));
     }
     const std::string name = "/mitsuba_ward_to_mitsuba_as.json";
     CHECK(read_file(session.path(model + "1" + name)) == read_file(session.path(model + "2" + name)));

@@ -24,9 +24,7 @@ TEST_CASE("remapc sweep: stages and diffuse give columns that check and fit acce
   for (const std::string stages : {"1", "2", "3"}) {
     auto arguments = session.sweep("t" + stages + ".csv");
     arguments.insert(arguments.end(), {"--stages", stages, "--diffuse", "0.25"});
-    const ProcessResult result = session.remapc(arguments);
-    INFO(result.errors);
-    REQUIRE(result.exit_code == 0);
+    const ProcessResult result = require_success(session.remapc(arguments));
     const std::string table = read_file(session.path("t" + stages + ".csv"));
     CHECK(table.find("# stages: " + stages + "\n") != std::string::npos);
     CHECK(table.find("# irradiance_scale: 1\n") != std::string::npos);
@@ -39,11 +37,9 @@ TEST_CASE("remapc sweep: stages and diffuse give columns that check and fit acce
 
 TEST_CASE("remapc sweep: models with an index are swept in F0") {
   const Session session;
-  const ProcessResult result = session.remapc({"sweep", "--source", "mitsuba/as-ior", "--target",
-                                               "mitsuba/ggx-ior", "--resolution", "48", "--roughness-samples",
-                                               "3", "--specular-samples", "3", "-o", session.path("t.csv")});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.remapc(
+      {"sweep", "--source", "mitsuba/as-ior", "--target", "mitsuba/ggx-ior", "--resolution", "48",
+       "--roughness-samples", "3", "--specular-samples", "3", "-o", session.path("t.csv")}));
   const std::string table = read_file(session.path("t.csv"));
   CHECK(table.find("# source_specular: ior\n") != std::string::npos);
   CHECK(table.find("# target_specular_law: ior\n") != std::string::npos);
@@ -53,9 +49,8 @@ TEST_CASE("remapc sweep: models with an index are swept in F0") {
 
 TEST_CASE("remap-study conductors: writes tables and a summary") {
   const Session session;
-  const ProcessResult result = session.study(study(session, "conductors", {"--alphas", "0.2,0.4"}));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result =
+      require_success(session.study(study(session, "conductors", {"--alphas", "0.2,0.4"})));
   CHECK(result.output.find("figure 6: smooth") != std::string::npos);
   CHECK(result.output.find("figure 7: the ") != std::string::npos);
   CHECK(result.output.find("Schlick (from F0) against exact Fresnel") != std::string::npos);
@@ -70,9 +65,8 @@ TEST_CASE("remap-study conductors: writes tables and a summary") {
 
 TEST_CASE("remap-study dielectrics: compares one, two and three stages") {
   const Session session;
-  const ProcessResult result = session.study(study(session, "dielectrics", {"--alphas", "0.3", "--json"}));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result =
+      require_success(session.study(study(session, "dielectrics", {"--alphas", "0.3", "--json"})));
   CHECK(result.output.find("\"stages\": 3") != std::string::npos);
   CHECK(result.output.find("\"jumps\": false") != std::string::npos);
   CHECK(result.output.find("figure 10: three stages lower") != std::string::npos);
@@ -84,12 +78,10 @@ TEST_CASE("remap-study dielectrics: compares one, two and three stages") {
 
 TEST_CASE("remapc sample: a table of named columns that check reads and fit --swap inverts", "[slow]") {
   const Session session;
-  const ProcessResult result = session.remapc(split_words(
+  const ProcessResult result = require_success(session.remapc(split_words(
       "sample --source mitsuba/ggx-metallic --target mitsuba/ggx --vary metallic --range roughness=0.4,0.9 "
       "--resolution 32 --count 50 --seed 7 --json -o " +
-      session.path("t.csv")));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+      session.path("t.csv"))));
   CHECK(result.output.find("\"rows\": 50") != std::string::npos);
   CHECK(result.output.find("\"base_color_g1\"") != std::string::npos);
   CHECK(session.remapc({"check", session.path("t.csv")}).exit_code == 0);
@@ -97,13 +89,11 @@ TEST_CASE("remapc sample: a table of named columns that check reads and fit --sw
 
 TEST_CASE("remapc sweep: roles and fixed values of parameters are given on the command line") {
   const Session session;
-  const ProcessResult result =
+  const ProcessResult result = require_success(
       session.remapc(split_words("sweep --source mitsuba/ggx-metallic --target mitsuba/ggx --resolution 32 "
                                  "--roughness-samples 2 --specular-samples 2 --source-specular metallic "
                                  "--source-set base_color=0.8 -o " +
-                                 session.path("t.csv")));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+                                 session.path("t.csv"))));
   const std::string table = read_file(session.path("t.csv"));
   CHECK(table.find("# source_specular: metallic\n# source_fixed: base_color=0.8,specular=0.5\n") !=
         std::string::npos);
@@ -111,11 +101,9 @@ TEST_CASE("remapc sweep: roles and fixed values of parameters are given on the c
 
 TEST_CASE("remapc preview: writes pictures and figures of a committed fit", "[slow]") {
   const Session session;
-  const ProcessResult result =
+  const ProcessResult result = require_success(
       session.remapc({"preview", "mitsuba_ward_to_mitsuba_ggx", "--fits", REMAP_SOURCE_DIR "/fits", "--alpha",
-                      "0.2,0.5", "--resolution", "32", "--json", "-o", session.path("p.png")});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+                      "0.2,0.5", "--resolution", "32", "--json", "-o", session.path("p.png")}));
   CHECK(result.output.find("\"shape\": \"torus\"") != std::string::npos);
   CHECK(std::filesystem::exists(session.path("p.png")));
 }

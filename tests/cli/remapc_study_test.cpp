@@ -48,10 +48,8 @@ TEST_CASE("remap-study environments: writes tables and a summary", "[needs][slow
   // Only the first pair has a fit.
   const std::string fit = "mitsuba_ward_to_mitsuba_as.json";
   session.write("fits/" + fit, read_file(std::filesystem::path(REMAP_SOURCE_DIR "/fits") / fit));
-  const ProcessResult result = session.study(
-      small_study({"-o", session.path("study"), "--pictures", "--least-error"}, session.path("fits")));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.study(
+      small_study({"-o", session.path("study"), "--pictures", "--least-error"}, session.path("fits"))));
   CHECK(result.output.find("Spheres under sky, overcast, studio, mean luminance 1; alpha 0.2, 0.5, ") == 0);
   CHECK(result.output.find("shipped (1 of 2 pairs)") != std::string::npos);
   CHECK(result.output.find("With `natural`, no pair is worse than copying.") != std::string::npos);
@@ -67,8 +65,7 @@ TEST_CASE("remap-study environments: writes tables and a summary", "[needs][slow
 
 TEST_CASE("remap-study environments: --json has the means of each method and pair", "[slow]") {
   const Session session;
-  const ProcessResult result = session.study(small_study({"--json"}));
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.study(small_study({"--json"})));
   for (const std::string key : {"\"noise_percent\": ", "\"copy\": {", "\"shipped\": {",
                                 "\"rmse_percent\": ", "\"worse_than_copy\": [", "\"target\": \"mitsuba/as\""})
     CHECK(result.output.find(key) != std::string::npos);
@@ -83,9 +80,7 @@ TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes",
   session.write("none/remark.txt", "");
   std::vector<std::string> full = small;
   full.insert(full.end(), {"-o", session.path("study"), "--pictures"});
-  const ProcessResult result = session.study(full);
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.study(full));
   CHECK(result.output.find("6 materials at alpha 0.2, 0.5 under 3 environments") == 0);
   CHECK(result.output.find("Note: the group ngan has no materials") != std::string::npos);
   CHECK(result.output.find("Note: the fits contain no network") != std::string::npos);
@@ -104,10 +99,9 @@ TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes",
 
 TEST_CASE("remap-study warp: figures as JSON, tables, a plot and sheets", "[needs][slow]") {
   const Session session;
-  const ProcessResult result = session.study({"warp", "--size", "32", "--stroke-sets", "1", "--material",
-                                              "wood", "--json", "-o", session.path("study"), "--pictures"});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result =
+      require_success(session.study({"warp", "--size", "32", "--stroke-sets", "1", "--material", "wood",
+                                     "--json", "-o", session.path("study"), "--pictures"}));
   for (const std::string key :
        {"\"method\": {", "\"registration\": {", "\"dimensions\": {", "\"points\": {", "\"nodes\": {",
         "\"error\": ", "\"folds\": ", "\"table_difference\": ", "\"wood\": {", "\"seconds\": "})

@@ -15,16 +15,14 @@ namespace fs = std::filesystem;
 
 TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") {
   const Session session;
-  ProcessResult result = session.remapc(session.sweep("t.csv"));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  ProcessResult result = require_success(session.remapc(session.sweep("t.csv")));
   CHECK(result.errors.find("36 rows (36 ok)") != std::string::npos);
   CHECK(session.remapc({"check", session.path("t.csv")}).exit_code == 0);
-  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
+  require_success(session.remapc(session.fit("t.csv")));
   const std::string fit = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
   CHECK(load_fit(fit).table.comments.at("objective") == "natural");
-  REQUIRE(session.remapc({"emit", "--all", "--fits", session.path("fits"), "-o", session.path("generated")})
-              .exit_code == 0);
+  require_success(
+      session.remapc({"emit", "--all", "--fits", session.path("fits"), "-o", session.path("generated")}));
   CHECK(fs::exists(session.path("generated/converters.json")));
   result = session.remapc({"eval", fit, session.path("t.csv"), "--json"});
   CHECK(result.exit_code == 0);
@@ -54,11 +52,9 @@ TEST_CASE("remapc sweep: killed or interrupted it leaves nothing under the final
 
 TEST_CASE("remapc render: writes an EXR that OpenImageIO's own tools read") {
   const Session session;
-  const ProcessResult result =
+  const ProcessResult result = require_success(
       session.remapc({"render", "--model", "mitsuba/ggx", "--set", "alpha=0.3", "--set", "f0=0.9,0.6,0.2",
-                      "--light", "45", "--resolution", "32", "-o", session.path("s.exr")});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+                      "--light", "45", "--resolution", "32", "-o", session.path("s.exr")}));
   const ProcessResult info = run({"/usr/bin/oiiotool", "--info", "-v", session.path("s.exr")});
   CHECK(info.output.find("32 x   32, 3 channel, float openexr") != std::string::npos);
   CHECK(info.output.find("remap:model: \"mitsuba/ggx\"") != std::string::npos);

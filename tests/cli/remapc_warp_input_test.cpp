@@ -33,9 +33,7 @@ void keep_diffuse_alone(const Session& session, const std::string& folder) {
 
 nlohmann::json report_of(const Session& session, std::vector<std::string> more) {
   more.push_back("--json");
-  const ProcessResult result = session.remapc(warp_words(session, more));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.remapc(warp_words(session, more)));
   return nlohmann::json::parse(result.output);
 }
 
@@ -117,9 +115,7 @@ TEST_CASE("remapc warp: a diffuse map alone is a source, distinguished by its co
   write_materials(session);
   write_set(session, "wood", 0.1, albedo_texel);
   keep_diffuse_alone(session, "wood");
-  const ProcessResult result = session.remapc(warp_words(session, mask_words(session)));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.remapc(warp_words(session, mask_words(session))));
   CHECK(result.errors.find("the source has a diffuse map only") != std::string::npos);
   const WarpMapFit fit = read_warp(session);
   CHECK(is_of_diffuse_alone(fit));

@@ -66,9 +66,7 @@ TEST_CASE("remapc warp: two paintings with a color for each region give the same
   Paint paint;
   paint.background = background;
   paint.smooth = smooth;
-  const ProcessResult result = run_painted(session, paint, paint, extension);
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(run_painted(session, paint, paint, extension));
   const auto json = nlohmann::json::parse(result.output)["diagnostics"];
   CAPTURE(json.dump());
   CHECK(json["strokes"].size() == 4);
@@ -88,9 +86,7 @@ TEST_CASE("remapc warp: two paintings may have different backgrounds and slightl
   to.corners = {Color{0.9f, 0.05f, 0.1f, 1}, kGreen, Color{0.1f, 0.1f, 0.9f, 1}, kBlack};
   from.background = kWhite;
   from.corners[3] = kBlack;
-  const ProcessResult result = run_painted(session, from, to);
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(run_painted(session, from, to));
   CHECK(error_of(read_warp(session), source_texel) < 0.25);
 }
 
@@ -100,9 +96,7 @@ TEST_CASE("remapc warp: messages name painted strokes by their color") {
   Paint to;
   std::swap(to.corners[0], to.corners[3]);  // regions that are dark in one image are bright in the other
   std::swap(to.corners[1], to.corners[0]);
-  const ProcessResult result = run_painted(session, {}, to);
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(run_painted(session, {}, to));
   const std::string warnings = nlohmann::json::parse(result.output)["warnings"].dump();
   CAPTURE(warnings);
   CHECK(warnings.find("stroke #") != std::string::npos);

@@ -99,9 +99,8 @@ TEST_CASE("remapc warp: profiles of a list are replaced by those of another list
   const Session session;
   write_list(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
-  const ProcessResult result = warp(session, "blue", "yellow", {"--copy", session.path("copied"), "--json"});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result =
+      require_success(warp(session, "blue", "yellow", {"--copy", session.path("copied"), "--json"}));
   const auto json = nlohmann::json::parse(result.output);
   CHECK(json["diagnostics"]["dimensions"] == 2);
   CHECK(json["files"].size() == 3);
@@ -122,13 +121,11 @@ TEST_CASE("remapc warp: a map of profiles is replaced by profiles of a list, and
   const Session session;
   write_map(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
-  const ProcessResult there = warp(session, "blue", "yellow", {"--copy", session.path("there")});
-  INFO(there.errors);
-  REQUIRE(there.exit_code == 0);
+  const ProcessResult there =
+      require_success(warp(session, "blue", "yellow", {"--copy", session.path("there")}));
   CHECK(place_error(read_image(session.path("there/template_texel.exr"))) < 0.15);
-  const ProcessResult back = warp(session, "yellow", "blue", {"--copy", session.path("back")});
-  INFO(back.errors);
-  REQUIRE(back.exit_code == 0);
+  const ProcessResult back =
+      require_success(warp(session, "yellow", "blue", {"--copy", session.path("back")}));
   const TestImage profiles = read_image(session.path("back/profiles.exr")),
                   places = read_image(session.path("back/template_texel.exr"));
   CHECK(place_error(places) < 0.15);

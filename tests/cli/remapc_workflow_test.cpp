@@ -24,9 +24,7 @@ std::vector<std::string> build_of(const Session& session) {
 TEST_CASE("remapc with analytic fits: build, list, show and emit take them", "[slow]") {
   const Session session;
   session.write("fits/manifest.json", kManifest);
-  const ProcessResult built = session.remapc(build_of(session));
-  INFO(built.errors);
-  REQUIRE(built.exit_code == 0);
+  const ProcessResult built = require_success(session.remapc(build_of(session)));
   CHECK(nlohmann::json::parse(built.output)["built"][0]["id"] == "painted_to_metal");
   CHECK(nlohmann::json::parse(session.remapc(build_of(session)).output)["built"].empty());
   CHECK(read_file(session.path("fits/README.md")).find("painted_to_metal.json) | 0.05") != std::string::npos);
@@ -49,21 +47,18 @@ TEST_CASE("remapc with analytic fits: build, list, show and emit take them", "[s
 TEST_CASE("remapc fit of random metallic materials: a network of whole materials", "[slow]") {
   const Session session;
   const std::string table = session.path("metallic.csv");
-  REQUIRE(session
-              .remapc({"sample", "--source", "mitsuba/ggx-metallic", "--vary", "metallic", "--target",
-                       "mitsuba/ggx", "--resolution", "16", "--count", "60", "-o", table})
-              .exit_code == 0);
-  const ProcessResult fitted = session.remapc(
-      {"fit", table, "--swap", "--layers", "8", "--id", "back", "--json", "-o", session.path("fits")});
-  INFO(fitted.errors);
-  REQUIRE(fitted.exit_code == 0);
+  require_success(
+      session.remapc({"sample", "--source", "mitsuba/ggx-metallic", "--vary", "metallic", "--target",
+                      "mitsuba/ggx", "--resolution", "16", "--count", "60", "-o", table}));
+  const ProcessResult fitted = require_success(session.remapc(
+      {"fit", table, "--swap", "--layers", "8", "--id", "back", "--json", "-o", session.path("fits")}));
   CHECK(nlohmann::json::parse(fitted.output)["kind"] == "mlp");
   const std::string card = session.remapc({"show", "back", "--fits", session.path("fits")}).output;
   for (const std::string part :
        {"a network of 6 x 8 x 4 (relu)", "F0 of a dielectric 0.04", "metallic     rms"})
     CHECK(card.find(part) != std::string::npos);
-  REQUIRE(session.remapc({"emit", "back", "--fits", session.path("fits"), "-o", session.path("generated")})
-              .exit_code == 0);
+  require_success(
+      session.remapc({"emit", "back", "--fits", session.path("fits"), "-o", session.path("generated")}));
   CHECK(read_file(session.path("generated/back.hpp")).find("material_network") != std::string::npos);
 }
 
@@ -80,9 +75,7 @@ TEST_CASE("remapc build of a network: samples, fit and header, and nothing when 
     "hidden": [4], "activation": "relu", "seed": 3, "remarks": ["Mine."]}]})";
   };
   session.write("fits/manifest.json", manifest("0.03"));
-  const ProcessResult built = session.remapc(build_of(session));
-  INFO(built.errors);
-  REQUIRE(built.exit_code == 0);
+  const ProcessResult built = require_success(session.remapc(build_of(session)));
   CHECK(read_file(session.path("fits/tables/learned.csv")).find("samples: 60 random") != std::string::npos);
   CHECK(read_file(session.path("generated/learned.hpp")).find("Materials of painted (specular workflow)") !=
         std::string::npos);

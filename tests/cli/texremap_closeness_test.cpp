@@ -61,8 +61,7 @@ std::size_t line_count(const std::string& text) {
 }  // namespace
 
 TEST_CASE("texremap convert: notes in one line that the match looks different and which model is closer") {
-  const ProcessResult result = convert("mitsuba/ward", "cycles-5/ggx");
-  require_success(result);
+  const ProcessResult result = require_success(convert("mitsuba/ward", "cycles-5/ggx"));
   CHECK(result.errors == "texremap: note: cycles-5/ggx will look different from mitsuba/ward (" +
                              error_text("mitsuba/ward", "cycles-5/ggx") + ", " +
                              ssim_text_of("mitsuba_ward_to_mitsuba_ggx") +
@@ -95,11 +94,9 @@ TEST_CASE("texremap convert: one step that looks different is noted with its SSI
 }
 
 TEST_CASE("texremap: a good match is not remarked on") {
-  const ProcessResult converted = convert("mitsuba/ward", "mitsuba/as");
-  require_success(converted);
+  const ProcessResult converted = require_success(convert("mitsuba/ward", "mitsuba/as"));
   CHECK(converted.errors.empty());
-  const ProcessResult printed = path("mitsuba/ggx", "cycles-5/ggx");
-  require_success(printed);
+  const ProcessResult printed = require_success(path("mitsuba/ggx", "cycles-5/ggx"));
   CHECK_THAT(printed.output, !Contains("note: "));
   const Json json = json_of(path("mitsuba/ward", "mitsuba/as", {"--json"}));
   CHECK(json["looks_different"] == false);
@@ -107,9 +104,8 @@ TEST_CASE("texremap: a good match is not remarked on") {
 }
 
 TEST_CASE("texremap convert: --to RENDERER takes the closest of its models and says which") {
-  const ProcessResult result = convert("mitsuba/ward", "cycles-5"),
+  const ProcessResult result = require_success(convert("mitsuba/ward", "cycles-5")),
                       named = convert("mitsuba/ward", "cycles-5/beckmann");
-  require_success(result);
   CHECK(result.output == named.output);
   CHECK(result.errors == "texremap: note: cycles-5/beckmann is the closest model of cycles-5 (" +
                              error_text("mitsuba/ward", "cycles-5/beckmann") + ")\n");
@@ -120,8 +116,7 @@ TEST_CASE("texremap convert: --to RENDERER takes the closest of its models and s
 }
 
 TEST_CASE("texremap path: --to RENDERER is a part of the plan") {
-  const ProcessResult result = path("mitsuba/ward", "cycles-5");
-  require_success(result);
+  const ProcessResult result = require_success(path("mitsuba/ward", "cycles-5"));
   CHECK(result.output.starts_with("cycles-5/beckmann is the closest model of cycles-5 (" +
                                   error_text("mitsuba/ward", "cycles-5/beckmann") + ")\nmitsuba/ward -> "));
   CHECK_THAT(path("mitsuba/ward", "cycles-5/ggx").output,
@@ -152,17 +147,15 @@ TEST_CASE("texremap: a workflow is compared with the models of its own renderer"
   CHECK_THAT(gltf.output, Contains("mitsuba/ggx " + kDifferent) && !Contains(kCloser));
   CHECK_THAT(principled.output,
              Contains("cycles-5/principled-metal " + kDifferent) && Contains("cycles-5/beckmann " + kCloser));
-  const ProcessResult own = path("gltf", "mitsuba");
-  require_success(own);
+  const ProcessResult own = require_success(path("gltf", "mitsuba"));
   CHECK(own.output.starts_with("mitsuba/ggx is the closest model of mitsuba (expected error 0)\ngltf: "));
 }
 
 TEST_CASE("texremap convert: --fit is judged by its own pictures") {
   const Session session;
-  const ProcessResult result =
+  const ProcessResult result = require_success(
       session.texremap({"convert", "--fit", REMAP_SOURCE_DIR "/fits/mitsuba_ward_to_mitsuba_ggx.json",
-                        "--roughness", "0.3", "--specular", "0.04"});
-  require_success(result);
+                        "--roughness", "0.3", "--specular", "0.04"}));
   CHECK_THAT(result.errors, Contains("mitsuba/ggx " + kDifferent) && !Contains(kCloser));
 }
 

@@ -42,11 +42,10 @@ bool same_bytes(const Session& session, const std::string& a, const std::string&
 TEST_CASE("texremap copies: base color of any size is copied under its name") {
   const Session session;
   write_set(session, "in");
-  const ProcessResult result =
+  const ProcessResult result = require_success(
       convert(session, {"--roughness", session.path("in/wood_Roughness.png"), "--specular", "0.04", "--only",
                         "roughness", "--base-color", session.path("in/wood_BaseColor.png"), "--occlusion",
-                        session.path("in/wood_AmbientOcclusion.png"), "--json"});
-  require_success(result);
+                        session.path("in/wood_AmbientOcclusion.png"), "--json"}));
   CHECK(session.file_count() == 3);
   CHECK(same_bytes(session, "in/wood_BaseColor.png", "out/wood_BaseColor.png"));
   CHECK(same_bytes(session, "in/wood_AmbientOcclusion.png", "out/wood_AmbientOcclusion.png"));
@@ -98,8 +97,7 @@ TEST_CASE("texremap copies: a tree with all maps is copied and resumed", "[slow]
   std::vector<std::string> resumed = words;
   resumed.insert(resumed.end(), {"--resume", "--json"});
   const auto states = [&] {
-    const ProcessResult result = convert(session, resumed);
-    require_success(result);
+    const ProcessResult result = require_success(convert(session, resumed));
     const nlohmann::json report = tree_report(result.output);
     return report.at("sets").at(0).at("state").get<std::string>() + ", " +
            report.at("sets").at(1).at("state").get<std::string>();

@@ -106,7 +106,7 @@ TEST_CASE("texremap: a missing last byte is noticed", "[slow]") {
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
   write_pair_of(session, extension, 64);
   const std::string roughness = "r." + extension, specular = "s." + extension;
-  REQUIRE(session.convert(roughness, specular).exit_code == 0);
+  require_success(session.convert(roughness, specular));
   const rlim_t size = fs::file_size(session.path("out/" + specular));
   for (const rlim_t missing : {rlim_t{1}, rlim_t{20}}) {
     const ProcessResult result = session.convert(roughness, specular, {"--force"}, {size - missing});
@@ -121,7 +121,7 @@ TEST_CASE("texremap: a full disk is reported and keeps the old results", "[needs
   const SmallDisk disk(session.path("out"), "size=200k");
   if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
   write_pair_of(session, "exr", 64);
-  REQUIRE(session.convert("r.exr", "s.exr").exit_code == 0);
+  require_success(session.convert("r.exr", "s.exr"));
   const std::string before = read_file(session.path("out/r.exr"));
   write_pair_of(session, "exr", 512);
   const ProcessResult result = session.convert("r.exr", "s.exr", {"--force"});

@@ -97,10 +97,9 @@ TEST_CASE("texremap layouts: specular and glossiness in one file, grey in every 
 TEST_CASE("texremap layouts: missing maps give a warning") {
   const Session session;
   write_image(session.path("r.png"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeUInt8), noise);
-  const ProcessResult result =
+  const ProcessResult result = require_success(
       convert(session, "mitsuba/ward", "mitsuba/as",
-              {"--roughness", session.path("r.png"), "--specular", "0.4", "--layout", "orm"}, "out");
-  require_success(result);
+              {"--roughness", session.path("r.png"), "--specular", "0.4", "--layout", "orm"}, "out"));
   CHECK_THAT(result.errors, Contains("no occlusion map; occlusion is set to 1") &&
                                 Contains("no metallic map; metallic is set to 0"));
   CHECK(channel(session, "out/orm.png", 0) == std::vector<float>(kSize * kSize, 1.0f));

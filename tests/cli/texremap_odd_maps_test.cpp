@@ -30,9 +30,7 @@ TEST_CASE("texremap odd maps: one texel, and strips, in every format", "[slow]")
     INFO(extension << ", " << width << " x " << height);
     const std::string name = "s." + extension;
     write_image(session.path(name), test_spec(width, height, {"R", "G", "B"}, type_in(extension)), noise);
-    const ProcessResult result = session.texremap(words(session, name));
-    INFO(result.errors);
-    REQUIRE(result.exit_code == 0);
+    const ProcessResult result = require_success(session.texremap(words(session, name)));
     const TestImage in = read_image(session.path(name)), out = read_image(session.path("out/" + name));
     REQUIRE(out.spec.width == width);
     REQUIRE(out.spec.height == height);

@@ -95,8 +95,7 @@ TEST_CASE("texremap list: shows image errors, and with --models what each model 
 TEST_CASE("texremap convert: says which path it took, in JSON and in metadata") {
   const Session session;
   session.write_pair("exr", 16);
-  const ProcessResult result = session.convert("r.exr", "s.exr", {"--json"});
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.convert("r.exr", "s.exr", {"--json"}));
   const auto json = Json::parse(result.output);
   CHECK(json["path"] == Json::array({kId}));
   CHECK(json["expected_error"].get<double>() == Approx(ward_to_as_expected()).margin(1e-9));
@@ -147,10 +146,9 @@ TEST_CASE("texremap convert: from one real renderer to another, through the hub"
   write_image(session.path("r.exr"), spec,
               [](int x, int, int) { return 0.2f + 0.03f * static_cast<float>(x); });
   write_image(session.path("s.exr"), spec, [](int, int, int) { return 0.5f; });
-  const ProcessResult result =
+  const ProcessResult result = require_success(
       session.texremap({"convert", "--from", from, "--to", to, "--roughness", session.path("r.exr"),
-                        "--specular", session.path("s.exr"), "-o", session.path("out"), "--json"});
-  require_success(result);
+                        "--specular", session.path("s.exr"), "-o", session.path("out"), "--json"}));
   CHECK(Json::parse(result.output)["path"] ==
         Json({"cycles_5_ggx_to_mitsuba_ggx", "mitsuba_ggx_to_threejs_r187_standard_metal"}));
   const TestImage r = read_image(session.path("out/r.exr")), s = read_image(session.path("out/s.exr"));

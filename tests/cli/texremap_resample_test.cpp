@@ -45,11 +45,11 @@ TEST_CASE("texremap --resample: the smaller map is interpolated as OpenImageIO d
   write_image(session.path("s.exr"), small_spec, noise);
   write_image(session.path("r.exr"), test_spec(large, large - 7, {"Y"}, OIIO::TypeFloat), noise);
   write_resampled(session, "s.exr", large, large - 7, "s_large.exr");
-  const ProcessResult result = convert(session,
-                                       {"--roughness", session.path("r.exr"), "--specular",
-                                        session.path("s.exr"), "--resample", "--threads", "1"},
-                                       "out");
-  require_success(result);
+  const ProcessResult result =
+      require_success(convert(session,
+                              {"--roughness", session.path("r.exr"), "--specular", session.path("s.exr"),
+                               "--resample", "--threads", "1"},
+                              "out"));
   CHECK_THAT(result.errors, Contains("s.exr: resampled to " + std::to_string(large) + "x"));
   require_success(convert(session,
                           {"--roughness", session.path("r.exr"), "--specular", session.path("s_large.exr")},

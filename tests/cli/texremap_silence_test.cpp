@@ -68,8 +68,7 @@ TEST_CASE("texremap silence: a color that is made from numbers or EXR is sRGB in
     Words words = output;
     words.insert(words.end(), maps.begin(), maps.end());
     words.push_back("--force");
-    const ProcessResult result = convert(tree, words);
-    require_success(result);
+    const ProcessResult result = require_success(convert(tree, words));
     CHECK(count(result.errors, "texremap: color:") == 1);
     CHECK_THAT(result.errors, Contains("base_color written as srgb"));
     return texel(tree, "out/base_color." + format);
@@ -122,20 +121,18 @@ TEST_CASE("texremap silence: a color space on request, and back without a word")
   const Tree tree;
   write_flat(tree, "b.png", {188.0f / 255.0f, 124.0f / 255.0f, 63.0f / 255.0f});
   const std::string format = GENERATE("png", "tif");
-  const ProcessResult linear =
+  const ProcessResult linear = require_success(
       convert(tree, {"--from", "gltf", "--to", "usd-preview-surface", "--base-color", tree.path("b.png"),
                      "--metallic", "1", "--roughness", "0.5", "--layout", "separate", "--format", format,
-                     "--output-color-space", "base_color=linear", "-o", tree.path("linear")});
-  require_success(linear);
+                     "--output-color-space", "base_color=linear", "-o", tree.path("linear")}));
   CHECK_THAT(linear.errors,
              Contains("base_color read as srgb, base_color written as linear (--output-color-space)"));
   CHECK(texel(tree, "linear/base_color." + format) == std::vector<int>{128, 51, 13});
   // The file says linear, and is read so.
-  const ProcessResult back =
+  const ProcessResult back = require_success(
       convert(tree, {"--from", "usd-preview-surface", "--to", "gltf", "--base-color",
                      tree.path("linear/base_color." + format), "--metallic", "1", "--roughness", "0.5",
-                     "--output-color-space", "srgb", "-o", tree.path("back")});
-  require_success(back);
+                     "--output-color-space", "srgb", "-o", tree.path("back")}));
   CHECK_THAT(back.errors, Contains("base_color read as linear (tagged so by the file)"));
   const std::vector<int> again = texel(tree, "back/base_color." + format);
   CHECK(std::abs(again[0] - 188) <= 1);
@@ -217,11 +214,10 @@ TEST_CASE("texremap silence: there and back is the identity between workflows th
       fs::remove_all(tree.path("back"));
       write_flat(tree, "b.png", {230.0f / 255.0f, 140.0f / 255.0f, 90.0f / 255.0f});
       write_flat(tree, "m.png", {is_metal});
-      const ProcessResult there =
+      const ProcessResult there = require_success(
           convert(tree, {"--from", pair.from, "--to", pair.to, "--base-color", tree.path("b.png"),
                          "--metallic", tree.path("m.png"), "--roughness", tree.path("r.png"), "--layout",
-                         "separate", "-o", tree.path("there")});
-      require_success(there);
+                         "separate", "-o", tree.path("there")}));
       const bool to_specular = fs::exists(tree.path("there/specular.png"));
       const bool glossy = fs::exists(tree.path("there/glossiness.png"));
       Words words = {"--from",
@@ -240,8 +236,7 @@ TEST_CASE("texremap silence: there and back is the identity between workflows th
         if (fs::exists(tree.path(std::string("there/") + map + ".png")))
           words.insert(words.end(), {option, tree.path(std::string("there/") + map + ".png")});
       }
-      const ProcessResult back = convert(tree, words);
-      require_success(back);
+      const ProcessResult back = require_success(convert(tree, words));
       INFO(pair.from << " to " << pair.to << (to_specular ? " (specular)" : "") << ", metallic " << is_metal);
       const std::vector<int> color = texel(tree, "back/base_color.png");
       CHECK(std::abs(color[0] - 230) <= 1);
@@ -272,8 +267,7 @@ TEST_CASE(
   const auto numbers = [&](const std::string& from, const std::string& to, const Words& more) {
     Words words = {"--from", from, "--to", to, "--json"};
     words.insert(words.end(), more.begin(), more.end());
-    const ProcessResult result = convert(tree, words);
-    require_success(result);
+    const ProcessResult result = require_success(convert(tree, words));
     return nlohmann::json::parse(result.output);
   };
   for (const char* roughness : {"0.15", "0.5", "0.7", "1"}) {

@@ -44,8 +44,7 @@ TEST_CASE("texremap: NaN, infinite and negative texels are converted and counted
                 if (y == 0 && c == 1) return x < 2 ? NAN : x < 5 ? INFINITY : x < 9 ? -0.5f : 0.25f;
                 return 0.25f;
               });
-  const ProcessResult result = session.convert("r.exr", "s.exr", {"--json"});
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.convert("r.exr", "s.exr", {"--json"}));
   const auto json = nlohmann::json::parse(result.output);
   CHECK(json["texels"] == 64 * 64);
   CHECK(json["nan"] == 2);
@@ -96,8 +95,7 @@ TEST_CASE("texremap: --converters replaces the shipped converters by those of a 
   write_file(session.path("fits/fit.json"), fit_to_json(fit));
   write_file(session.path("fits/manifest.json"), "{}");  // is not a fit, as in a folder of remapc
   const auto list = [&](const std::string& path) {
-    const ProcessResult result = session.texremap({"list", "--converters", path, "--json"});
-    require_success(result);
+    const ProcessResult result = require_success(session.texremap({"list", "--converters", path, "--json"}));
     return result.output;
   };
   const std::string of_fit = list(session.path("fits/fit.json"));
@@ -112,8 +110,7 @@ TEST_CASE("texremap: --converters replaces the shipped converters by those of a 
   CHECK(session.texremap(numbers).exit_code == 2);
   std::vector<std::string> words = numbers;
   words.insert(words.end(), {"--converters", session.path("fits")});
-  const ProcessResult converted = session.texremap(words);
-  require_success(converted);
+  const ProcessResult converted = require_success(session.texremap(words));
   words = numbers;
   words.insert(words.end(), {"--fit", session.path("fits/fit.json")});
   CHECK(session.texremap(words).output == converted.output);

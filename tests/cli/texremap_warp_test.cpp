@@ -41,9 +41,8 @@ TEST_CASE("texremap warps: every texel of a folder equals the warp", "[needs][sl
   const std::string set = GENERATE("baseline", "avx2");
   if (set == "avx2" && !has_avx2()) return;
   const ProcessResult result =
-      session.texremap({"convert", session.path("wood"), "--fit", session.path("stony.json"),
-                        "--instructions", set, "--json", "-o", session.path("out")});
-  require_success(result);
+      require_success(session.texremap({"convert", session.path("wood"), "--fit", session.path("stony.json"),
+                                        "--instructions", set, "--json", "-o", session.path("out")}));
   const auto image = [&](const char* name) { return read_image(session.path(name)); };
   const TestImage diffuse = image("wood/oak_diffuse.exr"), specular = image("wood/oak_specular.exr"),
                   roughness = image("wood/oak_roughness.exr");
@@ -183,9 +182,8 @@ TEST_CASE("texremap warps: texels that are not finite do not change other texels
   const WarpSession session("mitsuba/ggx");
   write_image(session.path("wood/oak_diffuse.exr"), test_spec(kSize, kSize, {"R", "G", "B"}, OIIO::TypeFloat),
               [](int x, int y, int c) { return x == 7 && y < 9 ? std::nanf("") : noise(x, y, c); });
-  const ProcessResult result = session.texremap(
-      {"convert", session.path("wood"), "--fit", session.path("stony.json"), "-o", session.path("out")});
-  require_success(result);
+  const ProcessResult result = require_success(session.texremap(
+      {"convert", session.path("wood"), "--fit", session.path("stony.json"), "-o", session.path("out")}));
   CHECK_THAT(result.errors, Contains("NaN"));
   for (const char* name : {"diffuse", "specular", "roughness"}) {
     const TestImage image = read_image(session.path("out/oak_" + std::string(name) + ".exr"));

@@ -112,10 +112,9 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
   const std::string set = GENERATE("baseline", "avx2");
   if (set == "avx2" && !has_avx2()) return;
   const ProcessResult result =
-      convert(session, with(specular_words(session, "specular", "metallic"),
-                            {"--threads", threads, "--instructions", set, "--residual", "res.exr",
-                             "--metallic-width", "wid.exr", "--json"}));
-  require_success(result);
+      require_success(convert(session, with(specular_words(session, "specular", "metallic"),
+                                            {"--threads", threads, "--instructions", set, "--residual",
+                                             "res.exr", "--metallic-width", "wid.exr", "--json"})));
   const TestImage d = read_image(session.path("d.exr")), s = read_image(session.path("s.exr")),
                   r = read_image(session.path("r.exr")),
                   base = read_image(session.path("out/base_color.exr")),
@@ -148,8 +147,7 @@ TEST_CASE("texremap workflows: Ward with diffuse and specular becomes glTF in on
   write_specular(session);
   std::vector<std::string> words = specular_words(session, "mitsuba/ward", "gltf");
   const ProcessResult result =
-      convert(session, with(words, {"--from-workflow", "specular", "--layout", "orm"}));
-  require_success(result);
+      require_success(convert(session, with(words, {"--from-workflow", "specular", "--layout", "orm"})));
   const TestImage d = read_image(session.path("d.exr")), s = read_image(session.path("s.exr")),
                   r = read_image(session.path("r.exr")),
                   base = read_image(session.path("out/base_color.exr")),
@@ -215,8 +213,7 @@ TEST_CASE("texremap workflows: alpha of diffuse is kept, and transparent texels 
   write_image(session.path("d.exr"), test_spec(kSize, kSize, {"R", "G", "B", "A"}, OIIO::TypeFloat),
               [](int x, int, int c) { return x < 10 ? (c == 3 ? 0.0f : 5.0f) : 0.3f; });
   const ProcessResult result =
-      convert(session, with(specular_words(session, "specular", "metallic"), {"--json"}));
-  require_success(result);
+      require_success(convert(session, with(specular_words(session, "specular", "metallic"), {"--json"})));
   const auto json = nlohmann::json::parse(result.output);
   CHECK(json["masked"] == 10 * kSize);
   CHECK(json["above_one"] == 0);
@@ -294,8 +291,7 @@ TEST_CASE("texremap workflows: undetermined metallic follows the reliable texels
 TEST_CASE("texremap workflows: implausible maps give a warning with the reason", "[slow]") {
   const Session session;
   const auto warned = [&](const std::vector<std::string>& words, const std::string& message) {
-    const ProcessResult result = convert(session, with(words, {"--force"}));
-    require_success(result);
+    const ProcessResult result = require_success(convert(session, with(words, {"--force"})));
     CHECK_THAT(result.errors, Contains(message));
   };
   const std::vector<std::string> words = specular_words(session, "specular", "metallic");
@@ -319,9 +315,9 @@ TEST_CASE("texremap workflows: implausible maps give a warning with the reason",
 TEST_CASE("texremap workflows: the estimated F0 of the maps is used on request") {
   const Session session;
   write_specular(session, 0.5f, 0.055f);
-  const ProcessResult result = convert(session, with(specular_words(session, "specular", "metallic"),
-                                                     {"--dielectric-f0", "estimate", "--json"}));
-  require_success(result);
+  const ProcessResult result =
+      require_success(convert(session, with(specular_words(session, "specular", "metallic"),
+                                            {"--dielectric-f0", "estimate", "--json"})));
   CHECK(nlohmann::json::parse(result.output)["metallic_confidence"]["rms_residual"] < 0.002);
   CHECK_THAT(result.errors, Contains("estimated from the maps: 0.055; 0.055 is used"));
   const TestImage metal = read_image(session.path("out/metallic.exr"));
@@ -377,14 +373,13 @@ TEST_CASE("texremap workflows: occlusion packed with metallic becomes a separate
 
 TEST_CASE("texremap workflows: list and path show them", "[slow]") {
   const Session session;
-  const ProcessResult list = session.texremap({"list", "--workflows", "--json"});
-  require_success(list);
+  const ProcessResult list = require_success(session.texremap({"list", "--workflows", "--json"}));
   const auto models = nlohmann::json::parse(list.output);
   CHECK(models.size() == 7);
   CHECK(models[0]["model"] == "gltf");
   CHECK(models[0]["dielectric_f0"] == 0.04);
-  const ProcessResult path = session.texremap({"path", "--from", "mitsuba/ward", "--to", "gltf"});
-  require_success(path);
+  const ProcessResult path =
+      require_success(session.texremap({"path", "--from", "mitsuba/ward", "--to", "gltf"}));
   CHECK_THAT(path.output, Contains("roughness and specular from mitsuba/ward to mitsuba/ggx") &&
                               Contains("to base color and metallic by projection") &&
                               Contains("mitsuba_ward_to_mitsuba_ggx"));
