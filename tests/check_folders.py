@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """check_folders.py BUILT_TESTS: checks that a quick test covers each folder of sources.
 
-BUILT_TESTS is the folder of the tests in the build tree, where discover_tests.cmake leaves the labels of tests. The folders are
-those of the list in HACKING.md that hold .cpp files. Exit code 1 and a line for each that lacks one.
+BUILT_TESTS is the folder of the tests in the build tree, where discover_tests.cmake and CMake leave the labels of tests. The folders
+are those of the list in HACKING.md that hold .cpp files. Exit code 1 and a line for each that lacks one.
 """
 import re
 import sys
@@ -19,8 +19,9 @@ def listed_folders():
 def quick_folders(built_tests):
     """The folders that are labels of a quick test."""
     folders = set()
-    for script in Path(built_tests).rglob("*_tests.cmake"):
-        for labels in re.findall(r"LABELS \[==\[(.*?)\]==\]", script.read_text()):
+    scripts = [*Path(built_tests).rglob("*_tests.cmake"), *Path(built_tests).rglob("CTestTestfile.cmake")]
+    for script in scripts:
+        for labels in re.findall(r'LABELS (?:\[==\[|")(.*?)(?:\]==\]|")', script.read_text()):
             if "quick" in labels.split(";"):
                 folders.update(labels.split(";"))
     return folders

@@ -9,19 +9,12 @@
 using namespace remap;
 namespace fs = std::filesystem;
 
-TEST_CASE("remapc fit: a missing table is named with the reason") {
-  const Session session;
-  check_failure(session.remapc({"fit", session.path("no.csv")}), 1, "no.csv: cannot be read: No such file");
-}
-
 TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it in the fit", "[slow]") {
   const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
-  const ProcessResult fitted =
+  require_success(session.remapc(session.sweep("t.csv")));
+  const ProcessResult fitted = require_success(
       session.remapc({"fit", session.path("t.csv"), "--layers", "4", "--starts", "1", "--activation", "silu",
-                      "-o", session.path("fits"), "--plot", session.path("plot.svg")});
-  INFO(fitted.errors);
-  REQUIRE(fitted.exit_code == 0);
+                      "-o", session.path("fits"), "--plot", session.path("plot.svg")}));
   for (const std::string word : {"parametric ", "svr ", "mlp ", "chosen", "chroma shift"})
     CHECK(fitted.errors.find(word) != std::string::npos);
   CHECK(fitted.output.empty());
@@ -44,7 +37,7 @@ TEST_CASE("remapc fit: auto prints the table that it decided from and keeps it i
 
 TEST_CASE("remapc fit: each kind of regression can be asked for, and a form", "[slow]") {
   const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  require_success(session.remapc(session.sweep("t.csv")));
   const auto fit = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"fit", session.path("t.csv"), "-o", session.path("fits")});
     return session.remapc(more);
@@ -61,30 +54,6 @@ TEST_CASE("remapc fit: each kind of regression can be asked for, and a form", "[
   CHECK(fit({"--model", "parametric", "--form", "quartic/affine"}).errors.find("parametric quartic/affine") !=
         std::string::npos);
   CHECK(kind() == "parametric");
-
-  check_failure(fit({"--model", "spline"}), 2, "--model");
-  check_failure(fit({"--form", "quartic/afine"}), 2, "did you mean quartic/affine?");
-  check_failure(fit({"--model", "svr", "--form", "paper"}), 2,
-                "--form cannot be used with --model svr (use parametric or auto)");
-  check_failure(fit({"--model", "parametric", "--layers", "4"}), 2,
-                "--layers cannot be used with --model parametric (use mlp or auto)");
-  check_failure(fit({"--activation", "step"}), 2, "--activation");
-}
-
-TEST_CASE("remapc fit: a plot that cannot be written is named before the work", "[slow]") {
-  const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
-  auto fit = session.fit("t.csv", "out");
-  fit.insert(fit.end(), {"--plot", session.path("plot.png")});
-  check_failure(session.remapc(fit), 2, "must end with .svg");
-  fit.back() = session.path("t.csv/plot.svg");
-  check_failure(session.remapc(fit), 1, "folder");
-  // Without gnuplot on the path.
-  fit.back() = session.path("plot.svg");
-  std::vector<std::string> bare = {"/usr/bin/env", "PATH=" + session.path(""), REMAPC_PROGRAM};
-  bare.insert(bare.end(), fit.begin(), fit.end());
-  check_failure(run(bare), 1, "on Debian the package gnuplot-nox");
-  CHECK_FALSE(fs::exists(session.path("out/mitsuba_ward_to_mitsuba_as.json")));
 }
 
 TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plotted", "[slow]") {
@@ -108,7 +77,7 @@ TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plott
 
 TEST_CASE("remapc fit: gnuplot's failure is shown", "[slow]") {
   const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
+  require_success(session.remapc(session.sweep("t.csv")));
   session.write("bin/gnuplot",
                 "#!/bin/sh\n[ \"$1\" = --version ] || { echo 'line 3: no such thing' >&2; exit 1; }\n");
   fs::permissions(session.path("bin/gnuplot"), fs::perms::owner_all);
@@ -122,12 +91,10 @@ TEST_CASE("remapc fit: gnuplot's failure is shown", "[slow]") {
 
 TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "[slow]") {
   const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
-  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
+  require_success(session.remapc(session.sweep("t.csv")));
+  require_success(session.remapc(session.fit("t.csv")));
   const ProcessResult result =
-      session.remapc({"compare", session.path("t.csv"), "--fits", session.path("fits")});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+      require_success(session.remapc({"compare", session.path("t.csv"), "--fits", session.path("fits")}));
   CHECK(result.output.find("mitsuba_ward_to_mitsuba_as (parametric") != std::string::npos);
   CHECK(result.output.find("fitted from this table, training rows included") != std::string::npos);
   CHECK(result.output.find("alpha and specular unchanged") != std::string::npos);
@@ -142,54 +109,17 @@ TEST_CASE("remapc compare: fits and the formulas of today stand side by side", "
   CHECK(json.output.find("does not apply: mitsuba/ward has alpha, not roughness") != std::string::npos);
 }
 
-TEST_CASE("remapc compare: a fit of other models, an unknown one, and a table without rows are named",
-          "[slow]") {
-  const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
-  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
-  const std::string fit = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
-  session.write("other.csv", "# source: a/b\n# target: c/d\n" + kHeader + "0.1,0.2,0.3,0.4,0,ok\n");
-  check_failure(session.remapc({"compare", session.path("other.csv"), fit}), 1,
-                "but the table is of a/b to c/d");
-  check_failure(session.remapc({"compare", session.path("t.csv"), "nix", "--fits", session.path("fits")}), 2,
-                "neither a file nor a fit");
-  session.write("none.csv", "# source: a/b\n# target: c/d\n" + kHeader + "0.1,0.2,0.3,0.4,0,flat\n");
-  check_failure(session.remapc({"compare", session.path("none.csv")}), 1, "no usable rows");
-}
-
-TEST_CASE("remapc fit: an output folder that cannot be is named") {
-  const Session session;
-  REQUIRE(session.remapc(session.sweep("t.csv")).exit_code == 0);
-  check_failure(session.remapc({"fit", session.path("t.csv"), "-o", session.path("t.csv")}), 1, "folder");
-}
-
 TEST_CASE("remapc compare: fits of one id are told apart by their files", "[slow]") {
   const Session session;
   session.write("t.csv", made_table(8, 3));
-  REQUIRE(session.remapc(session.fit("t.csv", "a")).exit_code == 0);
-  REQUIRE(session.remapc(session.fit("t.csv", "b")).exit_code == 0);
+  require_success(session.remapc(session.fit("t.csv", "a")));
+  require_success(session.remapc(session.fit("t.csv", "b")));
   const std::string a = session.path("a/mitsuba_ward_to_mitsuba_as.json");
   const std::string b = session.path("b/mitsuba_ward_to_mitsuba_as.json");
   const ProcessResult both = session.remapc({"compare", session.path("t.csv"), a, b});
   CHECK(both.output.find(a + " (parametric") != std::string::npos);
   CHECK(both.output.find(b + " (parametric") != std::string::npos);
   CHECK(session.remapc({"compare", session.path("t.csv"), a}).output.find(a) == std::string::npos);
-}
-
-TEST_CASE("remapc fit: numbers that no regression can use are wrong usage", "[slow]") {
-  const Session session;
-  session.write("t.csv", made_table(8, 3));
-  const auto fit = [&](const std::string& option, const std::string& value) {
-    return session.remapc({"fit", session.path("t.csv"), "-o", session.path("fits"), option, value});
-  };
-  check_failure(fit("--layers", "0"), 2, "--layers: invalid value '0' (allowed: 1 to 4096)");
-  check_failure(fit("--layers", "8,-2"), 2, "--layers: invalid value '-2' (allowed: 1 to 4096)");
-  check_failure(fit("--starts", "-1"), 2, "--starts: invalid value '-1' (allowed: 1 to 1000)");
-  check_failure(fit("--seed", "-1"), 2, "--seed: invalid value '-1' (allowed: 0 or more)");
-  check_failure(fit("--jobs", "-1"), 2, "--jobs: invalid value '-1'");
-  check_failure(fit("--held-out", "2"), 2, "held-out share: 2 is out of range (0 to 0.9)");
-  check_failure(fit("--id", "a-b"), 2, "use a C++ identifier");
-  CHECK_FALSE(fs::exists(session.path("fits/mitsuba_ward_to_mitsuba_as.json")));
 }
 
 TEST_CASE("remapc fit: the same seed gives the same bytes for every kind and any number of jobs", "[slow]") {
@@ -201,46 +131,17 @@ TEST_CASE("remapc fit: the same seed gives the same bytes for every kind and any
       std::vector<std::string> fit = {"fit", session.path("t.csv"),     "--model", model, "--jobs", jobs,
                                       "-o",  session.path(model + jobs)};
       if (model == "mlp" || model == "auto") fit.insert(fit.end(), {"--layers", "4", "--starts", "2"});
-      REQUIRE(session.remapc(fit).exit_code == 0);
+      require_success(session.remapc(fit));
     }
     const std::string name = "/mitsuba_ward_to_mitsuba_as.json";
     CHECK(read_file(session.path(model + "1" + name)) == read_file(session.path(model + "2" + name)));
   }
 }
 
-TEST_CASE("remapc fit: one specular, one width and a constant target are fitted or refused with the reason",
-          "[slow]") {
+TEST_CASE("remapc fit: a table of one specular is fitted", "[slow]") {
   const Session session;
   session.write("specular.csv", made_table(20, 1));
-  session.write("width.csv", made_table(1, 20));
-  std::string flat = "# source: a/b\n# target: c/d\n" + kHeader;
-  for (int i = 1; i <= 30; ++i) flat += "0." + std::to_string(9 + i) + ",0.5,0.3,0.4,0,ok\n";
-  session.write("flat.csv", flat);
-  const auto fit = [&](const std::string& table, const std::string& model) {
-    std::vector<std::string> arguments = {"fit", session.path(table), "--model", model,
-                                          "-o",  session.path("fits")};
-    if (model == "mlp" || model == "auto") arguments.insert(arguments.end(), {"--layers", "4"});
-    return session.remapc(arguments);
-  };
-  CHECK(fit("specular.csv", "parametric").exit_code == 0);
-  CHECK(fit("specular.csv", "auto").exit_code == 0);
-  check_failure(fit("specular.csv", "svr"), 1, "specular1 is 0.9 in every row");
-  check_failure(fit("specular.csv", "mlp"), 1, "specular1 is 0.9 in every row");
-  for (const std::string model : {"parametric", "svr", "mlp", "auto"}) {
-    check_failure(fit("width.csv", model), 1, "1 different alpha1; expected at least 12 and 6");
-    check_failure(fit("flat.csv", model), 1, "alpha2 stays at 0.3 between alpha1 0.1");
-  }
-}
-
-TEST_CASE("remapc fit: a network that could not be written is not trained") {
-  const Session session;
-  const std::string table = REMAP_SOURCE_DIR "/fits/tables/mitsuba_ward_to_mitsuba_as.csv";
-  for (const auto& [layers, words] :
-       {std::pair("4096,4096", "--layers: a network of 3 layers and "),
-        std::pair("2,2,2,2,2,2",
-                  "--layers: a network of 7 layers and 45 numbers is too large (at most 6 and 20000)")})
-    check_failure(
-        session.remapc({"fit", table, "--model", "mlp", "--layers", layers, "-o", session.path("f")}), 2,
-        words);
-  CHECK(session.file_count() == 0);
+  for (const std::string model : {"parametric", "auto"})
+    CHECK(session.remapc({"fit", session.path("specular.csv"), "--model", model, "-o", session.path("fits")})
+              .exit_code == 0);
 }

@@ -43,19 +43,10 @@ class Session {
 
   // A small sweep, ward to as.
   std::vector<std::string> sweep(const std::string& table) const {
-    return {"sweep",
-            "--source",
-            "mitsuba/ward",
-            "--target",
-            "mitsuba/as",
-            "--resolution",
-            "64",
-            "--roughness-samples",
-            "12",
-            "--specular-samples",
-            "3",
-            "-o",
-            path(table)};
+    return split_words(
+        "sweep --source mitsuba/ward --target mitsuba/as --resolution 64 --roughness-samples 12 "
+        "--specular-samples 3 -o " +
+        path(table));
   }
 
  private:

@@ -99,9 +99,8 @@ TEST_CASE("remapc warp: profiles of a list are replaced by those of another list
   const Session session;
   write_list(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
-  const ProcessResult result = warp(session, "blue", "yellow", {"--copy", session.path("copied"), "--json"});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result =
+      require_success(warp(session, "blue", "yellow", {"--copy", session.path("copied"), "--json"}));
   const auto json = nlohmann::json::parse(result.output);
   CHECK(json["diagnostics"]["dimensions"] == 2);
   CHECK(json["files"].size() == 3);
@@ -122,13 +121,11 @@ TEST_CASE("remapc warp: a map of profiles is replaced by profiles of a list, and
   const Session session;
   write_map(session, "blue", blue_wax);
   write_list(session, "yellow", yellow_wax);
-  const ProcessResult there = warp(session, "blue", "yellow", {"--copy", session.path("there")});
-  INFO(there.errors);
-  REQUIRE(there.exit_code == 0);
+  const ProcessResult there =
+      require_success(warp(session, "blue", "yellow", {"--copy", session.path("there")}));
   CHECK(place_error(read_image(session.path("there/template_texel.exr"))) < 0.15);
-  const ProcessResult back = warp(session, "yellow", "blue", {"--copy", session.path("back")});
-  INFO(back.errors);
-  REQUIRE(back.exit_code == 0);
+  const ProcessResult back =
+      require_success(warp(session, "yellow", "blue", {"--copy", session.path("back")}));
   const TestImage profiles = read_image(session.path("back/profiles.exr")),
                   places = read_image(session.path("back/template_texel.exr"));
   CHECK(place_error(places) < 0.15);
@@ -137,30 +134,4 @@ TEST_CASE("remapc warp: a map of profiles is replaced by profiles of a list, and
   const int x = static_cast<int>(places.at(5, 7, places.channel("X"))),
             y = static_cast<int>(places.at(5, 7, places.channel("Y")));
   CHECK(profiles.at(5, 7, first) == static_cast<float>(blue_wax(x, y, 0)));
-}
-
-TEST_CASE("remapc warp: invalid tables are refused with their name", "[slow]") {
-  const Session session;
-  write_list(session, "blue", blue_wax);
-  write_list(session, "yellow", yellow_wax);
-  const auto refused = [&](const std::string& target, const std::vector<std::string>& more, int exit_code,
-                           const std::string& message) {
-    const ProcessResult result = warp(session, "blue", target, more);
-    CAPTURE(message, result.errors);
-    CHECK(result.exit_code == exit_code);
-    CHECK(result.errors.find(message) != std::string::npos);
-  };
-  const std::vector<std::string> copy = {"--copy", session.path("copied")};
-  refused("yellow", {"-o", session.path("x.json")}, 2,
-          "a table cannot be fitted (use --copy FOLDER instead of --output)");
-  refused("yellow", {"--copy", session.path("copied"), "--distance", "relative"}, 2, "choose plain");
-  session.write("nameless/profiles.csv", "a,b\n1,2\n");
-  refused("nameless", copy, 1, "requires columns R@<radius>");
-  session.write("negative/profiles.csv", "Y@1,Y@2\n1,2\n1,-2\n");
-  refused("negative", copy, 1, "profiles.csv:3:3: '-2' is not a finite number of at least 0");
-  session.write("mapless/profiles.csv", "Y@1,Y@2\n1,2\n1,0\n");
-  refused("mapless", copy, 1, "profiles.csv requires a map of its entries");
-  session.write("measured/brdfs.txt", "gold.binary\n");
-  refused("measured", copy, 1, "gold.binary: cannot be read: No such file");
-  CHECK_FALSE(std::filesystem::exists(session.path("copied")));
 }

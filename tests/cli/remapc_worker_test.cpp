@@ -19,25 +19,12 @@ namespace {
 std::vector<std::string> sweep(const Session& session, const remapc::FakeSession& fake,
                                const std::string& table, const std::string& fault = "",
                                const std::string& cache = "cache") {
-  return {"sweep",
-          "--source",
-          "fake/ggx",
-          "--target",
-          "mitsuba/ggx-plain",
-          "--resolution",
-          "32",
-          "--roughness-samples",
-          "5",
-          "--specular-samples",
-          "2",
-          "--roughness-range",
-          "0.2,0.9",
-          "--worker",
-          "fake=" + fake.command(fault),
-          "--cache",
-          session.path(cache),
-          "-o",
-          session.path(table)};
+  std::vector<std::string> words = split_words(
+      "sweep --source fake/ggx --target mitsuba/ggx-plain --resolution 32 --roughness-samples 5 "
+      "--specular-samples 2 --roughness-range 0.2,0.9");
+  words.insert(words.end(), {"--worker", "fake=" + fake.command(fault), "--cache", session.path(cache), "-o",
+                             session.path(table)});
+  return words;
 }
 
 // Until the workers have made `count` pictures.
@@ -52,16 +39,13 @@ void wait_for_pictures(const remapc::FakeSession& fake, std::size_t count) {
 TEST_CASE("remapc sweep: a worker is the source, and the second run is from the cache", "[slow]") {
   const Session session;
   const remapc::FakeSession fake;
-  const ProcessResult first = session.remapc(sweep(session, fake, "a.csv"));
-  INFO(first.errors);
-  REQUIRE(first.exit_code == 0);
+  const ProcessResult first = require_success(session.remapc(sweep(session, fake, "a.csv")));
   const std::size_t pictures = fake.pictures();
   CHECK_THAT(first.errors, Contains(std::to_string(pictures) + " pictures rendered and "));
   const std::string table = read_file(session.path("a.csv"));
   CHECK_THAT(table, Contains("# renderer: Fake 1; remapc "));
   CHECK_THAT(table, Contains("\n0.9,0.5,0.89999999"));  // the identity, to the float
-  const ProcessResult second = session.remapc(sweep(session, fake, "b.csv"));
-  REQUIRE(second.exit_code == 0);
+  const ProcessResult second = require_success(session.remapc(sweep(session, fake, "b.csv")));
   CHECK_THAT(second.errors, Contains(", 0 pictures rendered and "));
   CHECK(fake.pictures() == pictures);
   CHECK(read_file(session.path("b.csv")) == table);
@@ -71,13 +55,13 @@ TEST_CASE("remapc sweep: a worker is the source, and the second run is from the 
 TEST_CASE("remapc sweep: broken off by a worker and run again it ends in the same table", "[slow]") {
   const Session session;
   const remapc::FakeSession fake;
-  REQUIRE(session.remapc(sweep(session, fake, "whole.csv")).exit_code == 0);
+  require_success(session.remapc(sweep(session, fake, "whole.csv")));
   const std::size_t pictures = fake.pictures();
   auto broken = sweep(session, fake, "a.csv", "die' --after '28", "other");
   broken.insert(broken.end(), {"--jobs", "1"});
   check_failure(session.remapc(broken), 1, "died with signal 9; last lines of its log: ");
   CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
-  REQUIRE(session.remapc(sweep(session, fake, "a.csv", "", "other")).exit_code == 0);
+  require_success(session.remapc(sweep(session, fake, "a.csv", "", "other")));
   CHECK(read_file(session.path("a.csv")) == read_file(session.path("whole.csv")));
   CHECK(fake.pictures() == 2 * pictures);  // none of them twice
 }
@@ -158,9 +142,7 @@ TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said
   CHECK_THAT(result.errors, Contains("fake/ggx to mitsuba/ggx-plain" + words) && Contains("--accept-light"));
   CHECK_FALSE(std::filesystem::exists(session.path("a.csv")));
   arguments.insert(arguments.end(), {"--accept-light", "--json"});
-  result = session.remapc(arguments);
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  result = require_success(session.remapc(arguments));
   CHECK_THAT(result.errors, Contains("remapc: warning: " + session.path("a.csv") + words));
   CHECK_THAT(result.output, Contains("\"irradiance_scale\": 1.") && Contains("\"diffuse_error\": 0.") &&
                                 Contains("\"light_warning\": \"the source's light"));
@@ -178,7 +160,7 @@ TEST_CASE("remapc: light that is rescaled is an error of sweep and fit, and said
   auto fit = session.fit("b.csv");
   CHECK_THAT(session.remapc(fit).errors, Contains("light" + words));
   fit.push_back("--accept-light");
-  REQUIRE(session.remapc(fit).exit_code == 0);
+  require_success(session.remapc(fit));
   for (const char* form : {"--fits", "--json"}) {
     std::vector<std::string> show = {"show", "fake_ggx_to_mitsuba_ggx_plain", "--fits", session.path("fits")};
     if (std::string(form) == "--json") show.push_back(form);
@@ -203,9 +185,8 @@ TEST_CASE("remapc sweep: a cache that cannot be written is a warning", "[slow]")
 TEST_CASE("remapc renderers: what is there is listed, and why the rest is not", "[slow]") {
   const Session session;
   const remapc::FakeSession fake;
-  const ProcessResult result = session.remapc(
-      {"renderers", "--json", "--worker", "fake=" + fake.command(), "--worker", "gone=/no/such/program"});
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.remapc(
+      {"renderers", "--json", "--worker", "fake=" + fake.command(), "--worker", "gone=/no/such/program"}));
   CHECK_THAT(result.output, Contains("\"version\": \"Fake 1\"") && Contains("\"model\": \"fake/ggx\""));
   CHECK_THAT(result.output, Contains("worker gone, request describe: ended with exit code 127"));
 }

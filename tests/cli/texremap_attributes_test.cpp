@@ -109,11 +109,10 @@ void check_file(const fs::path& file, int converted, bool is_lossless, Compariso
   std::string channel = first.channelnames[static_cast<std::size_t>(converted)];
   const std::string part_name = first.get_string_attribute("oiio:subimagename");
   if (before.size() > 1 && !part_name.empty()) channel = part_name + "." + channel;
-  const ProcessResult result = session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as",
-                                                 "--roughness", file.string() + ":" + channel, "--specular",
-                                                 "0.4", "--only", "roughness", "-o", session.path("out")});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result =
+      require_success(session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as",
+                                        "--roughness", file.string() + ":" + channel, "--specular", "0.4",
+                                        "--only", "roughness", "-o", session.path("out")}));
   const auto after = read_planes(session.path("out/" + file.filename().string()));
   REQUIRE(after.size() == before.size());
   for (std::size_t part = 0; part < before.size(); ++part) {
@@ -217,7 +216,7 @@ TEST_CASE("texremap attributes: a map without a date does not get the date of th
     REQUIRE(read_image(session.path(name)).spec.find_attribute("DateTime") == nullptr);
   }
   const std::string extension = GENERATE("exr", "tif", "png", "jpg", "tga");
-  REQUIRE(session.convert("r.exr", "s.exr", {"--format", extension}).exit_code == 0);
+  require_success(session.convert("r.exr", "s.exr", {"--format", extension}));
   for (const char* name : {"out/r.", "out/s."})
     CHECK(read_image(session.path(name + extension)).spec.find_attribute("DateTime") == nullptr);
 }
@@ -247,11 +246,9 @@ TEST_CASE("texremap attributes: a PNG without a color space gets none") {
   OIIO::ImageSpec spec = test_spec(16, 16, {"R", "G", "B"}, OIIO::TypeUInt8);
   if (is_said) spec.attribute("oiio:ColorSpace", "sRGB");
   write_image(session.path("orm.png"), spec, noise);
-  REQUIRE(session
-              .texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
-                         session.path("orm.png") + ":G", "--specular", "0.4", "--only", "roughness", "-o",
-                         session.path("out")})
-              .exit_code == 0);
+  require_success(session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
+                                    session.path("orm.png") + ":G", "--specular", "0.4", "--only",
+                                    "roughness", "-o", session.path("out")}));
   // OpenImageIO reports sRGB for both, so the test looks for the chunk.
   for (const char* file : {"orm.png", "out/orm.png"})
     CHECK((read_file(session.path(file)).find("sRGB") != std::string::npos) == is_said);

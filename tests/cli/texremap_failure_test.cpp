@@ -101,28 +101,12 @@ ProcessResult interrupted(const Session& session, int signal) {
 
 }  // namespace
 
-TEST_CASE("texremap: a file-size limit is a failure for every format and leaves nothing", "[slow]") {
-  const Session session;
-  const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
-  write_pair_of(session, extension, 256);
-  for (const rlim_t limit : {rlim_t{500}, rlim_t{20'000}}) {  // the message must fit within the limit, too
-    const std::string threads = limit == 500 ? "1" : "2";
-    const ProcessResult result =
-        session.convert("r." + extension, "s." + extension, {"--quiet", "--threads", threads}, {limit});
-    INFO(extension << " limited to " << limit << ": " << result.errors);
-    CHECK(result.exit_code == 1);
-    CHECK(result.signal == 0);
-    CHECK_THAT(result.last_error(), Contains("cannot be written"));
-    CHECK(session.file_count() == 0);
-  }
-}
-
 TEST_CASE("texremap: a missing last byte is noticed", "[slow]") {
   const Session session;
   const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga");
   write_pair_of(session, extension, 64);
   const std::string roughness = "r." + extension, specular = "s." + extension;
-  REQUIRE(session.convert(roughness, specular).exit_code == 0);
+  require_success(session.convert(roughness, specular));
   const rlim_t size = fs::file_size(session.path("out/" + specular));
   for (const rlim_t missing : {rlim_t{1}, rlim_t{20}}) {
     const ProcessResult result = session.convert(roughness, specular, {"--force"}, {size - missing});
@@ -137,7 +121,7 @@ TEST_CASE("texremap: a full disk is reported and keeps the old results", "[needs
   const SmallDisk disk(session.path("out"), "size=200k");
   if (!disk.is_mounted()) return skip("mount", "a file system cannot be mounted here");
   write_pair_of(session, "exr", 64);
-  REQUIRE(session.convert("r.exr", "s.exr").exit_code == 0);
+  require_success(session.convert("r.exr", "s.exr"));
   const std::string before = read_file(session.path("out/r.exr"));
   write_pair_of(session, "exr", 512);
   const ProcessResult result = session.convert("r.exr", "s.exr", {"--force"});
@@ -199,25 +183,6 @@ TEST_CASE("texremap tree: a full disk fails the sets that do not fit, and the ot
   CHECK_THAT(result.errors, Contains("No space left on device"));
 }
 
-TEST_CASE("texremap: a disk that is full from the start gets no file", "[slow]") {
-  const Session session;
-  const std::string extension = GENERATE("exr", "png", "tif", "jpg", "tga", "bmp", "hdr");
-  const bool is_hdr = extension == "hdr";
-  const std::vector<std::string> channels = {"R", "G", "B"};
-  write_image(session.path("s." + extension),
-              test_spec(64, 64, channels, is_hdr ? OIIO::TypeFloat : OIIO::TypeUInt8), noise);
-  ProcessLimits limits;
-  limits.file_bytes = 0;
-  std::vector<std::string> words = session.conversion("", "s." + extension);
-  words[6] = "0.3";
-  words.insert(words.end(), {"--only", "specular"});
-  // Standard error is a file here, so the message does not fit either.
-  const ProcessResult result = session.texremap(words, limits);
-  CHECK(result.exit_code == 1);
-  CHECK(result.signal == 0);
-  CHECK(session.file_count() == 0);
-}
-
 TEST_CASE("texremap: an unwritable folder is named, and nothing is left in it", "[needs]") {
   const Tree tree;
   if (!permissions_hold(tree)) return;
@@ -252,13 +217,9 @@ TEST_CASE("texremap: unreadable files and folders are named, and the others are 
   CHECK(tree.results() == std::vector<std::string>{"a_rough.png", "a_spec.png", "c_rough.png", "c_spec.png"});
 }
 
-TEST_CASE("texremap: a link to itself is refused as input, and no output is written through a link") {
+TEST_CASE("texremap: no output is written through a link") {
   const Session session;
   session.write_pair("png", 16, OIIO::TypeUInt8);
-  fs::create_symlink("loop.png", session.path("loop.png"));
-  const ProcessResult in = session.convert("loop.png", "s.png");
-  CHECK(in.exit_code == 1);
-  CHECK_THAT(in.last_error(), Contains("loop.png: cannot be read: Too many levels of symbolic links"));
   fs::create_directory(session.path("out"));
   fs::create_symlink(session.path("elsewhere.png"), session.path("out/s.png"));
   const ProcessResult out = session.convert("r.png", "s.png");

@@ -98,9 +98,7 @@ TEST_CASE("texremap: every format keeps its storage and all unconverted channels
     write_image(session.path(r), spec_of(format, {"Y"}), noise);
     write_image(session.path(s), spec_of(format, format.channels),
                 [](int x, int y, int c) { return noise(x, y, c + 1); });
-    const ProcessResult result = session.convert(r, s);
-    INFO(result.errors);
-    REQUIRE(result.exit_code == 0);
+    const ProcessResult result = require_success(session.convert(r, s));
     const TestImage roughness = read_image(session.path(r)), specular = read_image(session.path(s));
     const TestImage roughness_out = read_image(session.path("out/" + r));
     const TestImage specular_out = read_image(session.path("out/" + s));
@@ -115,7 +113,7 @@ TEST_CASE("texremap: every format keeps its storage and all unconverted channels
 TEST_CASE("texremap: metadata records the conversion") {
   const Session session;
   session.write_pair("exr");
-  REQUIRE(session.convert("r.exr", "s.exr", {"--format", GENERATE("exr", "png")}).exit_code == 0);
+  require_success(session.convert("r.exr", "s.exr", {"--format", GENERATE("exr", "png")}));
   for (const auto& entry : fs::directory_iterator(session.path("out"))) {
     if (entry.path().filename() == kJournal) continue;
     const OIIO::ImageSpec spec = read_image(entry.path()).spec;
@@ -130,7 +128,7 @@ TEST_CASE("texremap: the tag Software records the conversion in formats without 
   const Session session;
   session.write_pair("exr");
   const std::string extension = GENERATE("tif", "jpg");
-  REQUIRE(session.convert("r.exr", "s.exr", {"--format", extension}).exit_code == 0);
+  require_success(session.convert("r.exr", "s.exr", {"--format", extension}));
   const OIIO::ImageSpec spec = read_image(session.path("out/s." + extension)).spec;
   CHECK_THAT(
       std::string(spec.get_string_attribute("Software")),
@@ -144,10 +142,9 @@ TEST_CASE("texremap: Exif in a TIFF survives") {
   OIIO::ImageSpec spec = spec_of(format, {"Y"});
   spec.attribute("Exif:LensModel", "a lens");
   write_image(session.path("r.tif"), spec, noise);
-  REQUIRE(session.convert("r.tif", "r.tif", {"--specular", "0.5"}).exit_code == 2);
   std::vector<std::string> words = session.conversion("r.tif", "");
   words[8] = "0.5";
-  REQUIRE(session.texremap(words).exit_code == 0);
+  require_success(session.texremap(words));
   CHECK(read_image(session.path("out/r.tif")).spec.get_string_attribute("Exif:LensModel") == "a lens");
 }
 
@@ -162,7 +159,7 @@ TEST_CASE("texremap: the windows of an EXR are kept") {
     spec.full_height = 100;
     write_image(session.path(name), spec, noise);
   }
-  REQUIRE(session.convert("r.exr", "s.exr").exit_code == 0);
+  require_success(session.convert("r.exr", "s.exr"));
   const TestImage in = read_image(session.path("s.exr")), out = read_image(session.path("out/s.exr"));
   check_same_kind(in.spec, out.spec);
   CHECK(out.spec.y == -7);
@@ -175,7 +172,7 @@ TEST_CASE("texremap: channels of different pixel types keep their types") {
   OIIO::ImageSpec spec = test_spec(kWidth, kHeight, {"R", "G", "B", "id"}, OIIO::TypeFloat);
   spec.channelformats = {OIIO::TypeHalf, OIIO::TypeHalf, OIIO::TypeHalf, OIIO::TypeUInt32};
   write_image(session.path("s.exr"), spec, noise);
-  REQUIRE(session.convert("r.exr", "s.exr").exit_code == 0);
+  require_success(session.convert("r.exr", "s.exr"));
   const TestImage in = read_image(session.path("s.exr")), out = read_image(session.path("out/s.exr"));
   REQUIRE(in.spec.channelformats.size() == 4);
   check_same_kind(in.spec, out.spec);
@@ -188,7 +185,7 @@ TEST_CASE("texremap: associated alpha in a TIFF is neither multiplied nor relabe
   OIIO::ImageSpec spec = test_spec(kWidth, kHeight, kWithAlpha, OIIO::TypeUInt16);
   spec.erase_attribute("oiio:UnassociatedAlpha");
   write_image(session.path("s.tif"), spec, noise);
-  REQUIRE(session.convert("r.tif", "s.tif").exit_code == 0);
+  require_success(session.convert("r.tif", "s.tif"));
   const TestImage in = read_image(session.path("s.tif")), out = read_image(session.path("out/s.tif"));
   check_same_kind(in.spec, out.spec);
   check_passed_through(in, out);
@@ -199,7 +196,7 @@ TEST_CASE("texremap: another format uses its least lossy type") {
   const Session session;
   const std::string extension = GENERATE("png", "tif", "exr");
   session.write_pair("exr", 64, OIIO::TypeHalf);
-  REQUIRE(session.convert("r.exr", "s.exr", {"--format", extension}).exit_code == 0);
+  require_success(session.convert("r.exr", "s.exr", {"--format", extension}));
   const TestImage out = read_image(session.path("out/s." + extension));
   CHECK(out.spec.format == (extension == "png"   ? OIIO::TypeUInt16
                             : extension == "tif" ? OIIO::TypeFloat
@@ -213,8 +210,8 @@ TEST_CASE("texremap: --type chooses the pixel type, and clipped values are count
   write_image(session.path("r.exr"), test_spec(64, 64, {"Y"}, OIIO::TypeFloat), noise);
   write_image(session.path("s.exr"), test_spec(64, 64, kColor, OIIO::TypeFloat),
               [](int x, int y, int c) { return x == 5 && y == 6 ? 9.0f : 0.3f * noise(x, y, c); });
-  const ProcessResult result = session.convert("r.exr", "s.exr", {"--format", "tif", "--type", "uint8"});
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result =
+      require_success(session.convert("r.exr", "s.exr", {"--format", "tif", "--type", "uint8"}));
   CHECK_THAT(result.errors, Contains("3 values clipped to [0, 1]"));
   const TestImage out = read_image(session.path("out/s.tif"));
   CHECK(out.spec.format == OIIO::TypeUInt8);
@@ -222,21 +219,12 @@ TEST_CASE("texremap: --type chooses the pixel type, and clipped values are count
                   read_image(session.path("out/r.tif")), out);
 }
 
-TEST_CASE("texremap: channels that a format cannot hold are refused") {
-  const Session session;
-  session.write_pair("exr");
-  write_image(session.path("s.exr"), test_spec(64, 64, kWithMask, OIIO::TypeHalf), noise);
-  const ProcessResult result = session.convert("r.exr", "s.exr", {"--format", "png"});
-  CHECK(result.exit_code == 1);
-  CHECK_THAT(result.last_error(), Contains("format png cannot hold the 5 channels"));
-}
-
 TEST_CASE("texremap: a constant specular becomes a map of the same size") {
   const Session session;
   session.write_pair("exr");
   std::vector<std::string> words = session.conversion("r.exr", "");
   words[8] = GENERATE("0.5", "0.9,0.6,0.2");
-  REQUIRE(session.texremap(words).exit_code == 0);
+  require_success(session.texremap(words));
   const TestImage in = read_image(session.path("r.exr")), out = read_image(session.path("out/specular.exr"));
   CHECK(out.spec.width == 64);
   CHECK(out.spec.channelnames == (words[8] == "0.5" ? std::vector<std::string>{"Y"} : kColor));
@@ -252,8 +240,7 @@ TEST_CASE("texremap: a constant specular becomes a map of the same size") {
 TEST_CASE("texremap: a JPEG stays one, with a warning") {
   const Session session;
   session.write_pair("jpg", 64, OIIO::TypeUInt8);
-  const ProcessResult result = session.convert("r.jpg", "s.jpg");
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.convert("r.jpg", "s.jpg"));
   CHECK_THAT(result.errors, Contains("jpeg compression changes values") && Contains("specular read as srgb"));
   const TestImage in = read_image(session.path("r.jpg")), color = read_image(session.path("s.jpg")),
                   out = read_image(session.path("out/r.jpg"));
@@ -270,11 +257,9 @@ TEST_CASE("texremap: a taken roughness map with a constant specular", "[needs][s
   const fs::path brass = shared_data("textures/brass_roughness.jpg");
   if (brass.empty()) return;
   const Session session;
-  REQUIRE(session
-              .texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
-                         brass.string(), "--specular", "0.9,0.6,0.2", "-o", session.path("out"), "--format",
-                         "png", "--type", "uint16"})
-              .exit_code == 0);
+  require_success(session.texremap({"convert", "--from", "mitsuba/ward", "--to", "mitsuba/as", "--roughness",
+                                    brass.string(), "--specular", "0.9,0.6,0.2", "-o", session.path("out"),
+                                    "--format", "png", "--type", "uint16"}));
   const TestImage in = read_image(brass);
   const TestImage out = read_image(session.path("out/brass_roughness.png"));
   const TestImage specular = read_image(session.path("out/specular.png"));
@@ -294,7 +279,7 @@ TEST_CASE("texremap: idiff finds the passed-through alpha unchanged", "[needs]")
   const Session session;
   write_image(session.path("r.png"), test_spec(kWidth, kHeight, {"Y"}, OIIO::TypeUInt16), noise);
   write_image(session.path("s.png"), test_spec(kWidth, kHeight, kWithAlpha, OIIO::TypeUInt16), noise);
-  REQUIRE(session.convert("r.png", "s.png").exit_code == 0);
+  require_success(session.convert("r.png", "s.png"));
   const std::string tool = REMAP_OIIOTOOL;
   if (!fs::exists(tool)) return skip("oiiotool", "not installed");
   const auto diff = [&](const std::string& channel) {

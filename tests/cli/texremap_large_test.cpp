@@ -60,9 +60,7 @@ TEST_CASE("texremap: large maps in bounded memory, equal to the converter texel 
   const Session session;
   write_large(session.path("r.exr"), {"Y"}, size);
   write_large(session.path("s.exr"), {"R", "G", "B"}, size);
-  const ProcessResult result = session.convert("r.exr", "s.exr");
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.convert("r.exr", "s.exr"));
   WARN(result.errors << result.peak_kilobytes / 1024 << " MB at most");
   CHECK(result.peak_kilobytes < most_megabytes() * 1024);
 
@@ -96,10 +94,8 @@ TEST_CASE("texremap: large maps through a warp in bounded memory, equal to the w
   fit.warp = random_warp(3, 4, 33);
   fit.tool_version = "1.0.0";
   write_file(session.path("stony.json"), fit_to_json(fit));
-  const ProcessResult result = session.texremap(
-      {"convert", session.path("wood"), "--fit", session.path("stony.json"), "-o", session.path("out")});
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(session.texremap(
+      {"convert", session.path("wood"), "--fit", session.path("stony.json"), "-o", session.path("out")}));
   WARN(result.errors << result.peak_kilobytes / 1024 << " MB at most");
   CHECK(result.peak_kilobytes < most_megabytes() * 1024);
 

@@ -474,9 +474,7 @@ nlohmann::json converted(const Tree& tree, const Batch& batch, const std::string
                          const Words& more = {}) {
   Words words = {"convert", tree.path("in"), "--json", "-o", tree.path(out)};
   for (const Words& added : {batch.words(), more}) words.insert(words.end(), added.begin(), added.end());
-  const ProcessResult result = tree.texremap(words);
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(tree.texremap(words));
   return tree_report(result.output);
 }
 
@@ -518,9 +516,7 @@ void check_single(const Tree& tree, const Batch& batch, const Set& set, const nl
     const auto encoding = std::find(words.begin(), words.end(), "--roughness-encoding");
     if (encoding != words.end()) words.erase(encoding, encoding + 2);
   }
-  const ProcessResult result = tree.texremap(words);
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(tree.texremap(words));
   const auto single = nlohmann::json::parse(result.output);
   for (const std::string& name : targets_of(batch.to)) {
     const TestImage a = read_image(single.at(name).get<std::string>()),
@@ -558,9 +554,7 @@ void check_numbers(const Tree& tree, const Batch& batch, const Set& set) {
     words.insert(words.end(),
                  {"--specular", numbers(given.specular), "--specular-factor", number(batch.specular_factor)});
   if (batch.from.kind == Kind::kSpecular) words.insert(words.end(), {"--diffuse", numbers(given.diffuse)});
-  const ProcessResult result = tree.texremap(words);
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(tree.texremap(words));
   const auto values = nlohmann::json::parse(result.output).at("values");
   Material wanted = expected(batch, set, given);
   for (const std::string& name : targets_of(batch.to)) {

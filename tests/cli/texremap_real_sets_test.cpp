@@ -71,10 +71,8 @@ TEST_CASE("texremap real sets: a folder of BoomBox, brass and a chess king", "[n
   const fs::path folder = shared_data("textures");
   if (folder.empty()) return;
   const Tree tree;
-  const ProcessResult result =
-      tree.texremap(words({folder.string(), "--json", "--allow-skips", "-o", tree.path("out")}));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(
+      tree.texremap(words({folder.string(), "--json", "--allow-skips", "-o", tree.path("out")})));
   const auto sets = tree_report(result.output)["sets"];
   REQUIRE(sets.size() == 3);
   for (const auto& set : sets) CHECK(set["texels"] == 2048 * 2048);
@@ -108,10 +106,8 @@ TEST_CASE("texremap real sets: the chess king as 16-bit PNG keeps the precision 
   const fs::path map = shared_data("textures/king_black_roughness.jpg");
   if (map.empty()) return;
   const Tree tree;
-  const ProcessResult result = tree.texremap(
-      words({"--roughness", map.string(), "--format", "png", "--type", "uint16", "-o", tree.path("out")}));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+  const ProcessResult result = require_success(tree.texremap(
+      words({"--roughness", map.string(), "--format", "png", "--type", "uint16", "-o", tree.path("out")})));
   CHECK(count_of(result.errors, "compression changes values") == 0);
   const TestImage in = read_image(map), out = read_image(tree.path("out/king_black_roughness.png"));
   REQUIRE(out.spec.format == OIIO::TypeUInt16);
@@ -128,9 +124,7 @@ TEST_CASE("texremap real sets: six tiles are one set, converted tile by tile", "
   const Tree tree;
   const std::string pattern = (tiles / "grid.<UDIM>.png").string() + ":R";
   const ProcessResult result =
-      tree.texremap(words({"--roughness", pattern, "--json", "-o", tree.path("out")}));
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
+      require_success(tree.texremap(words({"--roughness", pattern, "--json", "-o", tree.path("out")})));
   const auto sets = tree_report(result.output)["sets"];
   REQUIRE(sets.size() == 1);
   CHECK(sets[0]["texels"] == 6 * 512 * 512);

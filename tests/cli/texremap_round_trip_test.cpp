@@ -138,11 +138,10 @@ RoundTrip round_trip(const Material& material, const std::vector<std::string>& m
                            "png", "--type", type, "--layout", "specgloss", "-o", at("specgloss")}));
   const std::string packed = at("specgloss/specular_glossiness.png");
   const ProcessResult back =
-      convert(models[1], models[0],
-              {"--diffuse", at("specgloss/diffuse.png"), "--specular", packed, "--glossiness",
-               words_of(packed, ":A"), "--layout", "separate", "--type", "uint8", "--doubts", "doubts.png",
-               "--metallic-width", "width.png", "-o", at("back")});
-  require_success(back);
+      require_success(convert(models[1], models[0],
+                              {"--diffuse", at("specgloss/diffuse.png"), "--specular", packed, "--glossiness",
+                               words_of(packed, ":A"), "--layout", "separate", "--type", "uint8", "--doubts",
+                               "doubts.png", "--metallic-width", "width.png", "-o", at("back")}));
   std::cout << material.name << ", " << models[0] << " to " << models[1] << " in " << type
             << " and back: " << nlohmann::json::parse(back.output)["metallic_confidence"].dump() << "\n";
   const auto channel_of = [](const std::string& word) {

@@ -64,11 +64,6 @@ class Session {
   TemporaryFolder folder_;
 };
 
-inline void require_success(const ProcessResult& result) {
-  INFO(result.errors);
-  REQUIRE(result.exit_code == 0);
-}
-
 // Converts one texel from Ward to Ashikhmin-Shirley: the roughness, then the specular channels.
 inline std::array<float, 4> converted_texel(float roughness, const std::array<float, 3>& specular) {
   std::array<float, 4> result{};

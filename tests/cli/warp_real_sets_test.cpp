@@ -77,11 +77,10 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[
     CAPTURE(way.source);
     const std::string fit = session.path(std::string("as_") + way.target + ".json"),
                       out = session.path(std::string(way.source) + "_out");
-    const ProcessResult warp = session.remapc({"warp", session.path(way.source), session.path(way.target),
-                                               "--strokes", (strokes / way.source_strokes).string(),
-                                               (strokes / way.target_strokes).string(), "--json", "-o", fit});
-    INFO(warp.errors);
-    REQUIRE(warp.exit_code == 0);
+    const ProcessResult warp =
+        require_success(session.remapc({"warp", session.path(way.source), session.path(way.target),
+                                        "--strokes", (strokes / way.source_strokes).string(),
+                                        (strokes / way.target_strokes).string(), "--json", "-o", fit}));
     const auto report = nlohmann::json::parse(warp.output);
     const auto& found = report["diagnostics"];
     CAPTURE(found.dump());
@@ -95,11 +94,9 @@ TEST_CASE("warps of real sets: BoomBox and a chess king, in both directions", "[
     const bool warned = report["warnings"].dump().find("is folded by the warp") != std::string::npos;
     CHECK(warned == (found["fold_share"] > 0.005));
     const ProcessResult maps =
-        run({REMAP_TEXREMAP, "convert", session.path(way.source), "--fit", fit, "--from-workflow", "metallic",
-             "--type", "float", "--format", "exr", "-o", out},
-            {});
-    INFO(maps.errors);
-    REQUIRE(maps.exit_code == 0);
+        require_success(run({REMAP_TEXREMAP, "convert", session.path(way.source), "--fit", fit,
+                             "--from-workflow", "metallic", "--type", "float", "--format", "exr", "-o", out},
+                            {}));
     const std::string stem = out + "/" + way.stem;
     check_range(stem + "_diffuse.exr", 3);
     check_range(stem + "_specular.exr", 3);

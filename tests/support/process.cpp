@@ -3,6 +3,7 @@
 #include <csignal>
 #include <fcntl.h>
 #include <fstream>
+#include <iterator>
 #include <linux/capability.h>
 #include <sstream>
 #include <stdexcept>
@@ -95,6 +96,11 @@ void Process::collect(int status, long peak_kilobytes) {
   result.errors = content(folder_.path() / "errors");
   result.peak_kilobytes = peak_kilobytes;
   result_ = std::move(result);
+}
+
+std::vector<std::string> split_words(const std::string& command) {
+  std::istringstream stream(command);
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 ProcessResult run(const std::vector<std::string>& arguments, const ProcessLimits& limits) {

@@ -8,6 +8,8 @@
 #include <sys/types.h>
 #include <vector>
 
+#include <catch2/catch.hpp>
+
 #include "support/temporary_folder.hpp"
 
 namespace remap {
@@ -48,7 +50,18 @@ class Process {
   void collect(int status, long peak_kilobytes);
 };
 
+// The words of a command, which has blanks between them and no quotes.
+std::vector<std::string> split_words(const std::string& command);
+
 // Starts it and waits for it.
 ProcessResult run(const std::vector<std::string>& arguments, const ProcessLimits& limits = {});
+
+// The result of a program that must have ended with exit code 0. Else the test ends with what the program
+// said.
+inline ProcessResult require_success(ProcessResult result) {
+  INFO(result.errors);
+  REQUIRE(result.exit_code == 0);
+  return result;
+}
 
 }  // namespace remap
