@@ -1,5 +1,6 @@
 #include "manifest/lock.hpp"
 
+#include "remap/error.hpp"
 #include "system/files.hpp"
 #include "text/json_field.hpp"
 

@@ -1,5 +1,6 @@
 // The file of converters: one number has one text, and what a review compares stands on a line of its own.
 #include <algorithm>
+#include <cmath>
 
 #include "converter_data/converter_data.hpp"
 #include "fit_file/fit_fields.hpp"

@@ -89,6 +89,19 @@ std::size_t Json::size() const {
   return 0;
 }
 
+namespace {
+
+// `at line 2, column 1: unexpected end of input` of `[json.exception.parse_error.101] parse error at line 2,
+// column 1: syntax error while parsing value - unexpected end of input`.
+std::string place_and_reason(std::string text) {
+  constexpr std::string_view kStart = "parse error ", kSyntax = "syntax error while parsing value - ";
+  if (const std::size_t at = text.find(kStart); at != std::string::npos) text.erase(0, at + kStart.size());
+  if (const std::size_t at = text.find(kSyntax); at != std::string::npos) text.erase(at, kSyntax.size());
+  return text;
+}
+
+}  // namespace
+
 // What a parser of the library says of a text, as a value.
 class JsonBuilder {
  public:
@@ -115,7 +128,7 @@ class JsonBuilder {
   bool end_object() { return close(); }
   bool end_array() { return close(); }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& failure) {
-    reason = failure.what();
+    reason = place_and_reason(failure.what());
     return false;
   }
 

@@ -92,7 +92,7 @@ class Json {
 // Whether JSON can hold a text as it is.
 bool is_utf8(const std::string& text);
 
-// Why a text was refused: the words of the library, which quote the text.
+// Where and why a text was refused: `at line 2, column 1: unexpected end of input`. It quotes the text.
 struct JsonFault {
   std::string reason;
 };

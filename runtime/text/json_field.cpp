@@ -39,7 +39,7 @@ Json parse_json(std::string_view text, const std::string& place) {
     refuse("invalid JSON: nested deeper than " + std::to_string(kDeepestJson) + " levels");
   std::variant<Json, JsonFault> parsed = json_of(text);
   if (const auto* fault = std::get_if<JsonFault>(&parsed))
-    refuse("invalid JSON: " + plain(fault->reason, kLongestReason));
+    refuse("invalid JSON " + plain(fault->reason, kLongestReason));
   return std::get<Json>(std::move(parsed));
 }
 

@@ -66,11 +66,13 @@ std::string fault_of_bmp(std::FILE* file) {
     return "";
   constexpr unsigned kSizeOfOldHeader = 12;  // which has no compression
   if (head[14] == kSizeOfOldHeader) return "";
-  const unsigned bits = head[kBits] | head[kBits + 1] << 8u,
-                 compression = head[kCompression] | head[kCompression + 1] << 8u;
+  const auto number = [&head](std::size_t at) {  // of 16 bits
+    return static_cast<unsigned>(head[at]) | static_cast<unsigned>(head[at + 1]) << 8u;
+  };
+  const unsigned bits = number(kBits), compression = number(kCompression);
   const bool fits = compression == 0 || (compression == 1 && bits == 8) || (compression == 2 && bits == 4) ||
                     (compression == 3 && (bits == 16 || bits == 32));
-  if (fits && head[kCompression + 2] == 0 && head[kCompression + 3] == 0) return "";
+  if (fits && number(kCompression + 2) == 0) return "";
   return "is damaged, or of an unknown kind: compression " + std::to_string(compression) + " of " +
          std::to_string(bits) + " bits";
 }
