@@ -19,9 +19,7 @@ int main(int argc, char** argv) {
   remapc::add_check_command(app);
   remapc::add_fit_command(app);
   remapc::add_compare_command(app);
-  remapc::add_import_command(app);
   remapc::add_emit_command(app);
-  remapc::add_export_command(app);
   remapc::add_chain_command(app);
   remapc::add_invert_command(app);
   remapc::add_build_command(app);

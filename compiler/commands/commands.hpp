@@ -2,9 +2,6 @@
 // work and throws remap::Error.
 #pragma once
 
-#include <memory>
-#include <utility>
-
 #include "command_line/command.hpp"
 
 namespace remapc {
@@ -17,13 +14,7 @@ inline constexpr const char* kLookStage = "Look";
 inline constexpr const char* kRendererStage = "Renderers";
 inline constexpr const char* kWarpStage = "Warp";
 
-// Gives a command its work, `run(options)`. Returns the options, which live as long as the command.
-template <typename Options, typename Run>
-Options& set_work(remap::Command& command, const Run& run) {
-  const auto options = std::make_shared<Options>();
-  command.callback([options, run] { run(std::as_const(*options)); });
-  return *options;
-}
+using remap::set_work;
 
 void add_sweep_command(remap::Command& app);
 void add_sample_command(remap::Command& app);
@@ -32,10 +23,8 @@ void add_check_command(remap::Command& app);
 
 void add_fit_command(remap::Command& app);
 void add_compare_command(remap::Command& app);
-void add_import_command(remap::Command& app);
 
 void add_emit_command(remap::Command& app);
-void add_export_command(remap::Command& app);
 void add_chain_command(remap::Command& app);
 void add_invert_command(remap::Command& app);
 void add_build_command(remap::Command& app);

@@ -23,7 +23,6 @@ struct EmitCommand {
   std::filesystem::path output = "generated";
   bool all = false, check = false;
   double tolerance = 1e-5;
-  EmitOptions code;
 };
 
 struct GeneratedFile {
@@ -40,19 +39,14 @@ FitFolder chosen_fits(const EmitCommand& options) {
 
 std::vector<GeneratedFile> generate(const EmitCommand& options) {
   const FitFolder chosen = chosen_fits(options);
-  EmitOptions code = options.code;
-  code.lowering.alpha_tolerance = options.tolerance;
-  code.lowering.specular_tolerance = 10.0 * options.tolerance;
   std::vector<GeneratedFile> files;
   std::vector<remap::ConverterData> converters;
   const auto add_header = [&](const auto& fit, std::string text) {
     files.push_back({options.output / (fit.id + ".hpp"), std::move(text)});
   };
   for (const remap::Fit& fit : chosen.fits) {
-    if (code.exact) add_header(fit, emit_header(fit, code));
-    if (code.exact && !options.all) continue;
-    const remap::Lowered lowered = remap::lower(fit, code.lowering);
-    if (!code.exact) add_header(fit, emit_lowered_header(fit, lowered));
+    const remap::Lowered lowered = remap::lower(fit, {options.tolerance, 10.0 * options.tolerance});
+    add_header(fit, emit_lowered_header(fit, lowered));
     converters.push_back(remap::converter_data(fit, lowered));
   }
   for (const remap::WorkflowFit& fit : chosen.analytic) add_header(fit, emit_header(fit));
@@ -125,27 +119,14 @@ void add_emit_command(remap::Command& app) {
       "Write nothing; exit code 1 if a header, or with --all converters.json, is missing or differs "
       "from what the fits give");
   command->option_group(remap::kRareOptions);
-  remap::Option* lower =
-      command
-          ->add_option(
-              "--lower", options->tolerance,
-              "Largest proven deviation of the header's polynomials from the fit: absolute for target "
-              "alpha, and ten times it relative to the largest target specular")
-          ->positive()
-          ->capture_default_str();
   command
-      ->add_flag("--exact", options->code.exact,
-                 "Emit the mapping as it was fitted: support vectors, layers or exponentials; not for "
-                 "series, chains and "
-                 "fits that reach a limit of their target")
-      ->excludes(lower);
-  command
-      ->add_option("--table-limit", options->code.lowering.table_limit,
-                   "Most numbers of a lowered output; a fit that needs more is an error")
+      ->add_option("--lower", options->tolerance,
+                   "Largest proven deviation of the header's polynomials from the fit: absolute for target "
+                   "alpha, and ten times it relative to the largest target specular")
       ->positive()
       ->capture_default_str();
   command->footer(
-      "--lower, --exact and --table-limit do not affect fits of kind analytic or warp.\n\n"
+      "--lower does not affect fits of kind analytic or warp.\n\n"
       "Example:\n"
       "  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n"
       "  remapc emit --all --check");

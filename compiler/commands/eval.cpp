@@ -1,4 +1,5 @@
-// `remapc eval` prints how well a fit follows a table.
+// `remapc eval` prints how well a fit follows a table, or what it gives on a grid.
+#include <array>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -9,8 +10,11 @@
 #include "fit/fit_table.hpp"
 #include "fit/rows/split.hpp"
 #include "manifest/fit_folder.hpp"
+#include "model/interpreter.hpp"
+#include "system/files.hpp"
 #include "table/row_regime.hpp"
 #include "text/errors.hpp"
+#include "text/number_text.hpp"
 
 namespace remapc {
 namespace {
@@ -19,11 +23,44 @@ struct EvalOptions {
   std::string fit;
   TableInput table;
   std::filesystem::path fit_folder = "fits";
+  std::size_t grid = 0;  // steps of each parameter; 0: errors on the table
+  std::filesystem::path output;
   bool json = false;
 };
 
-void run(const EvalOptions& options) {
-  const remap::Fit fit = find_fit(options.fit, options.fit_folder);
+// The converted values of a grid over the domain, in the models' own parameters.
+std::string grid_text(const remap::Fit& fit, std::size_t steps) {
+  const auto at = [steps](const remap::Range& range, std::size_t step) {
+    const double share = static_cast<double>(step) / static_cast<double>(steps - 1);
+    return step + 1 == steps ? range.max : range.min + (range.max - range.min) * share;
+  };
+  const auto names = [](const std::string& prefix, const remap::ModelSide& side) {
+    return prefix + std::string(convention_name(side.roughness)) + "," + prefix + side.specular;
+  };
+  std::string text = names("source_", fit.source) + "," + names("target_", fit.target) + "\n";
+  for (std::size_t i = 0; i < steps; ++i)
+    for (std::size_t j = 0; j < steps; ++j) {
+      const double width = at(own_roughness_range(fit), i);
+      const std::array<double, 1> specular = {at(specular_range(fit), j)};
+      std::array<double, 1> out{};
+      const double target_width = evaluate_texel(fit, width, specular, out);
+      text += remap::number_text(width) + "," + remap::number_text(specular[0]) + "," +
+              remap::number_text(target_width) + "," + remap::number_text(out[0]) + "\n";
+    }
+  return text;
+}
+
+void write_grid(const remap::Fit& fit, const EvalOptions& options) {
+  const std::string text = grid_text(fit, options.grid);
+  if (options.output.empty()) {
+    std::cout << text;
+    return;
+  }
+  remap::create_parent(options.output);
+  remap::write_file(options.output, text);
+}
+
+void print_errors(const remap::Fit& fit, const EvalOptions& options) {
   std::string bytes;
   const Table table = options.table.read(&bytes);
   const std::vector<TableRow> usable = answer_rows(table), rows = rows_inside(usable, fit.domain);
@@ -53,18 +90,40 @@ void run(const EvalOptions& options) {
   print(fit.target.specular, errors.specular);
 }
 
+void run(const EvalOptions& options) {
+  if (options.table.path.empty() == (options.grid == 0))
+    throw usage_error("eval: name a table, or use --grid");
+  if (options.grid == 0 && !options.output.empty())
+    throw usage_error("--output can only be used with --grid");
+  const remap::Fit fit = find_fit(options.fit, options.fit_folder);
+  if (options.grid == 0)
+    print_errors(fit, options);
+  else
+    write_grid(fit, options);
+}
+
 }  // namespace
 
 void add_eval_command(remap::Command& app) {
   remap::Command* command =
-      app.add_subcommand("eval", "Print the errors of a fit on the usable rows of a table", kLookStage);
+      app.add_subcommand("eval", "Print the errors of a fit on a table, or its values on a grid", kLookStage);
   EvalOptions& options = set_work<EvalOptions>(*command, run);
   command->add_option("fit", options.fit, "Fit: file, or id in the folder of fits")->required();
-  options.table.add_options(*command);
+  options.table.add_options(*command, false);
   command->add_option("--fits FOLDER", options.fit_folder, "Folder where ids are looked up");
   command->option_group("Output");
+  command
+      ->add_option(
+          "--grid N", options.grid,
+          "Print converted values as CSV instead: N x N of the source's parameters in even steps over "
+          "the domain")
+      ->range(std::size_t{2}, std::size_t{1024});
+  command->add_option("-o,--output FILE", options.output,
+                      "File for the values of --grid (default: standard output)");
   command->add_flag("--json", options.json, "Print the figures as JSON to standard output");
-  command->footer("Example:\n  remapc eval fits/mitsuba_ward_to_mitsuba_as.json other.csv");
+  command->footer(
+      "Example:\n  remapc eval fits/mitsuba_ward_to_mitsuba_as.json other.csv\n"
+      "  remapc eval mitsuba_ward_to_mitsuba_as --grid 33 -o ward_to_as.csv");
 }
 
 }  // namespace remapc

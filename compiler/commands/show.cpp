@@ -177,10 +177,8 @@ void print_method(const remap::Fit& fit) {
 
 std::string rows_text(const remap::Fit& fit) {
   if (fit.split.held_out_rows == 0) return "its steps (errors propagated)";
-  return "its table: " + std::to_string(fit.split.held_out_rows) + " rows " +
-         (fit.split.trained_rows == 0 ? "(trained elsewhere)"
-                                      : "held out (" + std::to_string(fit.split.trained_rows) +
-                                            " trained, seed " + std::to_string(fit.split.seed) + ")");
+  return "its table: " + std::to_string(fit.split.held_out_rows) + " rows held out (" +
+         std::to_string(fit.split.trained_rows) + " trained, seed " + std::to_string(fit.split.seed) + ")";
 }
 
 void print_lowering(const remap::Fit& fit) {

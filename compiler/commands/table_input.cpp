@@ -7,8 +7,9 @@
 
 namespace remapc {
 
-void TableInput::add_options(remap::Command& app) {
-  app.add_option("table", path, "CSV table, of remapc sweep or of another program")->required();
+void TableInput::add_options(remap::Command& app, bool is_required) {
+  remap::Option* table = app.add_option("table", path, "CSV table, of remapc sweep or of another program");
+  if (is_required) table->required();
   app.option_group("Input");
   app.add_option("--columns MAP", columns,
                  "Names of columns in the file: sztrajman-2019 (the published table), or OWN=FILE,...");

@@ -13,7 +13,8 @@ struct TableInput {
   std::string columns;         // preset or own=file pairs; empty: own names
   std::string source, target;  // models; empty: as the table names them
 
-  void add_options(remap::Command& app);
+  // `is_required`: whether the command needs a table.
+  void add_options(remap::Command& app, bool is_required = true);
 
   // Reads the file once. `bytes`, if not null, receives its content. Throws kInput and kUsage as parse_table
   // does; a table of named parameters is an error.

@@ -108,13 +108,11 @@ RuleParts parts_of(const ConverterHeader& header, const MappingCode& code) {
       return {fill_template(kTermsFunctions, {{"alpha_by_specular", by_specular}}),
               code_files({"scale", "texels", "terms"})};
     case CodeForm::kRegimes:
-      return {fill_template(kTermsFunctions, {{"alpha_by_specular", by_specular}}) +
-                  regime_functions(std::get<remap::Lowered>(header.mapping.code)),
-              code_files({"scale", "texels", "regimes"})};
-    case CodeForm::kRows:
       break;
   }
-  return {"", code_files({"scale", "rows_block"})};
+  return {
+      fill_template(kTermsFunctions, {{"alpha_by_specular", by_specular}}) + regime_functions(header.mapping),
+      code_files({"scale", "texels", "regimes"})};
 }
 
 }  // namespace

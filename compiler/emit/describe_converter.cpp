@@ -71,19 +71,21 @@ HeaderEnd end_of(const remap::ModelSide& side) {
         side.specular == "f0" ? "reflectance at normal incidence, linear" : "specular reflectance, linear"}}};
 }
 
-HeaderData described(const Fit& fit, MappingData mapping) {
+}  // namespace
+
+HeaderData describe(const Fit& fit, const remap::Lowered& lowered) {
   HeaderData data;
   data.id = fit.id;
   data.title = fit.source.model + " to " + fit.target.model +
                ": which parameters of the second give the same picture as those of the first.";
-  data.provenance = provenance(fit, mapping.description);
+  data.provenance = provenance(fit, mapping_text(lowered));
   data.source = end_of(fit.source);
   data.target = end_of(fit.target);
-  for (const remap::GoldenTexel& g : golden_texels(fit, mapping.alpha_error, mapping.specular_error))
+  for (const remap::GoldenTexel& g : golden_texels(fit, lowered.alpha_bound(), lowered.specular_bound()))
     data.golden.push_back(
         {{g.width, g.specular}, {g.width_out, g.specular_out}, {g.width_within, g.specular_within}});
   ConverterHeader header;
-  header.mapping = std::move(mapping);
+  header.mapping = lowered;
   header.source = fit.source.roughness;
   header.target = fit.target.roughness;
   header.width = own_roughness_range(fit);
@@ -97,20 +99,6 @@ HeaderData described(const Fit& fit, MappingData mapping) {
     header.image_rms_error = remap::rounded_up(fit.image_similarity->image_error.rms, 2);
   data.code = std::move(header);
   return data;
-}
-
-}  // namespace
-
-HeaderData describe(const Fit& fit, const remap::Lowered& lowered) {
-  return described(fit, lowered_mapping(lowered));
-}
-
-HeaderData describe_exact(const Fit& fit) {
-  if (reaches_limit(fit))
-    throw remap::Error(
-        remap::ErrorKind::kUsage,
-        "emit: " + fit.id + " reaches a limit of its target and has no exact form (remove --exact)");
-  return described(fit, exact_mapping(fit.mapping, fit.domain));
 }
 
 }  // namespace remapc

@@ -8,9 +8,8 @@
 
 namespace remapc {
 
-std::string emit_header(const remap::Fit& fit, const EmitOptions& options) {
-  if (options.exact) return fill(describe_exact(fit));
-  return emit_lowered_header(fit, remap::lower(fit, options.lowering));
+std::string emit_header(const remap::Fit& fit, const remap::LoweringOptions& options) {
+  return emit_lowered_header(fit, remap::lower(fit, options));
 }
 
 std::string emit_lowered_header(const remap::Fit& fit, const remap::Lowered& lowered) {

@@ -12,15 +12,10 @@
 
 namespace remapc {
 
-struct EmitOptions {
-  bool exact = false;               // the mapping as it was fitted; otherwise lowered
-  remap::LoweringOptions lowering;  // where it is lowered
-};
-
 // The generated header `<id>.hpp`. Throws kNumeric where a number is not finite as a float or the mapping
 // cannot be lowered within the tolerance, kInput where a specular parameter has a name that the header uses
 // itself.
-std::string emit_header(const remap::Fit& fit, const EmitOptions& options = {});
+std::string emit_header(const remap::Fit& fit, const remap::LoweringOptions& options = {});
 
 // The same header from polynomials to which fit.mapping was lowered already.
 std::string emit_lowered_header(const remap::Fit& fit, const remap::Lowered& lowered);

@@ -76,8 +76,7 @@ struct Body {
 
 Body body_of(const HeaderData& data, const ConverterHeader& header) {
   const Parameters &in = data.source.parameters, &out = data.target.parameters;
-  const MappingCode code =
-      std::visit([](const auto& mapping) { return mapping_code(mapping); }, header.mapping.code);
+  const MappingCode code = mapping_code(header.mapping);
   const auto golden = [](const GoldenValues& texel) {
     return "{" + numbers(texel.in) + ", " + numbers(texel.out) + ", " + numbers(texel.within) + "},\n";
   };
@@ -99,7 +98,6 @@ Body body_of(const HeaderData& data, const ConverterHeader& header) {
                                                      {"roughness_max", literal(header.width.max)},
                                                      {"specular_min", literal(header.specular.min)},
                                                      {"specular_max", literal(header.specular.max)},
-                                                     {"block_size", std::to_string(code.block)},
                                                      {"mapping", code.functions},
                                                      {"block", block_code(header, in[1].name, code)},
                                                      {"golden_count", std::to_string(data.golden.size())},

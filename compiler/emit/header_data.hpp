@@ -12,32 +12,9 @@
 
 namespace remapc {
 
-// An exponential whose product of rate and range is at most this is computed as its series: 1 - exp(-x) would
-// cancel.
-inline constexpr double kSeriesLimit = 0.5;
-
-// Mappings as they were fitted, with what their code needs beside them.
-struct FittedCurves {
-  remap::Parametric form;
-  double largest_alpha = 1.0;  // of the domain
-};
-struct FittedGaussians {
-  remap::Svr svr;
-  // exp(-x) is computed as exp(-x / 2^k) squared k times, where x would leave the range of the exponential.
-  int alpha_squarings = 0, specular_squarings = 0;
-};
-
-// How a header computes a mapping of width and specular.
-struct MappingData {
-  std::variant<remap::Lowered, FittedCurves, FittedGaussians, remap::Mlp> code;  // networks are folded()
-  std::string description;  // how it is computed, and how exactly; up to two lines
-  // Bounds of the difference between header and fit: target alpha, target specular within the domain.
-  double alpha_error = 1e-6, specular_error = 1e-6;
-};
-
 // A converter of width and specular.
 struct ConverterHeader {
-  MappingData mapping;
+  remap::Lowered mapping;
   remap::RoughnessConvention source = remap::RoughnessConvention::kAlpha;
   remap::RoughnessConvention target = remap::RoughnessConvention::kAlpha;
   remap::Range width, specular;    // covered, in the source's own parameters
@@ -76,12 +53,9 @@ struct HeaderData {
   std::variant<ConverterHeader, remap::WorkflowConversion, WarpHeader> code;  // a network is folded()
 };
 
-// The header of a fit whose mapping was lowered. Throws kInput where a specular parameter has a name that the
+// The header of a fit that was lowered. Throws kInput where a specular parameter has a name that the
 // header uses itself.
 HeaderData describe(const remap::Fit& fit, const remap::Lowered& lowered);
-// The header of the mapping as it was fitted. Throws kUsage for a chain, which is one pass as polynomials
-// only.
-HeaderData describe_exact(const remap::Fit& fit);
 // Throw kInput for what require_valid() refuses.
 HeaderData describe(const remap::WorkflowFit& fit);
 HeaderData describe(const remap::WarpMapFit& fit);
@@ -91,8 +65,8 @@ std::string fill(const HeaderData& data);
 
 // Parts of describe(). Errors are rounded up to two digits.
 std::string two_digits(double error);
-MappingData lowered_mapping(const remap::Lowered& lowered);
-MappingData exact_mapping(const remap::MappingKind& mapping, const remap::Domain& domain);
+// How the polynomials compute the mapping, and how exactly; up to five lines.
+std::string mapping_text(const remap::Lowered& lowered);
 
 // The network with its scalings in the weights: the first layer takes raw inputs, after the poles of their
 // scalings, and the last gives raw outputs.

@@ -12,6 +12,40 @@ namespace {
 using remap::float_literal;
 using remap::PiecewisePolynomial;
 
+constexpr std::string_view kFunction = R"(
+@comment@
+@table@
+inline float @name@(@parameters@) noexcept {
+  @statements@
+}
+)";
+
+// An inline function of floats. Its statements end with a return.
+struct FunctionParts {
+  std::string comment, table;  // before it; empty for none
+  std::string name;
+  std::string parameters;
+  std::string statements;
+};
+
+std::string function_code(const FunctionParts& parts) {
+  return fill_template(kFunction, {{"comment", parts.comment},
+                                   {"table", parts.table},
+                                   {"name", parts.name},
+                                   {"parameters", parts.parameters},
+                                   {"statements", parts.statements}});
+}
+
+// `float RESULT`, a polynomial of `variable` with these coefficients, by Horner's rule from the highest down:
+// every product feeds one sum, so that a compiler that fuses, fuses the same in every copy of the loop.
+std::string horner_code(const std::vector<std::string>& coefficients, const std::string& result,
+                        const std::string& variable) {
+  std::string text = "float " + result + " = " + coefficients.back() + ";\n";
+  for (std::size_t i = coefficients.size() - 1; i-- > 0;)
+    text += result + " = " + result + " * " + variable + " + " + coefficients[i] + ";\n";
+  return text;
+}
+
 bool depends_on_alpha(const PiecewisePolynomial& polynomial) {
   return polynomial.cell_count > 1 || std::any_of(polynomial.degrees.begin(), polynomial.degrees.end(),
                                                   [](int degree) { return degree > 0; });
@@ -117,21 +151,23 @@ std::string slope_code(const PiecewisePolynomial& specular) {
                         variable(specular, "kSpecularTable") + factors_code(specular, 1) + "return c1;\n"});
 }
 
+// `struct Terms`, specular_terms() and target_specular().
 std::string polynomial_terms(const PiecewisePolynomial& specular, CodeForm form) {
-  TermsParts parts;
-  parts.comment =
-      R"(// Target specular is a polynomial in the source's specular; its coefficients are polynomials of alpha, the same for all
-// channels: one row of a block for each power.)";
-  parts.table = cell_table(specular, "kSpecularTable");
-  parts.names = factor_names(specular);
-  if (form == CodeForm::kRegimes) parts.more_rows = code_file("regime_rows");
-  parts.uses_alpha = depends_on_alpha(specular);
-  parts.statements = variable(specular, "kSpecularTable") + factors_code(specular);
-  parts.uses_specular = parts.names.size() > 1;
+  const std::vector<std::string> names = factor_names(specular);
+  const auto row = [](const std::string& name) { return name + "[kBlock]"; };
+  const auto store = [](const std::string& name) { return "terms." + name + "[i] = " + name + ";\n"; };
   std::vector<std::string> stored;
-  for (const std::string& name : parts.names) stored.push_back("terms." + name + "[i]");
-  parts.sum = sum_code(specular, stored);
-  return terms_code(parts);
+  for (const std::string& name : names) stored.push_back("terms." + name + "[i]");
+  return "\n" + fill_template(
+                    code_file("specular_terms"),
+                    {{"table", cell_table(specular, "kSpecularTable")},
+                     {"rows", joined(names, ", ", row)},
+                     {"more_rows", std::string(form == CodeForm::kRegimes ? code_file("regime_rows") : "")},
+                     {"alpha", depends_on_alpha(specular) ? "const float alpha = terms.alpha[i];" : ""},
+                     {"statements", variable(specular, "kSpecularTable") + factors_code(specular)},
+                     {"store", joined(names, "", store)},
+                     {"specular", names.size() > 1 ? "float specular" : "float"},
+                     {"sum", sum_code(specular, stored)}});
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
-// Networks as fitted: a loop over the units of each layer, rows of texels innermost.
-#include <algorithm>
-
+// Networks: a loop over the units of each layer, rows of texels innermost.
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
 
@@ -12,14 +10,6 @@ using remap::Network;
 
 constexpr std::size_t kCacheFloats = 6144;  // of rows: three quarters of a first-level cache of 32 KB
 constexpr std::size_t kUnitsAtOnce = 4;     // hidden units between two layers, `two_layers` in layers.in
-
-// A network behind the signature that the domain rule calls.
-constexpr std::string_view kRowsWrapper = R"(
-inline void @name@(std::size_t count, const float* alpha, const float* specular, float* out) noexcept {
-  const float* const in[] = {alpha, specular};
-  @network@(count, in, &out);
-}
-)";
 
 std::string layer_table(const std::string& name, const Layer& layer) {
   std::vector<std::string> numbers;
@@ -88,20 +78,6 @@ int network_block(const Network& network) {
   for (std::size_t l = 1; l < network.layers.size(); ++l) rows += network.layers[l].output_count();
   while (block > 16 && block * rows > kCacheFloats) block /= 2;
   return static_cast<int>(block);
-}
-
-MappingCode mapping_code(const remap::Mlp& mlp) {
-  const auto wrapper = [](const std::string& name, const std::string& network) {
-    return fill_template(kRowsWrapper, {{"name", name}, {"network", network}});
-  };
-  MappingCode code;
-  code.form = CodeForm::kRows;
-  code.block = std::min(network_block(mlp.alpha), network_block(mlp.specular));
-  code.functions = network_helpers(mlp.specular.activation) + network_function("alpha_network", mlp.alpha) +
-                   network_function("specular_network", mlp.specular) +
-                   wrapper("target_alpha_rows", "alpha_network") +
-                   wrapper("target_specular_rows", "specular_network");
-  return code;
 }
 
 }  // namespace remapc

@@ -1,10 +1,27 @@
 #include "command_line/command.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
+#include "remap/error.hpp"
+#include "text/nearest_name.hpp"
+
 namespace remap {
+namespace {
+
+// `--output` of `-o,--output FILE`, `DIR` of `DIR`.
+std::string name_of(const CLI::Option& option) {
+  return option.get_lnames().empty() ? option.get_name(true) : "--" + option.get_lnames().front();
+}
+
+}  // namespace
+
+void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
+                  const std::vector<std::string>& known) {
+  throw Error(ErrorKind::kUsage, option + ": unknown " + noun + " '" + word + "'" + suggestion(word, known));
+}
 
 Option* Option::required() {
   option_->required();
@@ -48,6 +65,21 @@ Option* Option::type_name(const std::string& name) {
 
 Option* Option::excludes(Option* other) {
   option_->excludes(other->option_);
+  return this;
+}
+
+Option* Option::needs(Option* other) {
+  option_->needs(other->option_);
+  return this;
+}
+
+Option* Option::default_text(const std::string& text) {
+  option_->default_str(text);
+  return this;
+}
+
+Option* Option::tag(OptionTags tags) {
+  tags_ |= tags;
   return this;
 }
 
@@ -128,17 +160,35 @@ Option* Command::add_flag(const std::string& names, bool& value, const std::stri
   return keep(app_->add_flag(names, value, description));
 }
 
-Option* Command::add_action(const std::string& names, std::function<void(const std::string&)> take,
-                            const std::string& description) {
-  CLI::Option* option = app_->add_option_function<std::string>(names, take, description);
-  return keep(option->trigger_on_parse());
+Option* Command::add_words(
+    const std::string& names,
+    const std::function<void(const std::string& option, const std::string& word)>& take,
+    const std::vector<std::string>& choices, const std::string& description) {
+  const std::size_t space = names.find(' ');
+  CLI::Option* option = app_->add_option(
+      names.substr(0, space),
+      [take, this, index = options_.size()](const CLI::results_t& words) {
+        for (const std::string& word : words) take(name_of(*options_[index]->option_), word);
+        return true;
+      },
+      description);
+  option->type_name(space == std::string::npos ? "TEXT" : names.substr(space + 1));
+  if (!choices.empty())  // the reader refuses other words, and says what it takes
+    option->check(
+        CLI::Validator([](std::string&) { return std::string(); }, "{" + CLI::detail::join(choices) + "}"));
+  return keep(option);
 }
 
 void Command::group(const std::string& name) { app_->group(name); }
 
 void Command::option_group(const std::string& name) { app_->option_defaults()->group(name); }
 
-Option* Command::option(const std::string& name) { return keep(app_->get_option(name)); }
+Option* Command::option(const std::string& name) {
+  const CLI::Option* wanted = app_->get_option(name);
+  return std::find_if(options_.begin(), options_.end(),
+                      [wanted](const auto& option) { return option->option_ == wanted; })
+      ->get();
+}
 
 void Command::set_version_flag(const std::string& names, const std::string& version) {
   app_->set_version_flag(names, version);
@@ -151,5 +201,14 @@ void Command::footer(const std::string& text) { app_->footer(text); }
 void Command::callback(std::function<void()> work) { app_->callback(std::move(work)); }
 
 std::size_t Command::count(const std::string& option) const { return app_->count(option); }
+
+std::vector<GivenOption> Command::given() const {
+  std::vector<GivenOption> all;
+  for (const auto& option : options_)
+    if (const CLI::Option& own = *option->option_; own.count() > 0)
+      all.push_back({name_of(own), own.get_type_size() == 0 ? "" : CLI::detail::join(own.results(), " "),
+                     option->tags_});
+  return all;
+}
 
 }  // namespace remap

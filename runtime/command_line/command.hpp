@@ -8,8 +8,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "remap/named_values.hpp"
 
 namespace CLI {
 class App;
@@ -29,6 +33,39 @@ concept OptionValue = std::same_as<T, std::string> || std::same_as<T, std::files
     std::same_as<T, std::vector<std::size_t>> || std::same_as<T, std::vector<double>> ||
     std::same_as<T, std::vector<std::filesystem::path>>;
 
+// What follows from the use of an option, as bits that each program defines.
+using OptionTags = unsigned;
+
+// Reads the word of an option into a value. `read` throws kUsage, naming the option (`--type`), for a word
+// that it does not take; `choices` are the words that it takes, where they are few.
+template <typename Value>
+struct Reader {
+  std::function<Value(const std::string& option, const std::string& word)> read;
+  std::vector<std::string> choices;
+};
+
+// Throws kUsage: `option` got `word`, but the `known` names of a `noun` are others.
+[[noreturn]] void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
+                               const std::vector<std::string>& known);
+
+// One of the names in `table`. `noun` is what messages call them: `pixel type`.
+template <typename Value, std::size_t Count>
+Reader<Value> one_of(const NamedValues<Value, Count>& table, const std::string& noun) {
+  return {[&table, noun](const std::string& option, const std::string& word) {
+            const auto value = value_named(table, word);
+            if (!value) fail_unknown(option, noun, word, names_of(table));
+            return *value;
+          },
+          names_of(table)};
+}
+
+// An option that the command line gave.
+struct GivenOption {
+  std::string name;   // `--type`; of words without an option the name in the help
+  std::string words;  // empty for a flag
+  OptionTags tags = 0;
+};
+
 // One option of a command. All functions return the option, so that calls can be chained.
 class Option {
  public:
@@ -47,6 +84,10 @@ class Option {
   Option* type_size(int count);
   Option* type_name(const std::string& name);
   Option* excludes(Option* other);
+  Option* needs(Option* other);
+  // Help shows this default.
+  Option* default_text(const std::string& text);
+  Option* tag(OptionTags tags);
   // The environment variable that gives the value if the option is not given.
   Option* environment(const std::string& name);
   Option* one_of(const std::vector<std::string>& words);
@@ -56,7 +97,9 @@ class Option {
   Option* range(std::size_t min, std::size_t max);
 
  private:
+  friend class Command;
   CLI::Option* option_;
+  OptionTags tags_ = 0;
 };
 
 // A program, or one of its commands, which the program owns.
@@ -72,10 +115,19 @@ class Command {
   // `value` must live until the command has run.
   template <OptionValue T>
   Option* add_option(const std::string& names, T& value, const std::string& description = "");
+  // An option whose words `reader` reads after the whole command line is known to be well-formed. Help lists
+  // the choices of the reader.
+  template <typename Value, typename Read>
+  Option* add_option(const std::string& names, Value& value, const Reader<Read>& reader,
+                     const std::string& description) {
+    return add_words(
+        names,
+        [&value, read = reader.read](const std::string& option, const std::string& word) {
+          value = read(option, word);
+        },
+        reader.choices, description);
+  }
   Option* add_flag(const std::string& names, bool& value, const std::string& description = "");
-  // `take` gets the value as soon as the option is parsed.
-  Option* add_action(const std::string& names, std::function<void(const std::string&)> take,
-                     const std::string& description = "");
   // The heading of the help under which the program lists this command.
   void group(const std::string& name);
   // The heading under which the help of this command lists the options that are added from now on
@@ -89,16 +141,29 @@ class Command {
   void callback(std::function<void()> work);
   // How often the option was given.
   std::size_t count(const std::string& option) const;
+  // The options of the command line, in the order in which they were added.
+  std::vector<GivenOption> given() const;
 
   CLI::App& app() { return *app_; }
 
  private:
   explicit Command(std::shared_ptr<CLI::App> app);
   Option* keep(CLI::Option* option);
+  Option* add_words(const std::string& names,
+                    const std::function<void(const std::string& option, const std::string& word)>& take,
+                    const std::vector<std::string>& choices, const std::string& description);
 
   std::shared_ptr<CLI::App> app_;
   std::vector<std::unique_ptr<Command>> commands_;
   std::vector<std::unique_ptr<Option>> options_;
 };
+
+// Gives a command its work, `run(options)`. Returns the options, which live as long as the command.
+template <typename Options, typename Run>
+Options& set_work(Command& command, const Run& run) {
+  const auto options = std::make_shared<Options>();
+  command.callback([options, run] { run(std::as_const(*options)); });
+  return *options;
+}
 
 }  // namespace remap

@@ -77,7 +77,7 @@ ConverterVector make_converters(InstructionSet set) {
 }  // namespace
 
 void use_converters(const fs::path& path) {
-  if (!fs::exists(path))
+  if (!path.empty() && !fs::exists(path))
     throw Error(ErrorKind::kInput, path.string() +
                                        ": does not exist (name a file of converters, a fit or a folder "
                                        "of fits)");

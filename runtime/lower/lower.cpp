@@ -54,7 +54,6 @@ struct Wanted {
   double specular_max = 1.0;
   double tolerance = 0.0;  // of the output, relative to `unit`
   double unit = 1.0;
-  std::size_t table_limit = 0;
 };
 
 // The polynomial of a Lowered: a factor becomes the coefficient of specular^1.
@@ -129,6 +128,7 @@ class Attempt {
 
 // Shares of the tolerance to which series are truncated. Looser ones come first, because truncation bounds
 // overestimate; tight ones may find a polynomial that still rises.
+constexpr std::size_t kMostNumbers = 2048;  // of the table of one output
 constexpr std::array<double, 6> kCuts = {2.8, 2.0, 1.4, 1.0, 0.25, 0.06};
 
 std::size_t table_size(const Shape& shape) {
@@ -146,7 +146,7 @@ LoweredFunction search(const Wanted& wanted, double tolerance, Attempt* attempt)
     for (const double cut : kCuts) {
       const double sought = cut * tolerance / top;
       for (const Shape& shape : attempt->finder().shapes(sought, size)) {
-        if (table_size(shape) > wanted.table_limit || !(shape.estimate <= 4.0 * sought)) continue;
+        if (table_size(shape) > kMostNumbers || !(shape.estimate <= 4.0 * sought)) continue;
         const LoweredFunction lowered = (*attempt)(shape, tolerance, best.bound <= tolerance);
         if (lowered.bound <= tolerance && attempt->keeps_rising(lowered)) return lowered;
         if (lowered.bound < best.bound) best = lowered;
@@ -159,10 +159,9 @@ std::string digits(double value) { return number_text(rounded_up(value, 2)); }
 
 // Searches growing tolerances for the smallest one that can be met, and throws it.
 [[noreturn]] void refuse(const Wanted& wanted, const LoweredFunction& best, Attempt* attempt) {
-  const std::string limit = std::to_string(wanted.table_limit);
   const std::string found = std::string("lower: ") + wanted.name + " cannot be had within " +
-                            digits(wanted.tolerance) + wanted.unit_text + " with a table of " + limit +
-                            " numbers; ";
+                            digits(wanted.tolerance) + wanted.unit_text + " with a table of " +
+                            std::to_string(kMostNumbers) + " numbers; ";
   constexpr int kTries = 40;
   double reached = std::min(best.bound, 2.0 * attempt->closest()) / wanted.unit;
   double tolerance = 1.5 * wanted.tolerance;
@@ -200,7 +199,6 @@ Wanted wanted_alpha(const Kind& kind, const MappingKind& mapping, const ProofDom
                                 [kind](const auto& a, const auto& s) { return target_alpha(kind, a, s); });
   alpha.domain = domain;
   alpha.tolerance = options.alpha_tolerance;
-  alpha.table_limit = options.table_limit;
   return alpha;
 }
 
@@ -220,7 +218,6 @@ Wanted wanted_specular(const Kind& kind, const MappingKind& mapping, const Proof
       sample(specular.model, specular.domain).largest * (specular.is_factor ? domain.specular.max : 1.0);
   if (largest != 0.0) specular.unit = std::min(largest, limit.value_or(largest));
   specular.tolerance = options.specular_tolerance;
-  specular.table_limit = options.table_limit;
   return specular;
 }
 

@@ -8,12 +8,11 @@ namespace remap {
 struct LoweringOptions {
   double alpha_tolerance = 1e-5;     // absolute, target alpha
   double specular_tolerance = 1e-4;  // relative to the largest target specular over the domain
-  std::size_t table_limit = 2048;    // coefficients of one output
 };
 
 // Lowers both outputs of a mapping. If the mapping rises with alpha or with specular (on a dense grid), the
 // polynomials do, too (proven), if a shape within the tolerance does. Throws kNumeric if a tolerance cannot
-// be met within the table limit; the message has one with which lowering succeeds.
+// be met by a table of 2048 numbers; the message has one with which lowering succeeds.
 Lowered lower(const MappingKind& mapping, const Domain& domain, const LoweringOptions& options = {});
 
 // The same with the regimes of the fit, each over the part of the domain where it is evaluated.

@@ -249,7 +249,7 @@ std::map<fs::path, fs::path> TreeJobs::outputs(const FoundSet& set) const {
 
 // --roughness-encoding speaks of maps that are found as roughness.
 void TreeJobs::require_encoding_used() const {
-  if (options_.encoding.empty() || converted_.empty()) return;
+  if (!options_.roughness_encoding || converted_.empty()) return;
   const auto speaks_of = [](const FoundSet& set) { return !set.width || !convention_of(set.width->role); };
   if (std::none_of(converted_.begin(), converted_.end(), speaks_of))
     throw Error(ErrorKind::kUsage,

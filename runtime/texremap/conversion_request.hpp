@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "remap/instruction_set.hpp"
 #include "texremap/convert_options.hpp"
 #include "texremap/workflow_choice.hpp"
 #include "texture/target_plan.hpp"
@@ -30,9 +29,5 @@ struct WidthSource {
 RoughnessConvention written_width(const ConvertOptions& options, const TargetChoice& choice,
                                   const WidthSource& source, RoughnessConvention usual);
 PassOptions pass_options(const ConvertOptions& options);
-// All options that the results depend on, as on a command line.
-std::string result_options_text(const ConvertOptions& options);
-InstructionSet chosen_instructions(const ConvertOptions& options);
-int thread_count(const ConvertOptions& options);
 
 }  // namespace remap

@@ -13,6 +13,7 @@
 #include "remap/chained_converter.hpp"
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
+#include "remap/shipped_converters.hpp"
 #include "remap/warp_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/conversion_request.hpp"
@@ -89,7 +90,7 @@ void choose_brdf(const ConvertOptions& options, const GivenFit& fit, Instruction
 ChosenConverter choose_converter(const ConvertOptions& options, const GivenFit& fit,
                                  WorkflowChoice workflow) {
   ChosenConverter chosen;
-  const InstructionSet set = chosen_instructions(options);
+  const InstructionSet set = options.instructions;
   chosen.workflow = std::move(workflow);
   if (const WarpMapFit* warp = warp_in(fit)) {
     chosen.material = make_warp_converter(*warp, *chosen.workflow.source, set);
@@ -151,7 +152,7 @@ void convert_values(const ConvertOptions& options, const ChosenConverter& chosen
 
 // Warns if roughness maps of a folder are read in another encoding than most tools write.
 void warn_of_encoding(const ConvertOptions& options, const JobList& list, const ModelSide& source) {
-  if (options.folder.empty() || !options.encoding.empty() ||
+  if (options.folder.empty() || options.roughness_encoding ||
       source.roughness == RoughnessConvention::kRoughness)
     return;
   const bool matters = std::any_of(list.jobs.begin(), list.jobs.end(),
@@ -200,46 +201,19 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
                     "this)");
 }
 
-// Refuses options that speak of files where there are none.
-void require_files(const ConvertOptions& options) {
-  const std::pair<const char*, bool> entries[] = {
-      {"--output", !options.output.empty()},
-      {"--layout", !options.layout.empty()},
-      {"--format", !options.format.empty()},
-      {"--type", !options.type.empty()},
-      {"--only", !options.only.empty()},
-      {"--color-space", !options.color_space.empty()},
-      {"--output-color-space", !options.output_color_space.empty()},
-      {"--mask", !options.mask.empty()},
-      {"--residual", !options.residual.empty()},
-      {"--metallic-width", !options.metallic_width.empty()},
-      {"--doubts", !options.doubts.empty()},
-      {"--smooth-metallic", options.smooth_metallic},
-      {"--resample", options.resample},
-      {"--dither", options.dither},
-      {"--force", options.force},
-      {"--resume", options.resume},
-      {"--dry-run", options.dry_run},
-      {"--histograms", options.histograms}};
-  for (const auto& [option, given] : entries)
-    if (given)
-      throw Error(ErrorKind::kUsage, std::string(option) +
-                                         ": applies to nothing, because all maps are numbers "
-                                         "(give a file, or remove this option)");
-}
-
 void convert(const ConvertOptions& options) {
+  use_converters(options.converters);
   const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_any_fit(options.fit));
   const WarpMapFit* warp = warp_in(fit);
   WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
-  (void)pass_options(options);  // refuses invalid values before any file is read
-  (void)target_choice(options, workflow);
+  (void)target_choice(options, workflow);  // refuses what cannot be written before any file is read
   const TextureSetRequest request = set_request(options, workflow);
   const ChosenConverter chosen = choose_converter(options, fit, std::move(workflow));
   for (const std::string& assumption : chosen.workflow.assumptions) warn(options, assumption);
   print_notes(options, chosen);
   if (options.folder.empty() && are_constants(request)) {
-    require_files(options);
+    refuse(options, kNeedsFiles,
+           ": applies to nothing, because all maps are numbers (give a file, or remove this option)");
     convert_values(options, chosen, request);
   } else {
     convert_maps_of(options, chosen, request);
@@ -249,10 +223,13 @@ void convert(const ConvertOptions& options) {
 }  // namespace
 
 void add_convert_command(Command& app) {
-  auto options = std::make_shared<ConvertOptions>();
   Command* command = app.add_subcommand(
       "convert", "Convert the maps of a material: roughness and specular, or a whole workflow");
-  add_convert_options(*command, *options);
+  ConvertOptions& options = set_work<ConvertOptions>(*command, [command](ConvertOptions given) {
+    given.given = command->given();
+    convert(given);
+  });
+  add_convert_options(*command, options);
   command->footer(
       "MAP is a file, FILE:CHANNEL or FILE:R,G,B of a packed file, or linear numbers (0.5 or 0.9,0.6,0.2). "
       "<UDIM>, %(UDIM)d, <UVTILE>, %04d and #### in a file name stand for all tiles or frames.\n\n"
@@ -272,7 +249,6 @@ void add_convert_command(Command& app) {
       "    --specular 0.04\n"
       "  texremap convert --from gltf-specgloss --to gltf --diffuse d.png \\\n"
       "    --specular sg.png --glossiness sg.png:A --layout orm -o out");
-  command->callback([options] { convert(*options); });
 }
 
 }  // namespace remap

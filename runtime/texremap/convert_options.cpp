@@ -1,176 +1,318 @@
 #include "texremap/convert_options.hpp"
 
-#include <initializer_list>
-#include <variant>
+#include <algorithm>
 
-#include "command_line/command.hpp"
 #include "remap/error.hpp"
 #include "texremap/commands.hpp"
-#include "text/nearest_name.hpp"
+#include "text/number_text.hpp"
 
 namespace remap {
 namespace {
 
-// An option with a value, or a flag.
-struct Entry {
-  const char* names;
-  std::variant<std::string ConvertOptions::*, bool ConvertOptions::*> member;
-  const char* value;  // name of the value in the help; unused for a flag
-  const char* description;
-};
+constexpr NamedValues<PixelType, 4> kWrittenTypes = {{{PixelType::kUint8, "uint8"},
+                                                      {PixelType::kUint16, "uint16"},
+                                                      {PixelType::kHalf, "half"},
+                                                      {PixelType::kFloat, "float"}}};
+constexpr NamedValues<BadTexels, 3> kBadTexels = {
+    {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
+constexpr NamedValues<Parameter, 2> kOnly = {
+    {{Parameter::kWidth, "roughness"}, {Parameter::kSpecular, "specular"}}};
+constexpr NamedValues<Formula, 4> kFormulas = {{{Formula::kProjection, "projection"},
+                                                {Formula::kEquation3, "equation-3"},
+                                                {Formula::kEquation3Mean, "equation-3-mean"},
+                                                {Formula::kKhronos, "khronos"}}};
 
-// Adds options under a heading of the help. `--help` hides groups whose names begin with "Rare".
-void add_group(Command& command, ConvertOptions& options, const char* group,
-               std::initializer_list<Entry> entries) {
-  command.option_group(group);
-  for (const Entry& entry : entries) {
-    if (const auto* text = std::get_if<std::string ConvertOptions::*>(&entry.member))
-      command.add_option(entry.names, options.*(*text), entry.description)->type_name(entry.value);
-    else
-      command.add_flag(entry.names, options.*std::get<bool ConvertOptions::*>(entry.member),
-                       entry.description);
+Reader<MapSource> map_source() {
+  return {[](const std::string& option, const std::string& word) { return parameter_source(option, word); },
+          {}};
+}
+
+Reader<std::vector<float>> factors() {
+  return {[](const std::string& option, const std::string& word) { return parse_factors(option, word); }, {}};
+}
+
+Reader<InstructionSet> instructions() {
+  return {[](const std::string& option, const std::string& word) {
+            return instruction_set_from_name(option, word);
+          },
+          {}};
+}
+
+// The number from 0 to `highest` in `text`; `allowed` tells the user what the option takes.
+double number_of(const std::string& option, const std::string& text, double highest,
+                 const std::string& allowed) {
+  const auto number = parse_number(text);
+  if (!number || !(*number >= 0.0 && *number <= highest))
+    throw Error(ErrorKind::kUsage, option + ": invalid value '" + text + "' (use " + allowed + ")");
+  return *number;
+}
+
+Reader<F0Choice> f0_choice() {
+  return {[](const std::string& option, const std::string& word) -> F0Choice {
+            if (word == "estimate") return FromMaps{};
+            return number_of(option, word, 0.9, "0 to 0.9, or estimate");
+          },
+          {}};
+}
+
+Reader<double> prior() {
+  return {[](const std::string& option, const std::string& word) {
+            if (word == "clean") return kCleanPrior;
+            if (word == "noisy") return kNoisyPrior;
+            return number_of(option, word, kLargestPrior, "clean, noisy, or a number from 0 to 1");
+          },
+          {}};
+}
+
+ColorSpaceWord color_space_word(const std::string& option, const std::string& word) {
+  const std::size_t sign = word.find('=');
+  // Without a sign, npos + 1 is 0: the whole word.
+  const Transfer transfer = one_of(kTransfers, "color space").read(option, word.substr(sign + 1));
+  if (sign == std::string::npos) return {std::nullopt, transfer};
+  const std::string name = word.substr(0, sign);
+  std::vector<std::string> known;
+  for (const Parameter color : {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor}) {
+    known.emplace_back(parameter_name(color));
+    if (known.back() == name) return {color, transfer};
   }
+  fail_unknown(option, "color", name, known);
+}
+
+// A list such as `srgb` or `specular=linear,diffuse=srgb`.
+Reader<std::vector<ColorSpaceWord>> color_spaces() {
+  return {[](const std::string& option, const std::string& words) {
+            std::vector<ColorSpaceWord> all;
+            for (std::size_t begin = 0; begin < words.size();) {
+              const std::size_t end = std::min(words.find(',', begin), words.size());
+              all.push_back(color_space_word(option, words.substr(begin, end - begin)));
+              begin = end + 1;
+            }
+            return all;
+          },
+          {}};
 }
 
 void add_source_options(Command& command, ConvertOptions& options) {
-  using O = ConvertOptions;
-  add_group(
-      command, options, "Source and target",
-      {{"DIR", &O::folder, "", "Folder of texture sets, found by the names of their maps"},
-       {"--from", &O::from, "MODEL", "Source model, e.g. mitsuba/ward"},
-       {"--to", &O::to, "MODEL",
-        "Target model, e.g. mitsuba/as, or a renderer, e.g. cycles-5, for the closest of its models"},
-       {"--fit", &O::fit, "FILE", "Convert by this fit (JSON) instead of a shipped converter"},
-       {"-r,--recursive", &O::recursive, "", "Convert the subfolders of DIR, too; results mirror the tree"}});
-  command.add_option("--via", options.via, "Model that the path must pass through; repeatable, in order")
+  command.option_group("Source and target");
+  command.add_option("DIR", options.folder, "Folder of texture sets, found by the names of their maps");
+  command.add_option("--from MODEL", options.from, "Source model, e.g. mitsuba/ward");
+  command.add_option(
+      "--to MODEL", options.to,
+      "Target model, e.g. mitsuba/as, or a renderer, e.g. cycles-5, for the closest of its models");
+  command.add_option("--fit FILE", options.fit, "Convert by this fit (JSON) instead of a shipped converter");
+  command
+      .add_flag("-r,--recursive", options.recursive,
+                "Convert the subfolders of DIR, too; results mirror the tree")
+      ->tag(kNeedsFolder);
+  command
+      .add_option("--via MODEL", options.via, "Model that the path must pass through; repeatable, in order")
       ->allow_extra_args(false)
-      ->excludes(command.option("--fit"))
-      ->type_name("MODEL");
-  add_converters_option(command);
-  command.option("--converters")->excludes(command.option("--fit"));
+      ->excludes(command.option("--fit"));
+  add_converters_option(command, options.converters)->excludes(command.option("--fit"));
 }
 
 // The footer of the command explains the value MAP.
 void add_map_options(Command& command, ConvertOptions& options) {
-  using O = ConvertOptions;
-  add_group(
-      command, options, "Maps",
-      {{"--roughness", &O::roughness, "MAP", "Roughness of the source model"},
-       {"--glossiness", &O::glossiness, "MAP", "Glossiness, 1 - sqrt(alpha), in place of the roughness"},
-       {"--specular", &O::specular, "MAP",
-        "Specular color; with DIR, numbers for sets without a specular map"},
-       {"--diffuse", &O::diffuse, "MAP", "Diffuse color of a specular workflow; else the file is copied"},
-       {"--base-color", &O::base_color, "MAP", "Base color of a metallic workflow; else the file is copied"},
-       {"--metallic", &O::metallic, "MAP",
-        "Metallic of a metallic workflow; else --layout places it unconverted"},
-       {"--occlusion", &O::occlusion, "MAP", "Ambient occlusion; --layout places it unconverted"},
-       {"--roughness-encoding", &O::encoding, "NAME",
-        "What roughness maps hold: alpha, roughness (its square root), squared, glossiness or exponent "
-        "(default: what the source model takes); maps named glossiness or smoothness hold that"},
-       {"--color-space", &O::color_space, "NAME",
-        "How color maps are read: srgb or linear, or per map: specular=linear,diffuse=srgb (default: as the "
-        "file says, else srgb for whole numbers and linear for half and float)"},
-       {"--resample", &O::resample, "", "Enlarge smaller maps of a set to the largest size, bilinearly"},
-       {"--names", &O::names, "FILE", "More file-name habits for the maps in DIR (JSON)"}});
-  command.option("--glossiness")->excludes(command.option("--roughness"));
+  using P = Parameter;
+  command.option_group("Maps");
+  const auto add_map = [&](const std::string& name, P parameter, const std::string& description) {
+    return command.add_option(name + " MAP", options.maps[parameter], map_source(), description)
+        ->tag(kChangesResults);
+  };
+  add_map("--roughness", P::kWidth, "Roughness of the source model")
+      ->tag(kNotWithFolder | kNotWithDiffuseWarp);
+  add_map("--glossiness", P::kWidth, "Glossiness, 1 - sqrt(alpha), in place of the roughness")
+      ->tag(kNotWithFolder | kNotWithDiffuseWarp)
+      ->excludes(command.option("--roughness"));
+  add_map("--specular", P::kSpecular, "Specular color; with DIR, numbers for sets without a specular map")
+      ->tag(kNotWithDiffuseWarp);
+  add_map("--diffuse", P::kDiffuse, "Diffuse color of a specular workflow; else the file is copied");
+  add_map("--base-color", P::kBaseColor, "Base color of a metallic workflow; else the file is copied");
+  add_map("--metallic", P::kMetallic, "Metallic of a metallic workflow; else --layout places it unconverted");
+  command
+      .add_option("--occlusion MAP", options.occlusion, map_source(),
+                  "Ambient occlusion; --layout places it unconverted")
+      ->tag(kChangesResults);
+  command
+      .add_option("--roughness-encoding NAME", options.roughness_encoding, one_of(kConventions, "encoding"),
+                  "What roughness maps hold; roughness is the square root of alpha (default: what the source "
+                  "model takes); maps named glossiness or smoothness hold that")
+      ->tag(kChangesResults | kNotWithDiffuseWarp)
+      ->excludes(command.option("--glossiness"));
+  command
+      .add_option(
+          "--color-space NAME", options.color_spaces, color_spaces(),
+          "How color maps are read: srgb or linear, or per map: specular=linear,diffuse=srgb (default: "
+          "as the file says, else srgb for whole numbers and linear for half and float)")
+      ->tag(kChangesResults | kNeedsFiles);
+  command
+      .add_flag("--resample", options.resample,
+                "Enlarge smaller maps of a set to the largest size, bilinearly")
+      ->tag(kChangesResults | kNeedsFiles);
+  command.add_option("--names FILE", options.names, "More file-name habits for the maps in DIR (JSON)")
+      ->tag(kChangesResults | kNeedsFolder);
 }
 
 void add_output_options(Command& command, ConvertOptions& options) {
-  using O = ConvertOptions;
-  add_group(
-      command, options, "Output",
-      {{"-o,--output", &O::output, "DIR", "Folder for the results, which keep the names of the inputs"},
-       {"--layout", &O::layout, "NAME",
-        "Files to write: as-inputs, separate, orm, arm or specgloss (default: as-inputs; separate "
-        "between workflows)"},
-       {"--format", &O::format, "EXT", "File extension of the results: exr, tif, png, ..."},
-       {"--type", &O::type, "NAME", "Pixel type of the results: uint8, uint16, half or float"},
-       {"--output-color-space", &O::output_color_space, "NAME",
-        "How colors are written: srgb or linear, or per map (default: whole numbers as the map that they "
-        "follow, else srgb; half and float linear)"},
-       {"--only", &O::only, "NAME", "Write only roughness or only specular"},
-       {"--copy-others", &O::copy_others, "",
-        "With DIR, also copy the maps that are not converted (normal, height, ...)"},
-       {"--force", &O::force, "",
-        "Overwrite existing results (never an input); accept maps that were already converted and a folder "
-        "of "
-        "another conversion"},
-       {"--resume", &O::resume, "",
-        "Skip sets that are done; make anew those whose inputs, options, converter or results changed"},
-       {"--allow-skips", &O::allow_skips, "",
-        "With DIR, sets that are found and not converted do not make the exit code 1"},
-       {"--dry-run", &O::dry_run, "", "List the files that would be written; write nothing"},
-       {"--json", &O::json, "",
-        "Print a report as JSON; of a folder a line for each set as it is finished, then a summary"},
-       {"--histograms", &O::histograms, "", "With --json, also histograms of the values"},
-       {"--quiet", &O::quiet, "", "Print nothing but errors to standard error"}});
+  command.option_group("Output");
+  command
+      .add_option("-o,--output DIR", options.output,
+                  "Folder for the results, which keep the names of the inputs")
+      ->tag(kNeedsFiles);
+  command
+      .add_option("--layout NAME", options.layout, one_of(kLayouts, "layout"),
+                  "Files to write (default: as-inputs; separate between workflows)")
+      ->tag(kChangesResults | kNeedsFiles);
+  command.add_option("--format EXT", options.format, "File extension of the results: exr, tif, png, ...")
+      ->tag(kChangesResults | kNeedsFiles);
+  command
+      .add_option("--type NAME", options.type, one_of(kWrittenTypes, "pixel type"),
+                  "Pixel type of the results")
+      ->tag(kChangesResults | kNeedsFiles);
+  command
+      .add_option(
+          "--output-color-space NAME", options.output_color_spaces, color_spaces(),
+          "How colors are written: srgb or linear, or per map (default: whole numbers as the map that "
+          "they follow, else srgb; half and float linear)")
+      ->tag(kChangesResults | kNeedsFiles);
+  command.add_option("--only NAME", options.only, one_of(kOnly, "parameter"), "Write only this parameter")
+      ->tag(kChangesResults | kNeedsFiles | kNotWithWorkflow);
+  command
+      .add_flag("--copy-others", options.copy_others,
+                "With DIR, also copy the maps that are not converted (normal, height, ...)")
+      ->tag(kChangesResults | kNeedsFolder);
+  command
+      .add_flag("--force", options.force,
+                "Overwrite existing results (never an input); accept maps that were already converted and a "
+                "folder of another conversion")
+      ->tag(kNeedsFiles);
+  command
+      .add_flag(
+          "--resume", options.resume,
+          "Skip sets that are done; make anew those whose inputs, options, converter or results changed")
+      ->tag(kNeedsFiles);
+  command
+      .add_flag("--allow-skips", options.allow_skips,
+                "With DIR, sets that are found and not converted do not make the exit code 1")
+      ->tag(kNeedsFolder);
+  command.add_flag("--dry-run", options.dry_run, "List the files that would be written; write nothing")
+      ->tag(kNeedsFiles);
+  Option* json = command.add_flag(
+      "--json", options.json,
+      "Print a report as JSON; of a folder a line for each set as it is finished, then a summary");
+  command.add_flag("--histograms", options.histograms, "With --json, also histograms of the values")
+      ->tag(kNeedsFiles)
+      ->needs(json);
+  command.add_flag("--quiet", options.quiet, "Print nothing but errors to standard error");
 }
 
 void add_workflow_options(Command& command, ConvertOptions& options) {
-  using O = ConvertOptions;
-  add_group(
-      command, options, "Whole materials (metallic and specular workflows)",
-      {{"--from-workflow", &O::from_workflow, "NAME",
-        "Workflow around the source model: specular (diffuse, specular) or metallic (base color, metallic)"},
-       {"--to-workflow", &O::to_workflow, "NAME", "Workflow around the target model"},
-       {"--dielectric-f0", &O::dielectric_f0, "VALUE",
-        "F0 of dielectrics: a number, or estimate to derive it from the maps (default: that of the metallic "
-        "model, 0.04)"},
-       {"--diffuse-convention", &O::diffuse_convention, "NAME",
-        "Meaning of the source's diffuse: plain (reflectance) or scaled (times 1 - max(specular), as in "
-        "glTF; "
-        "default: that of the source model)"}});
-  add_group(
-      command, options, "Rare: how metallic is found",
-      {{"--formula", &O::formula, "NAME",
-        "projection (default, smallest visible error), equation-3, equation-3-mean or khronos"},
-       {"--prior", &O::prior, "VALUE",
-        "How strongly projection prefers 0 and 1: clean (default), noisy (scans, JPEG) or a number from "
-        "0 to 1"},
-       {"--metal-mask", &O::metal_mask, "MAP",
-        "Map of the metals, which decides between metallic values that look alike"},
-       {"--smooth-metallic", &O::smooth_metallic, "",
-        "Where metallic is undetermined, follow the texels around it; reads the maps twice"}});
+  command.option_group("Whole materials (metallic and specular workflows)");
+  command
+      .add_option("--from-workflow NAME", options.from_workflow, one_of(kWorkflowKinds, "workflow"),
+                  "Workflow around the source model: specular (diffuse, specular) or metallic (base color, "
+                  "metallic)")
+      ->tag(kChangesResults | kNotWithDiffuseWarp);
+  command
+      .add_option("--to-workflow NAME", options.to_workflow, one_of(kWorkflowKinds, "workflow"),
+                  "Workflow around the target model")
+      ->tag(kChangesResults | kNotWithWarp);
+  command
+      .add_option("--dielectric-f0 VALUE", options.dielectric_f0, f0_choice(),
+                  "F0 of dielectrics: a number, or estimate to derive it from the maps (default: that of the "
+                  "metallic model, 0.04)")
+      ->tag(kChangesResults | kNeedsWorkflow | kNotWithWarp);
+  command
+      .add_option(
+          "--diffuse-convention NAME", options.diffuse_convention, one_of(kDiffuseConventions, "convention"),
+          "Meaning of the source's diffuse: plain (reflectance) or scaled (times 1 - max(specular), as "
+          "in glTF; default: that of the source model)")
+      ->tag(kChangesResults | kNeedsWorkflow | kNotWithWarp);
+  command.option_group("Rare: how metallic is found");
+  command
+      .add_option("--formula NAME", options.formula, one_of(kFormulas, "formula"),
+                  "How; projection has the smallest visible error")
+      ->default_text("projection")
+      ->tag(kChangesResults | kNeedsMetallic);
+  command
+      .add_option("--prior VALUE", options.prior, prior(),
+                  "How strongly projection prefers 0 and 1: clean (default), noisy (scans, JPEG) or a number "
+                  "from 0 to 1")
+      ->tag(kChangesResults | kNeedsMetallic);
+  command
+      .add_option("--metal-mask MAP", options.maps[Parameter::kMetalMask], map_source(),
+                  "Map of the metals, which decides between metallic values that look alike")
+      ->tag(kChangesResults | kNeedsMetallic);
+  command
+      .add_flag("--smooth-metallic", options.smooth_metallic,
+                "Where metallic is undetermined, follow the texels around it; reads the maps twice")
+      ->tag(kChangesResults | kNeedsMetallic | kNeedsFiles);
 }
 
 void add_rare_options(Command& command, ConvertOptions& options) {
-  using O = ConvertOptions;
-  add_group(command, options, "Rare: encodings and factors",
-            {{"--output-encoding", &O::output_encoding, "NAME",
-              "What the roughness results hold (default: as the inputs where that is known, else what the "
-              "target model takes; a file named glossiness holds glossiness)"},
-             {"--roughness-factor", &O::roughness_factor, "NUMBER",
-              "Multiply the roughness or glossiness map before it is decoded"},
-             {"--specular-factor", &O::specular_factor, "NUMBERS",
-              "Multiply linear specular by one number, or by three"},
-             {"--dither", &O::dither, "", "Add repeatable noise of half a step to 8-bit results"}});
-  add_group(
-      command, options, "Rare: diagnosis maps",
-      {{"--mask", &O::mask, "FILE", "Also write this map: 1 where a texel is outside the domain"},
-       {"--residual", &O::residual, "FILE",
-        "Also write this map: what metal-rough cannot represent; rendered pictures differ by 0.42 of it"},
-       {"--metallic-width", &O::metallic_width, "FILE",
-        "Also write this map: the share of [0, 1] in which metallic may lie; above 0.2 it is "
-        "undetermined"},
-       {"--doubts", &O::doubts, "FILE",
-        "Also write this map of doubts, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined"}});
-  add_group(command, options, "Rare: checks",
-            {{"--bad-texels", &O::bad_texels, "NAME",
-              "NaN, infinite and negative values: keep, clamp (all values to the domain) or fail"}});
-  command.option("--bad-texels")->capture_default_str();
-  add_group(command, options, "Rare: speed",
-            {{"--instructions", &O::instructions, "NAME",
-              "baseline, avx2 or avx512; results are identical (default: the widest of this processor)"}});
-  command.add_option("--threads", options.thread_count, "Number of threads; 0 for one per core")
-      ->range(0, 1024)
-      ->capture_default_str();
+  command.option_group("Rare: encodings and factors");
+  command
+      .add_option(
+          "--output-encoding NAME", options.output_encoding, one_of(kConventions, "encoding"),
+          "What the roughness results hold (default: as the inputs where that is known, else what the "
+          "target model takes; a file named glossiness holds glossiness)")
+      ->tag(kChangesResults);
+  command
+      .add_option("--roughness-factor NUMBER", options.roughness_factors, factors(),
+                  "Multiply the roughness or glossiness map before it is decoded")
+      ->tag(kChangesResults | kNotWithDiffuseWarp);
+  command
+      .add_option("--specular-factor NUMBERS", options.specular_factors, factors(),
+                  "Multiply linear specular by one number, or by three")
+      ->tag(kChangesResults | kNotWithDiffuseWarp);
+  command.add_flag("--dither", options.dither, "Add repeatable noise of half a step to 8-bit results")
+      ->tag(kChangesResults | kNeedsFiles);
+
+  command.option_group("Rare: diagnosis maps");
+  const auto add_diagnosis = [&](const std::string& name, const TargetChannel& content,
+                                 const std::string& description) {
+    return command
+        .add_option(name + " FILE", options.diagnoses,
+                    Reader<std::vector<DiagnosisMap>>{
+                        [&options, content](const std::string&, const std::string& word) {
+                          std::vector<DiagnosisMap> all = options.diagnoses;
+                          all.push_back({content, word});
+                          return all;
+                        },
+                        {}},
+                    "Also write this map: " + description)
+        ->tag(kChangesResults | kNeedsFiles);
+  };
+  add_diagnosis("--mask", MaskChannel{}, "1 where a texel is outside the domain");
+  add_diagnosis("--residual", ConvertedChannel{Parameter::kResidual},
+                "what metal-rough cannot represent; rendered pictures differ by 0.42 of it")
+      ->tag(kNeedsMetallic);
+  add_diagnosis("--metallic-width", ConvertedChannel{Parameter::kMetallicWidth},
+                "the share of [0, 1] in which metallic may lie; above 0.2 it is undetermined")
+      ->tag(kNeedsMetallic);
+  add_diagnosis("--doubts", ConvertedChannel{Parameter::kDoubts},
+                "doubts, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined")
+      ->tag(kNeedsMetallic);
+
+  command.option_group("Rare: checks");
+  command
+      .add_option("--bad-texels NAME", options.bad_texels, one_of(kBadTexels, "treatment"),
+                  "NaN, infinite and negative values; clamp moves all values into the domain")
+      ->default_text("keep")
+      ->tag(kChangesResults);
+  command.option_group("Rare: speed");
+  command.add_option(
+      "--instructions NAME", options.instructions, instructions(),
+      "baseline, avx2 or avx512; results are identical (default: the widest of this processor)");
+  command.add_option("--threads N", options.thread_count, "Number of threads; 0 for one per core")
+      ->range(0, 1024);
 }
 
 }  // namespace
 
-void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
-                  const std::vector<std::string>& known) {
-  throw Error(ErrorKind::kUsage, option + ": unknown " + noun + " '" + word + "'" + suggestion(word, known));
+bool ConvertOptions::is_given(std::string_view name) const {
+  return std::any_of(given.begin(), given.end(),
+                     [&](const GivenOption& option) { return option.name == name; });
 }
 
 void add_convert_options(Command& command, ConvertOptions& options) {
@@ -179,6 +321,19 @@ void add_convert_options(Command& command, ConvertOptions& options) {
   add_output_options(command, options);
   add_workflow_options(command, options);
   add_rare_options(command, options);
+}
+
+void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason) {
+  for (const GivenOption& option : options.given)
+    if ((option.tags & tag) != 0) throw Error(ErrorKind::kUsage, option.name + reason);
+}
+
+std::string result_options_text(const ConvertOptions& options) {
+  std::string text;
+  for (const GivenOption& option : options.given)
+    if ((option.tags & kChangesResults) != 0)
+      text += (text.empty() ? "" : " ") + option.name + (option.words.empty() ? "" : " " + option.words);
+  return text;
 }
 
 }  // namespace remap

@@ -1,80 +1,105 @@
-// The options of `texremap convert`, as the user gave them.
+// The options of `texremap convert`, as values.
 #pragma once
 
+#include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "command_line/command.hpp"
-#include "remap/named_values.hpp"
+#include "remap/convention.hpp"
+#include "remap/instruction_set.hpp"
+#include "remap/workflow_models.hpp"
+#include "texture/target_plan.hpp"
+#include "texture/texture_set.hpp"
 
 namespace remap {
 
+// What an option needs, or what its use has for a consequence.
+enum : OptionTags {
+  kChangesResults = 1u << 0u,
+  kNeedsFiles = 1u << 1u,   // applies to nothing where all maps are numbers
+  kNeedsFolder = 1u << 2u,  // of texture sets
+  kNotWithFolder = 1u << 3u,
+  kNeedsWorkflow = 1u << 4u,
+  kNeedsMetallic = 1u << 5u,  // as a result
+  kNotWithWorkflow = 1u << 6u,
+  kNotWithWarp = 1u << 7u,
+  kNotWithDiffuseWarp = 1u << 8u,  // a warp whose source is a diffuse map alone
+};
+
+using MapSource = std::variant<MapName, ConstantValues>;
+
+// The color space of one color, or without a parameter of all.
+struct ColorSpaceWord {
+  std::optional<Parameter> parameter;
+  Transfer transfer;
+};
+
+// Where the F0 of dielectrics comes from.
+struct FromMaps {};
+using F0Choice = std::variant<std::monostate, double, FromMaps>;  // the model's own by default
+
+enum class Formula { kProjection, kEquation3, kEquation3Mean, kKhronos };
+
 struct ConvertOptions {
-  std::string folder;  // of texture sets; empty where the options name one set
-  std::string names;
-  bool recursive = false;
-  bool dry_run = false;
-  bool resume = false;
-  bool copy_others = false;
-  bool resample = false;
-  std::string from;
-  std::string to;
-  std::string from_workflow;
-  std::string to_workflow;
-  std::string dielectric_f0;
-  std::string diffuse_convention;
-  std::string formula;
-  std::string prior;
+  std::vector<GivenOption> given;  // all options of the command line
+
+  std::filesystem::path folder;  // of texture sets; empty where the options name one set
+  std::string from, to;
   std::vector<std::string> via;
   std::string fit;
-  std::string roughness;
-  std::string glossiness;
-  std::string specular;
-  std::string occlusion;
-  std::string metallic;
-  std::string diffuse;
-  std::string base_color;
-  std::string metal_mask;
-  std::string layout;
-  std::string roughness_factor;
-  std::string specular_factor;
-  std::string encoding;
-  std::string output_encoding;
-  std::string color_space;
-  std::string output_color_space;
-  std::string only;
-  std::string bad_texels = "keep";
-  std::string mask;
-  std::string residual;
-  std::string metallic_width;
-  std::string doubts;
-  std::string output;
-  std::string format;
-  std::string type;
-  std::string instructions;
-  int thread_count = 0;
-  bool dither = false;
+  std::filesystem::path converters;
+  bool recursive = false;
+
+  std::map<Parameter, std::optional<MapSource>> maps;
+  std::optional<MapSource> occlusion;
+  std::optional<RoughnessConvention> roughness_encoding;  // of roughness maps
+  std::vector<float> roughness_factors, specular_factors;
+  std::vector<ColorSpaceWord> color_spaces;
+  std::filesystem::path names;
+  bool resample = false;
+
+  std::optional<WorkflowKind> from_workflow, to_workflow;
+  F0Choice dielectric_f0;
+  std::optional<DiffuseConvention> diffuse_convention;
+  Formula formula = Formula::kProjection;
+  std::optional<double> prior;
   bool smooth_metallic = false;
-  bool force = false;
-  bool allow_skips = false;
-  bool histograms = false;
-  bool json = false;
-  bool quiet = false;
+
+  std::filesystem::path output;
+  std::optional<Layout> layout;
+  std::string format;
+  std::optional<PixelType> type;
+  std::optional<RoughnessConvention> output_encoding;
+  std::vector<ColorSpaceWord> output_color_spaces;
+  std::optional<Parameter> only;
+  std::vector<DiagnosisMap> diagnoses;
+  BadTexels bad_texels = BadTexels::kKeep;
+  bool dither = false;
+  bool copy_others = false, force = false, resume = false, allow_skips = false, dry_run = false;
+  bool json = false, histograms = false, quiet = false;
+  InstructionSet instructions = best_instruction_set();
+  int thread_count = 0;  // 0 for one per core
+
+  // Null where the option of the parameter was not given.
+  const MapSource* map_of(Parameter parameter) const {
+    const auto found = maps.find(parameter);
+    return found == maps.end() || !found->second ? nullptr : &*found->second;
+  }
+  bool is_given(std::string_view name) const;
+  // Whether the roughness map was given as glossiness.
+  bool reads_glossiness() const { return is_given("--glossiness"); }
 };
 
 void add_convert_options(Command& command, ConvertOptions& options);
 
-// Throws kUsage: `option` got `word`, but the `known` names of a `noun` are others.
-[[noreturn]] void fail_unknown(const std::string& option, const std::string& noun, const std::string& word,
-                               const std::vector<std::string>& known);
+// Throws kUsage if an option with `tag` was given: `--mask` and the reason.
+void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason);
 
-// The value that `word` names. Throws as above if it names none.
-template <typename Value, std::size_t Count>
-Value chosen_value(const NamedValues<Value, Count>& table, const std::string& option, const std::string& noun,
-                   const std::string& word) {
-  const auto value = value_named(table, word);
-  if (!value) fail_unknown(option, noun, word, names_of(table));
-  return *value;
-}
+// All options that the results depend on, as on a command line.
+std::string result_options_text(const ConvertOptions& options);
 
 }  // namespace remap

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <thread>
 
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
@@ -385,7 +387,9 @@ class Sets {
 std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chosen,
                                 const ConvertOptions& options,
                                 const std::function<void(const JobReport&)>& finished) {
-  const int threads = thread_count(options);
+  const int threads = options.thread_count > 0
+                          ? options.thread_count
+                          : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int at_once =
       static_cast<int>(std::clamp<std::size_t>(list.jobs.size(), 1, static_cast<std::size_t>(threads)));
   JobRunner runner(chosen, options, threads / at_once, !options.folder.empty());
@@ -406,7 +410,13 @@ std::vector<JobReport> run_jobs(const JobList& list, const ChosenConverter& chos
       shown = now;
     };
     try {
-      runner.run(list.jobs[i], advance, report);
+      try {
+        runner.run(list.jobs[i], advance, report);
+      } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::kInput,
+                    (report.inputs.empty() ? report.name : report.inputs.front().string()) +
+                        ": out of memory (use fewer --threads)");
+      }
     } catch (const Error& error) {
       if (!list.is_tree) throw;
       if (error.kind() == ErrorKind::kInterrupted)

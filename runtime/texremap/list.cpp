@@ -21,6 +21,7 @@ struct ListOptions {
   bool models = false;
   bool workflows = false;
   bool json = false;
+  std::filesystem::path converters;
 };
 
 // A converter as a path of one step.
@@ -170,32 +171,33 @@ void list_workflows(const ListOptions& options) {
   if (options.json) std::cout << all.dump(2) << '\n';
 }
 
+void list(const ListOptions& options) {
+  use_converters(options.converters);
+  if (options.workflows) return list_workflows(options);
+  options.models ? list_models(options) : list_converters(options);
+}
+
 }  // namespace
 
-void add_converters_option(Command& command) {
-  command
-      .add_action(
-          "--converters", [](const std::string& path) { use_converters(path); },
-          "Use these converters instead of the shipped ones: a converters.json of `remapc emit "
-          "--all`, a fit, or a folder of fits")
-      ->type_name("PATH")
+Option* add_converters_option(Command& command, std::filesystem::path& path) {
+  return command
+      .add_option(
+          "--converters PATH", path,
+          "Use these converters instead of the shipped ones: a converters.json of `remapc emit --all`, a "
+          "fit, or a folder of fits")
       ->environment("REMAP_CONVERTERS");
 }
 
 void add_list_command(Command& app) {
-  auto options = std::make_shared<ListOptions>();
   Command* command = app.add_subcommand("list", "List the converters, their models, or the workflows");
-  command->add_flag("--models", options->models, "List the models, and the models that each one reaches");
-  command->add_flag("--workflows", options->workflows,
+  ListOptions& options = set_work<ListOptions>(*command, list);
+  command->add_flag("--models", options.models, "List the models, and the models that each one reaches");
+  command->add_flag("--workflows", options.workflows,
                     "List the named workflows with their conventions. `convert` combines other models with a "
                     "workflow by --from-workflow and --to-workflow");
-  add_converters_option(*command);
-  command->add_flag("--json", options->json, "Print JSON");
+  add_converters_option(*command, options.converters);
+  command->add_flag("--json", options.json, "Print JSON");
   command->footer("Example:\n  texremap list --json\n  texremap list --workflows");
-  command->callback([options] {
-    if (options->workflows) return list_workflows(*options);
-    options->models ? list_models(*options) : list_converters(*options);
-  });
 }
 
 }  // namespace remap

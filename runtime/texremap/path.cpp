@@ -1,6 +1,7 @@
 // `texremap path`: explains which converters `convert` uses from one model to another, with their errors and
 // the reason for the choice.
 #include "remap/path.hpp"
+#include "remap/shipped_converters.hpp"
 
 #include <iostream>
 #include <memory>
@@ -21,7 +22,9 @@ namespace {
 constexpr std::size_t kPathsShown = 3;
 
 struct PathOptions {
-  PathRequest request;
+  std::string from, to;
+  std::vector<std::string> via;
+  std::filesystem::path converters;
   bool json = false;
 };
 
@@ -132,10 +135,11 @@ Plan plan_of(const PathRequest& request, const WorkflowChoice& choice) {
 }
 
 void explain(const PathOptions& options) {
+  use_converters(options.converters);
   ConvertOptions ends;
-  ends.from = options.request.source;
-  ends.to = options.request.target;
-  ends.via = options.request.via;
+  ends.from = options.from;
+  ends.to = options.to;
+  ends.via = options.via;
   const WorkflowChoice choice = workflow_choice(ends);
   const std::vector<std::string> stages =
       choice.is_material() ? stage_texts(choice) : std::vector<std::string>{};
@@ -158,28 +162,22 @@ void explain(const PathOptions& options) {
 }  // namespace
 
 void add_path_command(Command& app) {
-  auto options = std::make_shared<PathOptions>();
   Command* command = app.add_subcommand("path", "Explain which converters lead from one model to another");
-  command->add_option("--from", options->request.source, "Source model, e.g. mitsuba/ward")
-      ->required()
-      ->type_name("MODEL");
+  PathOptions& options = set_work<PathOptions>(*command, explain);
+  command->add_option("--from MODEL", options.from, "Source model, e.g. mitsuba/ward")->required();
   command
       ->add_option(
-          "--to", options->request.target,
+          "--to MODEL", options.to,
           "Target model, e.g. mitsuba/as, or a renderer, e.g. cycles-5, for the closest of its models")
-      ->required()
-      ->type_name("MODEL");
+      ->required();
   command
-      ->add_option("--via", options->request.via,
-                   "Model that the path must pass through; repeatable, in order")
-      ->allow_extra_args(false)
-      ->type_name("MODEL");
-  add_converters_option(*command);
-  command->add_flag("--json", options->json, "Print JSON");
+      ->add_option("--via MODEL", options.via, "Model that the path must pass through; repeatable, in order")
+      ->allow_extra_args(false);
+  add_converters_option(*command, options.converters);
+  command->add_flag("--json", options.json, "Print JSON");
   command->footer(
       "Example:\n  texremap path --from mitsuba/ward --to mitsuba/as\n"
       "  texremap path --from mitsuba/ward --to gltf");
-  command->callback([options] { explain(*options); });
 }
 
 }  // namespace remap

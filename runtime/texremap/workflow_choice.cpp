@@ -10,11 +10,6 @@
 namespace remap {
 namespace {
 
-std::optional<WorkflowKind> kind_named(const std::string& option, const std::string& word) {
-  if (word.empty()) return std::nullopt;
-  return chosen_value(kWorkflowKinds, option, "workflow", word);
-}
-
 // The roughness parameter of a model of the graph. An unknown model is refused later, by the search for a
 // path.
 RoughnessConvention width_of_brdf(const std::string& model) {
@@ -39,12 +34,12 @@ struct NamedEnd {
   }
 };
 
-NamedEnd named_end(const std::string& option, const std::string& name, const std::string& kind) {
-  NamedEnd end{option, name, find_workflow_model(name), kind_named(option + "-workflow", kind)};
+NamedEnd named_end(const std::string& option, const std::string& name, std::optional<WorkflowKind> kind) {
+  NamedEnd end{option, name, find_workflow_model(name), kind};
   if (end.model != nullptr && end.kind && *end.kind != kind_of(end.model->end))
     throw Error(ErrorKind::kUsage, option + "-workflow: " + name + " has the " +
-                                       std::string(kind_name(end.model->end)) + " workflow, not " + kind +
-                                       " (remove this option)");
+                                       std::string(kind_name(end.model->end)) + " workflow, not " +
+                                       std::string(name_of(kWorkflowKinds, *kind)) + " (remove this option)");
   return end;
 }
 
@@ -58,7 +53,7 @@ std::string target_named(const ConvertOptions& options, const NamedEnd& from) {
   const std::string source = from.workflow().brdf;
   if (graph.has_model(options.to) || graph.models_of(options.to).empty()) return options.to;
   if (renderer_of(source) == options.to) {
-    if (from.has_workflow() || !options.to_workflow.empty()) return source;
+    if (from.has_workflow() || options.to_workflow) return source;
     throw Error(ErrorKind::kUsage,
                 "--to: " + source + " is a model of " + options.to + " already (choose another model)");
   }
@@ -83,11 +78,9 @@ void choose_diffuse(const ConvertOptions& options, const WorkflowModel& source, 
   std::vector<WorkflowEnd*> open;
   if (!source.conventions_known) open.push_back(&*choice.source);
   if (!target.conventions_known) open.push_back(&*choice.target);
-  if (!options.diffuse_convention.empty()) {
+  if (options.diffuse_convention) {
     if (open.empty()) open.push_back(&*choice.source);
-    for (WorkflowEnd* end : open)
-      set_diffuse(*end, chosen_value(kDiffuseConventions, "--diffuse-convention", "convention",
-                                     options.diffuse_convention));
+    for (WorkflowEnd* end : open) set_diffuse(*end, *options.diffuse_convention);
     return;
   }
   if (open.empty()) return;
@@ -104,20 +97,11 @@ void choose_diffuse(const ConvertOptions& options, const WorkflowModel& source, 
       (is_plain ? "scaled" : "plain") + " changes that)");
 }
 
-// The number from 0 to `highest` in `text`; `allowed` tells the user what the option takes.
-double number_of(const std::string& option, const std::string& text, double highest,
-                 const std::string& allowed) {
-  const auto number = parse_number(text);
-  if (!number || !(*number >= 0.0 && *number <= highest))
-    throw Error(ErrorKind::kUsage, option + ": invalid value '" + text + "' (use " + allowed + ")");
-  return *number;
-}
-
 void choose_f0(const ConvertOptions& options, WorkflowChoice& choice) {
-  if (options.dielectric_f0.empty()) return;
+  if (std::holds_alternative<std::monostate>(options.dielectric_f0)) return;
   const bool to_metallic_alone =
       kind_of(*choice.source) == WorkflowKind::kSpecular && choice.is_to_metallic();
-  if (options.dielectric_f0 == "estimate") {
+  if (std::holds_alternative<FromMaps>(options.dielectric_f0)) {
     if (!to_metallic_alone)
       throw Error(ErrorKind::kUsage,
                   "--dielectric-f0: estimate requires maps of the specular workflow and a metallic target "
@@ -125,60 +109,40 @@ void choose_f0(const ConvertOptions& options, WorkflowChoice& choice) {
     choice.estimates_f0 = true;
     return;
   }
-  const double f0 = number_of("--dielectric-f0", options.dielectric_f0, 0.9, "0 to 0.9, or estimate");
   if (kind_of(*choice.source) == WorkflowKind::kSpecular && !choice.is_to_metallic())
     throw Error(ErrorKind::kUsage,
                 "--dielectric-f0 requires a model of the metallic workflow (remove this option)");
   choice.f0_given = true;
-  set_f0(choice.source, f0);
-  set_f0(choice.target, f0);
+  set_f0(choice.source, std::get<double>(options.dielectric_f0));
+  set_f0(choice.target, std::get<double>(options.dielectric_f0));
 }
 
 WorkflowFormula formula_of(const ConvertOptions& options) {
-  double prior = kCleanPrior;
-  if (options.prior == "noisy")
-    prior = kNoisyPrior;
-  else if (!options.prior.empty() && options.prior != "clean")
-    prior = number_of("--prior", options.prior, kLargestPrior, "clean, noisy, or a number from 0 to 1");
-  const std::string& name = options.formula;
-  if (name.empty() || name == "projection") return Projection{prior};
-  if (!options.prior.empty())
-    throw Error(ErrorKind::kUsage,
-                "--prior cannot be used with --formula " + name + " (only with projection)");
-  if (name == "equation-3") return Equation3{MetallicMean::kAlbedo};
-  if (name == "equation-3-mean") return Equation3{MetallicMean::kPlain};
-  if (name == "khronos") return KhronosSolver{};
-  fail_unknown("--formula", "formula", name, {"projection", "equation-3", "equation-3-mean", "khronos"});
+  if (options.formula != Formula::kProjection && options.prior)
+    throw Error(ErrorKind::kUsage, "--prior can only be used with --formula projection");
+  switch (options.formula) {
+    case Formula::kEquation3:
+      return Equation3{MetallicMean::kAlbedo};
+    case Formula::kEquation3Mean:
+      return Equation3{MetallicMean::kPlain};
+    case Formula::kKhronos:
+      return KhronosSolver{};
+    case Formula::kProjection:
+      break;
+  }
+  return Projection{options.prior.value_or(kCleanPrior)};
 }
 
 // Refuses options that require a workflow, or a target with metallic.
 void require_workflow(const ConvertOptions& options, const WorkflowChoice& choice) {
-  struct Entry {
-    const char* option;
-    bool given, needs_metallic;
-  };
-  const Entry entries[] = {{"--dielectric-f0", !options.dielectric_f0.empty(), false},
-                           {"--diffuse-convention", !options.diffuse_convention.empty(), false},
-                           {"--formula", !options.formula.empty(), true},
-                           {"--prior", !options.prior.empty(), true},
-                           {"--residual", !options.residual.empty(), true},
-                           {"--metallic-width", !options.metallic_width.empty(), true},
-                           {"--doubts", !options.doubts.empty(), true},
-                           {"--smooth-metallic", options.smooth_metallic, true},
-                           {"--metal-mask", !options.metal_mask.empty(), true}};
-  for (const Entry& entry : entries) {
-    if (!entry.given) continue;
-    if (!choice.is_material())
-      throw Error(ErrorKind::kUsage,
-                  std::string(entry.option) +
-                      " requires a workflow (set --from-workflow or --to-workflow, or choose a model of "
-                      "texremap list --workflows)");
-    if (entry.needs_metallic && !choice.is_to_metallic())
-      throw Error(ErrorKind::kUsage,
-                  std::string(entry.option) + " requires a metallic target (set --to or --to-workflow)");
-  }
-  if (choice.is_material() && !options.only.empty())
-    throw Error(ErrorKind::kUsage, "--only cannot be used with a workflow (remove this option)");
+  if (choice.is_material())
+    refuse(options, kNotWithWorkflow, " cannot be used with a workflow (remove this option)");
+  else
+    refuse(options, kNeedsWorkflow | kNeedsMetallic,
+           " requires a workflow (set --from-workflow or --to-workflow, or choose a model of texremap list "
+           "--workflows)");
+  if (!choice.is_to_metallic())
+    refuse(options, kNeedsMetallic, " requires a metallic target (set --to or --to-workflow)");
 }
 
 }  // namespace
@@ -226,25 +190,13 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
 
 namespace {
 
-using GivenOptions = std::vector<std::pair<const char*, bool>>;  // name, and whether it was given
-
-void refuse_with_warp(const GivenOptions& options, const std::string& warp) {
-  for (const auto& [option, given] : options)
-    if (given)
-      throw Error(ErrorKind::kUsage,
-                  std::string(option) + " cannot be used with the warp " + warp + " (remove this option)");
+void refuse_with_warp(const ConvertOptions& options, OptionTags tag, const std::string& warp) {
+  refuse(options, tag, " cannot be used with the warp " + warp + " (remove this option)");
 }
 
 // The source of the warp is a diffuse map alone, so the conversion has neither specular nor roughness maps.
 void choose_diffuse_alone(const ConvertOptions& options, WorkflowChoice& choice) {
-  refuse_with_warp({{"--from-workflow", !options.from_workflow.empty()},
-                    {"--specular", !options.specular.empty()},
-                    {"--specular-factor", !options.specular_factor.empty()},
-                    {"--roughness", !options.roughness.empty()},
-                    {"--roughness-factor", !options.roughness_factor.empty()},
-                    {"--roughness-encoding", !options.encoding.empty()},
-                    {"--glossiness", !options.glossiness.empty()}},
-                   options.fit + ", which converts a diffuse map alone");
+  refuse_with_warp(options, kNotWithDiffuseWarp, options.fit + ", which converts a diffuse map alone");
   std::get<SpecularWorkflow>(*choice.source).width = RoughnessConvention::kAlpha;
   choice.constants = {{Parameter::kSpecular, {0.0f}}, {Parameter::kWidth, {1.0f}}};
 }
@@ -263,21 +215,17 @@ void require_models_of_fit(const std::string& file, const ModelPair& asked, cons
 }
 
 WorkflowChoice workflow_of_warp(const ConvertOptions& options, const WarpMapFit& fit) {
-  refuse_with_warp({{"--to-workflow", !options.to_workflow.empty()},
-                    {"--dielectric-f0", !options.dielectric_f0.empty()},
-                    {"--diffuse-convention", !options.diffuse_convention.empty()}},
-                   options.fit);
+  refuse_with_warp(options, kNotWithWarp, options.fit);
   require_models_of_fit(options.fit, {options.from, options.to}, {fit.source_model, fit.template_model});
-  RoughnessConvention width = RoughnessConvention::kRoughness;  // the warp was made from such maps
-  if (!options.glossiness.empty())
-    width = RoughnessConvention::kGlossiness;
-  else if (const auto named = convention_from_name(options.encoding))
-    width = *named;
+  // The warp was made from maps of roughness.
+  const RoughnessConvention width =
+      options.reads_glossiness() ? RoughnessConvention::kGlossiness
+                                 : options.roughness_encoding.value_or(RoughnessConvention::kRoughness);
   WorkflowChoice choice;
   choice.source_brdf = fit.source_model;
   choice.target_brdf = fit.template_model;
   // `remapc warp` reads metallic sets in the same way: by equation (2), with plain diffuse.
-  if (kind_named("--from-workflow", options.from_workflow) == WorkflowKind::kMetallic)
+  if (options.from_workflow == WorkflowKind::kMetallic)
     choice.source = MetallicWorkflow{fit.source_model, kCommonDielectricF0, DiffuseConvention::kPlain, width};
   else
     choice.source = SpecularWorkflow{fit.source_model, DiffuseConvention::kPlain, width};

@@ -56,6 +56,25 @@ std::vector<PngChunk> leading_png_chunks(std::FILE* file) {
   return chunks;
 }
 
+// What is wrong with the header of a BMP; empty for a good one and for another file. OpenImageIO reads beyond
+// its memory where the compression does not fit the number of bits.
+std::string fault_of_bmp(std::FILE* file) {
+  constexpr std::size_t kHead = 34, kBits = 28, kCompression = 30;
+  std::array<unsigned char, kHead> head{};
+  if (::fseeko(file, 0, SEEK_SET) != 0 || std::fread(head.data(), 1, kHead, file) != kHead ||
+      head[0] != 'B' || head[1] != 'M')
+    return "";
+  constexpr unsigned kSizeOfOldHeader = 12;  // which has no compression
+  if (head[14] == kSizeOfOldHeader) return "";
+  const unsigned bits = head[kBits] | head[kBits + 1] << 8u,
+                 compression = head[kCompression] | head[kCompression + 1] << 8u;
+  const bool fits = compression == 0 || (compression == 1 && bits == 8) || (compression == 2 && bits == 4) ||
+                    (compression == 3 && (bits == 16 || bits == 32));
+  if (fits && head[kCompression + 2] == 0 && head[kCompression + 3] == 0) return "";
+  return "is damaged, or of an unknown kind: compression " + std::to_string(compression) + " of " +
+         std::to_string(bits) + " bits";
+}
+
 // OpenImageIO assumes sRGB for files of these formats without a color space.
 bool tells_color_space(const OIIO::ImageSpec& spec, const std::string& format,
                        const std::vector<PngChunk>& chunks) {
@@ -144,6 +163,7 @@ void ImageReader::State::open() {
   for (const PngChunk& chunk : chunks)
     if (chunk.end > fs::file_size(path))
       fail("is damaged: chunk " + plain(chunk.name) + " claims to be longer than the file");
+  if (const std::string fault = fault_of_bmp(file.get()); !fault.empty()) fail(fault);
   OIIO::ImageSpec hints;
   hints.attribute(kUnassociatedAlpha, 1);
   input = OIIO::ImageInput::open(path.string(), &hints);

@@ -33,22 +33,18 @@ void add_compilation(const std::string& name, const std::string& text) {
 
 void add_compilations() {
   add_compilation("empty", "");
-  for (const std::string code : {"svr", "parametric", "mlp", "svr_exact", "mlp_exact"})
-    add_compilation(code, user_code(code));
+  for (const std::string code : {"svr", "parametric", "mlp"}) add_compilation(code, user_code(code));
 }
 
 Section header_section(const Medians& medians) {
   Section section{"Headers: size; time to compile a file that uses one (-O2), more than an empty file", {}};
   const auto empty = medians.seconds("compile/empty");
-  for (const std::string code : {"svr", "parametric", "mlp", "svr_exact", "mlp_exact"}) {
+  for (const std::string code : {"svr", "parametric", "mlp"}) {
     const auto seconds = medians.seconds("compile/" + code);
     if (!seconds || !empty) continue;
-    const bool exact = code.find("_exact") != std::string::npos;
     const double size = static_cast<double>(std::filesystem::file_size(kFolder / (code + ".hpp"))) / 1024.0;
-    const std::string what = (exact ? "exact " : "lowered ") + code.substr(0, code.find('_'));
-    const auto goal = [&](double value) { return exact ? std::nullopt : std::optional(value); };
-    section.rows.push_back({what + ", size", size, "KB", {}, "", goal(40.0), false});
-    section.rows.push_back({what + ", compilation", *seconds - *empty, "s", {}, "", goal(0.5), false});
+    section.rows.push_back({code + ", size", size, "KB", {}, "", 40.0, false});
+    section.rows.push_back({code + ", compilation", *seconds - *empty, "s", {}, "", 0.5, false});
   }
   return section;
 }

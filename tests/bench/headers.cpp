@@ -39,20 +39,16 @@ Table bench_table() {
   return table;
 }
 
-// `<name>.json`, and its headers `<name>.hpp` (lowered) and `<name>_exact.hpp`.
+// `<name>.json`, and its header `<name>.hpp`.
 remap::Fit write_fit(const std::filesystem::path& folder, const Table& table, const std::string& name,
                      remapc::Regressor regressor) {
   remapc::FitOptions options;
   options.id = name;
   options.regressor = regressor;
   options.regression.form = "paper";
-  remap::Fit fit = remapc::fit_table(table, remapc::table_text(table), options).fit;
+  const remap::Fit fit = remapc::fit_table(table, remapc::table_text(table), options).fit;
   remap::write_file(folder / (name + ".json"), fit_to_json(fit));
   remap::write_file(folder / (name + ".hpp"), remapc::emit_header(fit));
-  fit.id = name + "_exact";
-  remapc::EmitOptions exact;
-  exact.exact = true;
-  remap::write_file(folder / (fit.id + ".hpp"), remapc::emit_header(fit, exact));
   return fit;
 }
 

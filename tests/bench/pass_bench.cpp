@@ -104,11 +104,6 @@ Section other_pass_section(const Medians& medians) {
     if (build.code == "mlp")
       section.rows.push_back(
           pass_row(medians, "lowered MLP 2 x 8 at " + flags + ", 4096 x 4096", name, "large"));
-    if (build.code == "mlp_exact" || build.code == "svr_exact")
-      section.rows.push_back(pass_row(
-          medians,
-          (build.code == "mlp_exact" ? "exact MLP 2 x 8 at " : "exact SVR at ") + flags + ", 64 x 64", name,
-          "small"));
   }
   return section;
 }

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/remapc_session.hpp"
+#include "model/interpreter.hpp"
 #include "remap/fit_file.hpp"
 
 using namespace remap;
@@ -32,6 +33,35 @@ TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") 
         std::string::npos);
   result = session.remapc({"show", "mitsuba_ward_to_mitsuba_as", "--fits", session.path("fits")});
   CHECK(result.output.find("mitsuba/as (alpha, f0)") != std::string::npos);
+}
+
+TEST_CASE("remapc eval --grid: prints what the interpreter gives over the domain, without a table") {
+  const Session session;
+  session.write("t.csv", made_table(8, 3));
+  require_success(session.remapc(session.fit("t.csv")));
+  const std::string path = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
+  const Fit fit = load_fit(path);
+  std::string expected = "source_alpha,source_specular,target_alpha,target_f0\n";
+  const Range widths = own_roughness_range(fit), speculars = specular_range(fit);
+  for (const double width : {widths.min, (widths.min + widths.max) / 2.0, widths.max})
+    for (const double specular : {speculars.min, (speculars.min + speculars.max) / 2.0, speculars.max}) {
+      double out = 0.0;
+      const double target = evaluate_texel(fit, width, {&specular, 1}, {&out, 1});
+      for (const double value : {width, specular, target}) expected += number_text(value) + ",";
+      expected += number_text(out) + "\n";
+    }
+  CHECK(session.remapc({"eval", path, "--grid", "3"}).output == expected);
+  const std::string file = session.path("new/grid.csv");
+  CHECK(session.remapc({"eval", path, "--grid", "3", "-o", file}).output.empty());
+  CHECK(read_file(file) == expected);
+}
+
+TEST_CASE("remapc list: a folder without fits says so") {
+  const Session session;
+  session.write("empty/readme.txt", "");
+  const ProcessResult result = session.remapc({"list", "--fits", session.path("empty")});
+  CHECK(result.exit_code == 0);
+  CHECK(result.errors.find("no fits (*.json) in this folder") != std::string::npos);
 }
 
 TEST_CASE("remapc sweep: killed or interrupted it leaves nothing under the final name") {

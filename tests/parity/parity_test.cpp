@@ -61,21 +61,15 @@ Fit committed_fit() {
   return load_fit(fs::path(REMAP_SOURCE_DIR) / "fits" / "mitsuba_ward_to_mitsuba_as_sztrajman_2019.json");
 }
 
-// A header under test: the fit, how it is emitted, and what the header promises.
+// A header under test: the fit, and what the header promises.
 struct MadeModel {
   Fit fit;
-  remapc::EmitOptions options;
   double alpha_within = 2e-6, specular_within = 2e-6;
 };
 
 MadeModel lowered(const Fit& fit) {
   const Lowered result = lower(fit);
-  return {fit, {}, result.alpha_bound(), result.specular_bound()};
-}
-
-MadeModel exact(Fit fit) {
-  fit.id += "_exact";
-  return {fit, {true, {}}};
+  return {fit, result.alpha_bound(), result.specular_bound()};
 }
 
 // Gaussians along the diagonal of the domain, of a smooth shape.
@@ -113,9 +107,9 @@ Network smooth_network(Activation activation, std::size_t input_count) {
 // The kinds, forms and conventions that no committed fit has.
 std::vector<MadeModel> subjects() {
   const Fit base = committed_fit();
-  std::vector<MadeModel> all = {lowered(base), exact(base)};
+  std::vector<MadeModel> all = {lowered(base)};
   const auto add = [&](const std::string& id, RoughnessConvention source, RoughnessConvention target,
-                       const MappingKind& mapping, bool both = false) {
+                       const MappingKind& mapping) {
     Fit fit = base;
     fit.id = id;
     fit.source.roughness = source;
@@ -124,7 +118,6 @@ std::vector<MadeModel> subjects() {
     fit.mapping = mapping;
     fit.domain = {{0.02, 0.95}, {0.0, 0.6}};
     all.push_back(lowered(fit));
-    if (both) all.push_back(exact(fit));
   };
   const Parametric paper{{{1.06, -0.63, 0.06, 0.09}}, {{1, {0.74, -0.19, 0.0, -1.03, 3.6, 0.0}}}};
   Parametric steep = paper;  // a narrow step near 0, as the sub-pixel row of the published table makes it
@@ -137,15 +130,15 @@ std::vector<MadeModel> subjects() {
                          {1, {0.05, 0.0, 0.0, 0.1, 9.0, 0.0}},
                          {2, {0.2, 0.3, 1.5, 0.0, 0.0, 0.0}}}};
   const auto kAlpha = RoughnessConvention::kAlpha;
-  add("steep_slope", kAlpha, kAlpha, steep, true);
-  add("extreme_slope", kAlpha, kAlpha, extreme, true);
-  add("all_powers", kAlpha, kAlpha, full, true);
+  add("steep_slope", kAlpha, kAlpha, steep);
+  add("extreme_slope", kAlpha, kAlpha, extreme);
+  add("all_powers", kAlpha, kAlpha, full);
   add("same_names", kAlpha, kAlpha, Parametric{{{0.9}}, {{1, {0.7, 0.0, 0.0, 0.0, 0.0, 0.0}}}});
-  add("vectors", kAlpha, kAlpha, Svr{smooth_expansion(1), smooth_expansion(2)}, true);
-  add("vectors_of_both", kAlpha, kAlpha, Svr{smooth_expansion(2), smooth_expansion(2)}, true);
+  add("vectors", kAlpha, kAlpha, Svr{smooth_expansion(1), smooth_expansion(2)});
+  add("vectors_of_both", kAlpha, kAlpha, Svr{smooth_expansion(2), smooth_expansion(2)});
   for (const Activation activation : {Activation::kTanh, Activation::kSilu})
     add("network_" + std::string(activation_name(activation)), kAlpha, kAlpha,
-        Mlp{smooth_network(activation, 1), smooth_network(activation, 2)}, true);
+        Mlp{smooth_network(activation, 1), smooth_network(activation, 2)});
   add("from_roughness", RoughnessConvention::kRoughness, RoughnessConvention::kGlossiness, paper);
   add("from_glossiness", RoughnessConvention::kGlossiness, RoughnessConvention::kRoughness, full);
   add("to_squared", kAlpha, RoughnessConvention::kSquared, paper);
@@ -164,12 +157,6 @@ std::vector<MadeModel> subjects() {
                                     [](double a, double s) { return a * (0.9 - 0.1 * s); }),
              made_regimes::bilinear({0.02, 0.95}, {0.0, 0.6},
                                     [](double a, double s) { return s * (1.0 - 0.3 * a); })});
-  // Kinks cost the lowered form a table of some size; as fitted they are any other activation.
-  Fit kinked = base;
-  kinked.id = "network_relu";
-  kinked.domain = {{0.02, 0.95}, {0.0, 0.6}};
-  kinked.mapping = Mlp{smooth_network(Activation::kRelu, 1), smooth_network(Activation::kRelu, 2)};
-  all.push_back(exact(kinked));
   return all;
 }
 
@@ -282,7 +269,7 @@ class Headers {
     std::string includes, entries;
     for (const MadeModel& subject : subjects_) {
       const std::string& id = subject.fit.id;
-      write_file(path(id + ".hpp"), remapc::emit_header(subject.fit, subject.options));
+      write_file(path(id + ".hpp"), remapc::emit_header(subject.fit));
       inputs_.push_back(texels(subject.fit));
       includes += "#include \"" + id + ".hpp\"\n";
       entries += " ENTRY(" + id + ")";
@@ -396,7 +383,7 @@ TEST_CASE("generated header: compiles alone, twice, beside another and in two fi
   std::string includes, tests;
   for (const MadeModel& subject : subjects()) {
     const Fit& fit = all.emplace_back(subject.fit);
-    write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit, subject.options));
+    write_file(folder.path() / (fit.id + ".hpp"), remapc::emit_header(fit));
     includes += "#include \"" + fit.id + ".hpp\"\n#include \"" + fit.id + ".hpp\"\n";
     tests += "  passed = passed && remap::" + fit.id + "::self_test();\n";
   }
