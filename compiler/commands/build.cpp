@@ -5,14 +5,13 @@
 #include <iostream>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
 #include "command_line/progress.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
 #include "remap/error.hpp"
+#include "text/json.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -28,8 +27,7 @@ struct BuildCommand {
 void run_check(const BuildCommand& command, const Manifest& manifest) {
   const std::vector<std::string> reasons = stale(manifest, command.folders);
   if (command.json)
-    std::cout << nlohmann::ordered_json({{"items", manifest.items.size()}, {"stale", reasons}}).dump(2)
-              << "\n";
+    std::cout << remap::Json({{"items", manifest.items.size()}, {"stale", reasons}}).dump(2) << "\n";
   else
     for (const std::string& reason : reasons) std::cout << reason << "\n";
   if (!reasons.empty())
@@ -42,11 +40,11 @@ void report(const BuildCommand& command, const Manifest& manifest, const BuildRe
             double seconds) {
   const std::vector<std::string> vanished = vanished_items(manifest, command.folders);
   if (command.json) {
-    nlohmann::ordered_json json = {{"items", manifest.items.size()},
-                                   {"seconds", seconds},
-                                   {"pruned", result.pruned},
-                                   {"vanished", vanished},
-                                   {"built", nlohmann::json::array()}};
+    remap::Json json = {{"items", manifest.items.size()},
+                        {"seconds", seconds},
+                        {"pruned", result.pruned},
+                        {"vanished", vanished},
+                        {"built", remap::Json::list()}};
     for (const BuiltItem& item : result.built)
       json["built"].push_back({{"id", item.id},
                                {"table", item.table},

@@ -79,15 +79,15 @@ std::string errors_text(const remap::Fit& fit, const std::string& rows) {
          text("alpha", fit.alpha_error) + ", " + text(fit.target.specular, fit.specular_error);
 }
 
-nlohmann::ordered_json figures_json(const remap::ErrorFigures& figures) {
+remap::Json figures_json(const remap::ErrorFigures& figures) {
   return {{"rms", figures.rms}, {"p99", figures.p99}, {"max", figures.max}};
 }
 
-static nlohmann::ordered_json relative_json(const remap::RelativeError& error) {
+static remap::Json relative_json(const remap::RelativeError& error) {
   return {{"rms", error.rms}, {"standard_error", error.standard_error}};
 }
 
-nlohmann::ordered_json candidate_json(const remap::Candidate& candidate) {
+remap::Json candidate_json(const remap::Candidate& candidate) {
   return {{"name", candidate.name},
           {"numbers", candidate.number_count},
           {"alpha_error", figures_json(candidate.alpha)},

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "remap/fit.hpp"
+#include "text/json.hpp"
 
 namespace remapc {
 
@@ -14,12 +13,12 @@ namespace remapc {
 // columns without figures are left out. `specular`: the name of the target's specular parameter.
 std::string candidate_text(const std::vector<remap::Candidate>& candidates, const std::string& specular);
 
-nlohmann::ordered_json candidate_json(const remap::Candidate& candidate);
+remap::Json candidate_json(const remap::Candidate& candidate);
 
 // `on 144 rows held out: alpha rms 7.2e-04 max 1.5e-03, f0 rms ...`, or `errors unknown` where no rows were
 // held out. `rows`: describes the rows, as `held out`.
 std::string errors_text(const remap::Fit& fit, const std::string& rows);
 
-nlohmann::ordered_json figures_json(const remap::ErrorFigures& figures);
+remap::Json figures_json(const remap::ErrorFigures& figures);
 
 }  // namespace remapc

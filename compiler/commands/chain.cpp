@@ -1,8 +1,6 @@
 // `remapc chain` and `remapc invert` make a fit from other fits.
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/fit_table.hpp"
@@ -14,6 +12,7 @@
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "system/files.hpp"
+#include "text/json.hpp"
 
 namespace remapc {
 namespace {
@@ -41,7 +40,7 @@ void run_chain(const ChainCommand& command) {
   const std::filesystem::path path = write_fit(command, chain);
   const std::string& steps_text = chain.method.at("against its steps one after another");
   if (command.json) {
-    const nlohmann::ordered_json json = {
+    const remap::Json json = {
         {"fit", path.string()},
         {"id", chain.id},
         {"domain",
@@ -70,12 +69,12 @@ void run_invert(const ChainCommand& command) {
   const remap::Fit inverse = fit_table(table, table_text(table), options).fit;
   const std::filesystem::path path = write_fit(command, inverse);
   if (command.json) {
-    const nlohmann::ordered_json json = {{"fit", path.string()},
-                                         {"id", inverse.id},
-                                         {"inverse_of", fit.id},
-                                         {"kind", kind_name(inverse.mapping)},
-                                         {"alpha_error", figures_json(inverse.alpha_error)},
-                                         {"specular_error", figures_json(inverse.specular_error)}};
+    const remap::Json json = {{"fit", path.string()},
+                              {"id", inverse.id},
+                              {"inverse_of", fit.id},
+                              {"kind", kind_name(inverse.mapping)},
+                              {"alpha_error", figures_json(inverse.alpha_error)},
+                              {"specular_error", figures_json(inverse.specular_error)}};
     std::cout << json.dump(2) << "\n";
     return;
   }

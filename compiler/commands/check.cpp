@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
 #include "text/errors.hpp"
+#include "text/json.hpp"
 
 namespace remapc {
 namespace {
@@ -26,8 +25,7 @@ struct Checked {
 };
 
 void print_json(const Checked& checked) {
-  nlohmann::ordered_json json = {
-      {"table", checked.name}, {"rows", checked.rows}, {"findings", nlohmann::json::array()}};
+  remap::Json json = {{"table", checked.name}, {"rows", checked.rows}, {"findings", remap::Json::list()}};
   for (const Finding& finding : checked.findings)
     json["findings"].push_back({{"severity", severity_name(finding.severity)},
                                 {"kind", finding.kind},

@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
@@ -15,6 +13,7 @@
 #include "report/fit_plot.hpp"
 #include "table/row_regime.hpp"
 #include "text/errors.hpp"
+#include "text/json.hpp"
 
 namespace remapc {
 namespace {
@@ -34,8 +33,8 @@ struct NamedFit {
 // The errors of a fit or a formula on the rows of the table.
 struct Entry {
   remap::Candidate candidate;
-  nlohmann::ordered_json origin;  // where it comes from, for JSON
-  std::string why_not;            // why a formula does not apply; empty if it does
+  remap::Json origin;   // where it comes from, for JSON
+  std::string why_not;  // why a formula does not apply; empty if it does
 };
 
 bool converts(const remap::Fit& fit, const Table& table) {
@@ -104,10 +103,9 @@ Entry entry_of(const Baseline& baseline, const std::vector<TableRow>& rows) {
 }
 
 void print_json(const Table& table, std::size_t row_count, const std::vector<Entry>& entries) {
-  nlohmann::ordered_json json = {
-      {"table", table.name}, {"rows", row_count}, {"entries", nlohmann::json::array()}};
+  remap::Json json = {{"table", table.name}, {"rows", row_count}, {"entries", remap::Json::list()}};
   for (const Entry& entry : entries) {
-    nlohmann::ordered_json one = candidate_json(entry.candidate);
+    remap::Json one = candidate_json(entry.candidate);
     one.update(entry.origin);
     json["entries"].push_back(std::move(one));
   }

@@ -2,8 +2,6 @@
 #include <array>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/table_input.hpp"
@@ -14,6 +12,7 @@
 #include "system/files.hpp"
 #include "table/row_regime.hpp"
 #include "text/errors.hpp"
+#include "text/json.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -69,13 +68,13 @@ void print_errors(const remap::Fit& fit, const EvalOptions& options) {
   const RowErrors errors = row_errors(fit, rows);
   const bool same_table = sha256(bytes) == fit.table.sha256;
   if (options.json) {
-    const nlohmann::ordered_json json = {{"fit", fit.id},
-                                         {"table", table.name},
-                                         {"fitted_from_this_table", same_table},
-                                         {"rows", rows.size()},
-                                         {"rows_outside_domain", outside},
-                                         {"alpha_error", figures_json(errors.alpha)},
-                                         {"specular_error", figures_json(errors.specular)}};
+    const remap::Json json = {{"fit", fit.id},
+                              {"table", table.name},
+                              {"fitted_from_this_table", same_table},
+                              {"rows", rows.size()},
+                              {"rows_outside_domain", outside},
+                              {"alpha_error", figures_json(errors.alpha)},
+                              {"specular_error", figures_json(errors.specular)}};
     std::cout << json.dump(2) << "\n";
     return;
   }

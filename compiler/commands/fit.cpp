@@ -5,8 +5,6 @@
 #include <limits>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/share_progress.hpp"
@@ -22,6 +20,7 @@
 #include "table/domain.hpp"
 #include "table/light.hpp"
 #include "text/errors.hpp"
+#include "text/json.hpp"
 
 namespace remapc {
 namespace {
@@ -64,13 +63,13 @@ FitOptions fit_options(const FitCommand& command) {
 
 void report(const FitCommand& command, const std::filesystem::path& path, const remap::Fit& fit) {
   if (command.json) {
-    nlohmann::ordered_json json = {{"fit", path.string()},
-                                   {"id", fit.id},
-                                   {"kind", kind_name(fit.mapping)},
-                                   {"method", fit.method},
-                                   {"alpha_error", figures_json(fit.alpha_error)},
-                                   {"specular_error", figures_json(fit.specular_error)},
-                                   {"candidates", nlohmann::json::array()}};
+    remap::Json json = {{"fit", path.string()},
+                        {"id", fit.id},
+                        {"kind", kind_name(fit.mapping)},
+                        {"method", fit.method},
+                        {"alpha_error", figures_json(fit.alpha_error)},
+                        {"specular_error", figures_json(fit.specular_error)},
+                        {"candidates", remap::Json::list()}};
     for (const remap::Candidate& candidate : fit.candidates)
       json["candidates"].push_back(candidate_json(candidate));
     std::cout << json.dump(2) << "\n";
@@ -123,12 +122,12 @@ MaterialNetworkOptions network_options(const FitCommand& command, const remap::C
 void report(const FitCommand& command, const std::filesystem::path& path, const remap::WorkflowFit& fit) {
   const remap::NetworkTraining& training = *fit.training;
   if (command.json) {
-    const nlohmann::ordered_json json = {{"fit", path.string()},
-                                         {"id", fit.id},
-                                         {"kind", material_kind(fit)},
-                                         {"method", training.method},
-                                         {"base_color_error", figures_json(training.base_color)},
-                                         {"metallic_error", figures_json(training.metallic)}};
+    const remap::Json json = {{"fit", path.string()},
+                              {"id", fit.id},
+                              {"kind", material_kind(fit)},
+                              {"method", training.method},
+                              {"base_color_error", figures_json(training.base_color)},
+                              {"metallic_error", figures_json(training.metallic)}};
     std::cout << json.dump(2) << "\n";
     return;
   }

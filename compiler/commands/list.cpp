@@ -2,13 +2,12 @@
 #include <iomanip>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "manifest/fit_folder.hpp"
 #include "renderer/renderer.hpp"
 #include "table/domain.hpp"
+#include "text/json.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 
@@ -23,9 +22,9 @@ struct ListOptions {
 };
 
 void list_models(bool json) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  remap::Json list = remap::Json::list();
   for (const ModelDescription& model : make_builtin_renderer()->models()) {
-    nlohmann::ordered_json parameters;
+    remap::Json parameters;
     std::string text;
     for (const ParameterDescription& parameter : model.parameters) {
       parameters[parameter.name] = {parameter.range.min, parameter.range.max};
@@ -40,12 +39,12 @@ void list_models(bool json) {
 }
 
 void list_fits(const ListOptions& options) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  const auto add = [&](const nlohmann::ordered_json& fit, const std::string& text) {
+  remap::Json list = remap::Json::list();
+  const auto add = [&](const remap::Json& fit, const std::string& text) {
     list.push_back(fit);
     if (!options.json)
-      std::cout << std::left << std::setw(40) << fit["id"].get<std::string>() << " " << std::setw(11)
-                << fit["kind"].get<std::string>() << text << "\n";
+      std::cout << std::left << std::setw(40) << *fit.find("id")->text() << " " << std::setw(11)
+                << *fit.find("kind")->text() << text << "\n";
   };
   const FitFolder folder = load_fit_folder(options.fit_folder);
   for (const remap::Fit& fit : folder.fits)

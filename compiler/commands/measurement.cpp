@@ -131,7 +131,7 @@ void Measurement::write(const std::string& table, const Comments& comments) {
 }
 
 void Measurement::report(const std::map<std::string, std::size_t>& statuses, double rms_error,
-                         const nlohmann::ordered_json& fields) const {
+                         const remap::Json& fields) const {
   const std::string table = options_.output.string();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const PictureCount pictures = renderer_->pictures();
@@ -143,14 +143,14 @@ void Measurement::report(const std::map<std::string, std::size_t>& statuses, dou
   }
   if (options_.json) {
     const auto remark = light_remark(light_);
-    nlohmann::ordered_json json = {{"table", table}};
-    if (fields.is_object()) json.update(fields);
+    remap::Json json = {{"table", table}};
+    if (fields.fields() != nullptr) json.update(fields);
     json.update({{"rows", rows},
                  {"status", statuses},
                  {"rms_image_error", rms_error},
                  {kLightScaleComment, light_.scale},
                  {kDiffuseErrorComment, light_.diffuse_error},
-                 {"light_warning", remark ? nlohmann::ordered_json(remark->text) : nullptr},
+                 {"light_warning", remark ? remap::Json(remark->text) : nullptr},
                  {"pictures_rendered", pictures.rendered},
                  {"pictures_cached", pictures.cached},
                  {"seconds", seconds}});

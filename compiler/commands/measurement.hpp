@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "command_line/progress.hpp"
 #include "commands/renderer_options.hpp"
 #include "sweep/sweep_options.hpp"
 #include "table/light.hpp"
 #include "table/table.hpp"
+#include "text/json.hpp"
 
 namespace remapc {
 
@@ -64,7 +63,7 @@ class Measurement {
   void write(const std::string& table, const Comments& comments);
   // Prints the summary of the rows as a line, or as JSON after the table's name and the fields of `json`.
   template <typename Row>
-  void report(const std::vector<Row>& rows, const nlohmann::ordered_json& json = nullptr) const {
+  void report(const std::vector<Row>& rows, const remap::Json& json = nullptr) const {
     std::map<std::string, std::size_t> statuses;
     double square = 0.0;
     for (const Row& row : rows) {
@@ -76,7 +75,7 @@ class Measurement {
 
  private:
   void report(const std::map<std::string, std::size_t>& statuses, double rms_error,
-              const nlohmann::ordered_json& fields) const;
+              const remap::Json& fields) const;
 
   const MeasurementOptions& options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

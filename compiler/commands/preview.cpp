@@ -4,8 +4,6 @@
 #include <iomanip>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/parameter_setting.hpp"
@@ -13,6 +11,7 @@
 #include "manifest/fit_folder.hpp"
 #include "renderer/image_file.hpp"
 #include "text/errors.hpp"
+#include "text/json.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -40,26 +39,24 @@ PreviewOptions preview_options(const PreviewCommand& command) {
   return options;
 }
 
-nlohmann::ordered_json material_json(const auto& figure) {
+remap::Json material_json(const auto& figure) {
   return {{"alpha", figure.alpha},
           {"target_alpha", figure.target_alpha},
           {"target_specular", figure.target_specular},
           {"in_domain", figure.in_domain}};
 }
 
-nlohmann::ordered_json similarity_json(const auto& figure) {
-  return {{"ssim", figure.ssim}, {"rms", figure.rms}};
-}
+remap::Json similarity_json(const auto& figure) { return {{"ssim", figure.ssim}, {"rms", figure.rms}}; }
 
-nlohmann::ordered_json figure_json(const PreviewFigure& figure) {
-  nlohmann::ordered_json json = {{"shape", shape_name(figure.shape)}};
+remap::Json figure_json(const PreviewFigure& figure) {
+  remap::Json json = {{"shape", shape_name(figure.shape)}};
   json.update(material_json(figure));
   json.update(similarity_json(figure));
   return json;
 }
 
-nlohmann::ordered_json figure_json(const LitFigure& figure) {
-  nlohmann::ordered_json json = material_json(figure);
+remap::Json figure_json(const LitFigure& figure) {
+  remap::Json json = material_json(figure);
   json["copied"] = similarity_json(figure.copied);
   json["converted"] = similarity_json(figure.converted);
   return json;
@@ -94,10 +91,10 @@ void report(const PreviewCommand& command, const remap::Fit& fit, const auto& pr
     std::cout << "\n";
     return print_figures(preview.figures);
   }
-  nlohmann::ordered_json json = {{"fit", fit.id}, {"source", fit.source.model}, {"target", fit.target.model}};
+  remap::Json json = {{"fit", fit.id}, {"source", fit.source.model}, {"target", fit.target.model}};
   if (!command.environment.empty()) json["environment"] = command.environment;
   json["specular"] = preview.specular;
-  json["figures"] = nlohmann::ordered_json::array();
+  json["figures"] = remap::Json::list();
   for (const auto& figure : preview.figures) json["figures"].push_back(figure_json(figure));
   if (!command.output.empty()) json["picture"] = command.output.string();
   std::cout << json.dump(2) << "\n";

@@ -2,13 +2,12 @@
 #include <iomanip>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
 #include "remap/error.hpp"
 #include "table/domain.hpp"
+#include "text/json.hpp"
 #include "worker/renderer_set.hpp"
 
 namespace remapc {
@@ -19,8 +18,8 @@ struct RenderersCommand {
   bool json = false;
 };
 
-nlohmann::ordered_json model_json(const ModelDescription& model) {
-  nlohmann::ordered_json parameters;
+remap::Json model_json(const ModelDescription& model) {
+  remap::Json parameters;
   for (const ParameterDescription& parameter : model.parameters) {
     parameters[parameter.name] = {{"role", role_word(parameter.role)},
                                   {"range", {parameter.range.min, parameter.range.max}}};
@@ -42,11 +41,11 @@ void run(const RenderersCommand& command) {
   remap::watch_interruptions();
   WorkerSettings settings = worker_settings(command.renderers);
   settings.processes = 1;
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  remap::Json list = remap::Json::list();
   for (const WorkerEntry& entry : known_workers(command.renderers.workers)) {
     try {
       const WorkerRenderer renderer(entry, settings);
-      nlohmann::ordered_json models = nlohmann::ordered_json::array();
+      remap::Json models = remap::Json::list();
       if (!command.json) std::cout << entry.name << ": " << renderer.version() << "\n";
       for (const ModelDescription& model : renderer.models()) {
         models.push_back(model_json(model));

@@ -5,8 +5,6 @@
 #include <chrono>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
 #include "remap/fit_file.hpp"
@@ -14,6 +12,7 @@
 #include "report/warp_report.hpp"
 #include "system/files.hpp"
 #include "text/errors.hpp"
+#include "text/json.hpp"
 #include "text/number_text.hpp"
 #include "text/report_text.hpp"
 #include "warp/input/copied_set.hpp"
@@ -28,9 +27,8 @@ struct WarpCommand {
   std::string source, target;
   std::string source_model = "mitsuba/ggx", target_model = "mitsuba/ggx";
   std::vector<std::string> masks, boxes, paintings;  // source, template, source, template ...
-  std::string method = "registration";
-  std::string distance;  // empty: relative, plain where both are profiles
-  WarpOptions options;   // without method and distance
+  std::string distance;                              // empty: relative, plain where both are profiles
+  bool exact = false;
   std::filesystem::path output, copy, report;
   bool json = false;
 };
@@ -55,10 +53,7 @@ std::vector<StrokePair> strokes_of(const WarpCommand& command, const MapFrame& s
 }
 
 WarpOptions options_of(const WarpCommand& command, AppearanceDistance usual) {
-  WarpOptions options = command.options;
-  options.method = *remap::value_named(kWarpMethods, command.method);
-  options.distance = remap::value_named(kAppearanceDistances, command.distance).value_or(usual);
-  return options;
+  return {remap::value_named(kAppearanceDistances, command.distance).value_or(usual), command.exact};
 }
 
 remap::WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::size_t stroke_count) {
@@ -67,7 +62,7 @@ remap::WarpMapFit fit_file(const WarpCommand& command, const WarpFit& fit, std::
   file.source_model = command.source_model;
   file.template_model = command.target_model;
   file.warp = fit.compiled;
-  file.method = {{"method", command.method},
+  file.method = {{"method", "registration"},
                  {"distance", command.distance.empty() ? std::string("relative") : command.distance},
                  {"strokes", std::to_string(stroke_count)},
                  {"source", std::filesystem::path(command.source).filename().string()},
@@ -83,7 +78,7 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::
       "Warp " + file.id,
       {{"source", command.source + ", " + command.source_model},
        {"template", command.target + ", " + command.target_model},
-       {"method", command.method + ", " + file.method.at("strokes") + " stroke pairs"},
+       {"stroke pairs", file.method.at("strokes")},
        {"dimensions", std::to_string(found.dimensions) + " (source " +
                           std::to_string(found.source_dimensions) + ", template " +
                           std::to_string(found.target_dimensions) + ")"},
@@ -97,7 +92,7 @@ WarpWords words_of(const WarpCommand& command, const WarpFit& fit, const remap::
       static_cast<std::size_t>(std::stoul(file.method.at("strokes")))};
 }
 
-nlohmann::ordered_json report_of(const WarpDiagnostics& found) {
+remap::Json report_of(const WarpDiagnostics& found) {
   return {{"dimensions", found.dimensions},
           {"source_dimensions", found.source_dimensions},
           {"template_dimensions", found.target_dimensions},
@@ -149,7 +144,7 @@ void warp_textures(const WarpCommand& command) {
   if (source.is_albedo) file.method[remap::kWarpSourceMaps] = remap::kDiffuseAlone;
   file.copy_rms_error = remap::rounded_up(copy_rms_error(fit, source.material, target.material), 3);
 
-  nlohmann::ordered_json json;
+  remap::Json json;
   if (!command.output.empty()) {
     remap::write_file(command.output, fit_to_json(file));
     json["fit"] = command.output.string();
@@ -220,8 +215,8 @@ void warp_tables(const WarpCommand& command) {
       write_copied_set(command.copy, copy_exactly(match, from, to), frame_of(source),
                        {to, frame_of(target), table != nullptr ? table->table : std::filesystem::path()});
   if (!command.json) return print_words(command.copy, match.diagnostics);
-  nlohmann::ordered_json json = {{"diagnostics", report_of(match.diagnostics)},
-                                 {"warnings", warnings_of(match.diagnostics)}};
+  remap::Json json = {{"diagnostics", report_of(match.diagnostics)},
+                      {"warnings", warnings_of(match.diagnostics)}};
   for (const std::filesystem::path& file : files) json["files"].push_back(file.string());
   std::cout << json.dump(2) << "\n";
 }
@@ -248,21 +243,16 @@ void add_stroke_options(remap::Command& app, WarpCommand& command) {
       ->delimiter(' ');
 }
 
-void add_method_options(remap::Command& app, WarpCommand& command) {
-  app.option_group("Models and method");
+void add_model_options(remap::Command& app, WarpCommand& command) {
+  app.option_group("Models");
   app.add_option("--source-model MODEL", command.source_model, "BRDF model of the source's maps");
   app.add_option("--template-model MODEL", command.target_model,
                  "BRDF model of the template's maps and of the result");
-  app.add_flag("--exact", command.options.exact, "Copy texels of the template instead of blending them");
+  app.add_flag("--exact", command.exact, "Copy texels of the template instead of blending them");
   app.option_group(remap::kRareOptions);
-  app.add_option("--method", command.method, "Method that finds the warp")
-      ->one_of(remap::names_of(kWarpMethods));
   app.add_option("--distance", command.distance,
                  "Distance between reflectances (default: relative; plain for scattering profiles)")
       ->one_of(remap::names_of(kAppearanceDistances));
-  app.add_option("--dimensions", command.options.dimensions,
-                 "Dimensions of appearance space, 0: as many as needed")
-      ->range(0, 3);
 }
 
 }  // namespace
@@ -286,7 +276,7 @@ void add_warp_command(remap::Command& app) {
       "--report FILE", options.report,
       "Pictures of materials, strokes, appearance spaces and result: .html with the diagnostics, or .png");
   command->add_flag("--json", options.json, "Print the diagnostics as JSON to standard output");
-  add_method_options(*command, options);
+  add_model_options(*command, options);
   command->footer(
       "Example:\n"
       "  remapc warp brown_leaf green_leaf \\\n"

@@ -3,13 +3,12 @@
 #include <iomanip>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-
 #include "command_line/interruption.hpp"
 #include "commands/commands.hpp"
 #include "commands/renderer_options.hpp"
 #include "remap/named_values.hpp"
 #include "text/errors.hpp"
+#include "text/json.hpp"
 #include "worker/conformance.hpp"
 #include "worker/renderer_set.hpp"
 
@@ -55,13 +54,13 @@ void run(const WorkerCheck& check) {
     return finding.verdict == Verdict::kWrong;
   });
   if (check.json) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    remap::Json list = remap::Json::list();
     for (const WorkerFinding& finding : findings)
       list.push_back({{"model", finding.model},
                       {"check", finding.check},
                       {"verdict", name_of(kVerdicts, finding.verdict)},
                       {"words", finding.words}});
-    const nlohmann::ordered_json json = {
+    const remap::Json json = {
         {"renderer", worker.description().renderer}, {"wrong", wrong}, {"findings", list}};
     std::cout << json.dump(2) << "\n";
   } else {

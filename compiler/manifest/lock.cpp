@@ -19,13 +19,13 @@ Lock load_lock(const std::filesystem::path& fit_folder) {
   const std::filesystem::path path = fit_folder / kLockName;
   if (!std::filesystem::exists(path)) return {};
   try {
-    const nlohmann::ordered_json json = remap::parse_json(remap::read_file(path), path.string());
+    const remap::Json json = remap::parse_json(remap::read_file(path), path.string());
     const remap::Field root(json, path.string());
     if (root["version"].count() != kLockVersion) return {};
     Lock lock;
     lock.items = root["items"].dictionary<LockedItem>(read_item);
-    if (root.json().contains("report")) lock.report = root["report"].text();
-    if (root.json().contains("converters")) lock.converters = root["converters"].text();
+    if (root.contains("report")) lock.report = root["report"].text();
+    if (root.contains("converters")) lock.converters = root["converters"].text();
     return lock;
   } catch (const remap::Error& error) {
     if (error.kind() != remap::ErrorKind::kInput) throw;
@@ -34,7 +34,7 @@ Lock load_lock(const std::filesystem::path& fit_folder) {
 }
 
 void save_lock(const std::filesystem::path& fit_folder, const Lock& lock) {
-  nlohmann::ordered_json items = nlohmann::ordered_json::object();
+  remap::Json items = remap::Json::object();
   for (const auto& [id, item] : lock.items)
     items[id] = {{"recipe", item.recipe},
                  {"table", item.table},
@@ -42,11 +42,11 @@ void save_lock(const std::filesystem::path& fit_folder, const Lock& lock) {
                  {"header", item.header},
                  {"alpha_bound", item.alpha_bound},
                  {"specular_bound", item.specular_bound}};
-  const nlohmann::ordered_json json = {{"format", "remap-lock"},
-                                       {"version", kLockVersion},
-                                       {"report", lock.report},
-                                       {"converters", lock.converters},
-                                       {"items", items}};
+  const remap::Json json = {{"format", "remap-lock"},
+                            {"version", kLockVersion},
+                            {"report", lock.report},
+                            {"converters", lock.converters},
+                            {"items", items}};
   remap::write_file(fit_folder / kLockName, json.dump(1) + "\n");
 }
 

@@ -37,7 +37,7 @@ int read_resolution(const Field& field) {
 // Returns the ordered pairs of a group: all of its `models`, or its `pairs` in both directions.
 std::vector<std::pair<std::string, std::string>> read_pairs(const Field& group) {
   std::vector<std::pair<std::string, std::string>> pairs;
-  if (group.json().contains("pairs")) {
+  if (group.contains("pairs")) {
     group["pairs"].list(1, [&](const Field& entry) {
       const std::vector<std::string> models = entry.list(2, read_text);
       entry.require(models.size() == 2, "two models");
@@ -61,16 +61,16 @@ void read_sweeps(const Field& group, std::vector<ManifestItem>* items) {
   recipe.alphas = remap::read_range(group["alpha"]);
   recipe.roughness_samples = read_count(group["roughness_samples"]);
   recipe.specular_samples = read_count(group["specular_samples"]);
-  if (group.json().contains("speculars"))
-    for (const auto& [model, range] : group["speculars"].json().items())
-      recipe.speculars[model] = remap::read_range(group["speculars"][model]);
+  if (group.contains("speculars"))
+    recipe.speculars = group["speculars"].dictionary<remap::Range>(remap::read_range);
   const auto seed = static_cast<std::uint64_t>(group["seed"].count());
   for (const auto& [source, target] : read_pairs(group)) {
-    nlohmann::ordered_json text = group.json();
+    remap::Json text = group.json();
     text.erase("pairs");
     text["models"] = {source, target};
     if (text.contains("speculars"))  // only the range of this source matters
-      text["speculars"] = text["speculars"].contains(source) ? text["speculars"][source] : nullptr;
+      text["speculars"] =
+          group["speculars"].contains(source) ? group["speculars"][source].json() : remap::Json();
     items->push_back(
         {remap::converter_id(source, target), SweptItem{source, target, recipe}, text.dump(), seed});
   }
@@ -168,7 +168,7 @@ void require_unique(const std::vector<ManifestItem>& items, const std::string& p
 }  // namespace
 
 Manifest manifest_from_json(std::string_view text, const std::string& place) {
-  const nlohmann::ordered_json json = remap::parse_json(text, place);
+  const remap::Json json = remap::parse_json(text, place);
   const Field root(json, place);
   root["format"].require(root["format"].text() == "remap-manifest", "\"remap-manifest\"");
   root["version"].require(root["version"].count() == kManifestVersion,

@@ -136,7 +136,7 @@ Cloud cloud_of(const TextureMaterial& material, const remap::AppearanceCoordinat
   return cloud;
 }
 
-Cloud moved(const Cloud& cloud, const AppearanceWarp& warp) {
+Cloud moved(const Cloud& cloud, const SmoothWarp& warp) {
   Cloud images = cloud;
   images.texels.positions = images_of(warp, cloud.texels.positions);
   for (PlottedPoints& stroke : images.strokes) stroke.positions = images_of(warp, stroke.positions);

@@ -270,8 +270,8 @@ std::vector<std::string> dielectrics_words(const DielectricsStudy& study) {
   return words;
 }
 
-nlohmann::ordered_json dielectrics_json(const DielectricsStudy& study) {
-  nlohmann::ordered_json curves = nlohmann::ordered_json::array();
+remap::Json dielectrics_json(const DielectricsStudy& study) {
+  remap::Json curves = remap::Json::list();
   for (const DielectricCurve& curve : study.curves)
     curves.push_back({{"stages", curve.stages},
                       {"alpha", curve.alpha},

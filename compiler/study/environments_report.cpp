@@ -195,21 +195,21 @@ std::string plot_script(const EnvironmentsOptions& options, const EnvironmentsRe
   return out.str();
 }
 
-nlohmann::ordered_json report_json(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
-  nlohmann::ordered_json json = {{"noise_percent", result.noise},
-                                 {"methods", nlohmann::ordered_json::object()}};
+remap::Json report_json(const EnvironmentsOptions& options, const EnvironmentsResult& result) {
+  remap::Json json = {{"noise_percent", result.noise}, {"methods", remap::Json::object()}};
   for (const Method method : methods_of(result)) {
-    nlohmann::ordered_json& entry = json["methods"][method_name(method)];
+    remap::Json& entry = json["methods"][method_name(method)];
     entry = named(mean_similarity(comparisons_of(result, method))).json();
-    entry["pairs"] = nlohmann::ordered_json::array();
+    entry["pairs"] = remap::Json::list();
     for (std::size_t p = 0; p < options.pairs.size(); ++p) {
       const auto chosen = comparisons_of(result, method, p);
       if (chosen.empty()) continue;
-      entry["pairs"].push_back({{"source", options.pairs[p].source}, {"target", options.pairs[p].target}});
-      entry["pairs"].back().update(named(mean_similarity(chosen)).json());
+      remap::Json pair = {{"source", options.pairs[p].source}, {"target", options.pairs[p].target}};
+      pair.update(named(mean_similarity(chosen)).json());
+      entry["pairs"].push_back(std::move(pair));
     }
   }
-  json["worse_than_copy"] = nlohmann::ordered_json::array();
+  json["worse_than_copy"] = remap::Json::list();
   for (const WorsePair& worse : worse_than_copy(options, result))
     json["worse_than_copy"].push_back({{"method", method_name(worse.method)},
                                        {"source", options.pairs[worse.pair].source},

@@ -89,7 +89,7 @@ void StudyPlot::add_rows(double alpha, const std::vector<const TableRow*>& rows)
   curves.insert(curves.end(), {ok, flagged});
 }
 
-StudyReport study_report(const std::vector<std::string>& words, nlohmann::ordered_json figures,
+StudyReport study_report(const std::vector<std::string>& words, remap::Json figures,
                          const std::string& plot_name, const std::vector<StudyPlot>& plots) {
   StudyReport report{"", std::move(figures), {}, plot_name, plot_script(plots), {}};
   for (const std::string& sentence : words) report.summary += sentence + "\n";
@@ -97,12 +97,13 @@ StudyReport study_report(const std::vector<std::string>& words, nlohmann::ordere
   return report;
 }
 
-std::string short_text(double value, int digits) {
-  if (value == 0.0 || !std::isfinite(value)) return number_text(value);
-  const double unit = std::pow(10.0, digits - 1 - static_cast<int>(std::floor(std::log10(std::fabs(value)))));
-  return number_text(unit >= 1.0 ? std::round(value * unit) / unit : std::round(value * unit) * (1.0 / unit));
+std::string percent_text(double share) {
+  const double value = 100.0 * share;
+  if (value == 0.0 || !std::isfinite(value)) return number_text(value) + " %";
+  const double unit = std::pow(10.0, 2 - static_cast<int>(std::floor(std::log10(std::fabs(value)))));
+  return number_text(unit >= 1.0 ? std::round(value * unit) / unit
+                                 : std::round(value * unit) * (1.0 / unit)) +
+         " %";
 }
-
-std::string percent_text(double share) { return short_text(100.0 * share) + " %"; }
 
 }  // namespace remapc

@@ -1,5 +1,5 @@
-// What the studies of measured materials share: sweeps with light at 45 degrees and uniform weights, the
-// setting of section 4.1 of the paper, their reports and plots.
+// Parts of the study of dielectrics: sweeps with light at 45 degrees and uniform weights, the
+// setting of section 4.1 of the paper, reports and plots.
 #pragma once
 
 #include <functional>
@@ -53,13 +53,10 @@ struct StudyPlot {
 
 // A report of findings, one sentence each, which the figures repeat as `words`; its plot draws `plots` side
 // by side.
-StudyReport study_report(const std::vector<std::string>& words, nlohmann::ordered_json figures,
+StudyReport study_report(const std::vector<std::string>& words, remap::Json figures,
                          const std::string& plot_name, const std::vector<StudyPlot>& plots);
 
 // Formats a share as a percentage, rounded to three significant digits: `0.123 %`.
 std::string percent_text(double share);
-
-// Formats a number, rounded to `digits` significant digits.
-std::string short_text(double value, int digits = 3);
 
 }  // namespace remapc

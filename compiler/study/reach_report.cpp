@@ -34,7 +34,7 @@ StudyReport reach_report(const ReachOptions& options, const std::vector<FitReach
   std::string table =
       "fit,alpha,specular,target_alpha,target_specular,error,least_alpha,least_specular,least_error\n";
   double sum = 0.0;
-  report.figures["fits"] = nlohmann::ordered_json::array();
+  report.figures["fits"] = remap::Json::list();
   for (const FitReach* reach : worst_first) {
     const std::string& id = options.fits[reach->fit].id;
     const ReachedMaterial& worst = reach->worst();

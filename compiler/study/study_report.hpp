@@ -5,15 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "renderer/image.hpp"
+#include "text/json.hpp"
 
 namespace remapc {
 
 struct StudyReport {
   std::string summary;                                      // text for the terminal
-  nlohmann::ordered_json figures;                           // the same for programs
+  remap::Json figures;                                      // the same for programs
   std::vector<std::pair<std::string, std::string>> tables;  // file name and CSV text
   std::string plot_name, plot_script;                       // file name of the SVG, commands for gnuplot
   std::vector<std::pair<std::string, Image>> sheets;        // file name and display values
@@ -36,8 +35,8 @@ class NamedFigures {
     for (const auto& [name, value] : entries_) all.push_back(value);
     return all;
   }
-  nlohmann::ordered_json json() const {
-    nlohmann::ordered_json object;
+  remap::Json json() const {
+    remap::Json object;
     for (const auto& [name, value] : entries_) object[name] = value;
     return object;
   }

@@ -135,7 +135,7 @@ Rgb linear_color(const Field& item) {
 }
 
 std::vector<NamedSurface> database_surfaces(const fs::path& path) {
-  const nlohmann::ordered_json json = remap::parse_json(remap::read_file(path), path.string());
+  const remap::Json json = remap::parse_json(remap::read_file(path), path.string());
   return Field(json, path.string())["data"].list(1, [](const Field& item) {
     const std::string name = item["name"].text();
     const Rgb color = linear_color(item);

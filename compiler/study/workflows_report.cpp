@@ -145,12 +145,12 @@ std::string summary_csv(const WorkflowsOptions& options, const WorkflowsResult& 
   return csv.text();
 }
 
-nlohmann::ordered_json report_json(const WorkflowsOptions& options, const WorkflowsResult& result,
-                                   const std::vector<FamilyLine>& family) {
-  nlohmann::ordered_json json = {{"materials", options.materials.size()}};
+remap::Json report_json(const WorkflowsOptions& options, const WorkflowsResult& result,
+                        const std::vector<FamilyLine>& family) {
+  remap::Json json = {{"materials", options.materials.size()}};
   for (const WorkflowComparison& comparison : result.comparisons)
     for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
-      nlohmann::ordered_json& entry = json[comparison.convention][comparison.methods[m]];
+      remap::Json& entry = json[comparison.convention][comparison.methods[m]];
       entry = named(figures_of(options, comparison, m)).json();
       for (const MaterialGroup group : groups_of(options))
         entry["groups"][group_name(group)] = named(figures_of(options, comparison, m, group)).json();

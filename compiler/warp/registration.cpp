@@ -16,6 +16,7 @@ constexpr int kScalingRounds = 8;
 constexpr double kScalingExponent = 0.8;
 constexpr double kStrokeWeight = 1.5;
 constexpr double kBending = 10.0;
+constexpr double kPrior = 0.3;
 
 // Farthest point sampling: the first point is the farthest from the mean, each further point the farthest
 // from all previous ones.
@@ -105,13 +106,13 @@ Points stroke_centres(const Points& positions, const std::vector<std::vector<std
   return centres;
 }
 
-AffineMap affine_from_strokes(const PointSets& sets, double prior) {
+AffineMap affine_from_strokes(const PointSets& sets) {
   const Eigen::RowVectorXd from_mean = sets.source_centres.colwise().mean();
   const Eigen::RowVectorXd to_mean = sets.target_centres.colwise().mean();
   const Points from = sets.source_centres.rowwise() - from_mean, to = sets.target_centres.rowwise() - to_mean;
   const Eigen::Index n = from.cols();
-  const Eigen::MatrixXd left = from.transpose() * from + prior * Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd linear = left.ldlt().solve(from.transpose() * to + prior * sets.common_axes);
+  const Eigen::MatrixXd left = from.transpose() * from + kPrior * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd linear = left.ldlt().solve(from.transpose() * to + kPrior * sets.common_axes);
   return {linear, to_mean - from_mean * linear};
 }
 
@@ -123,7 +124,7 @@ SmoothWarp register_points(const PointSets& sets, const AffineMap& start) {
   Eigen::MatrixXd design(points.rows(), unknowns);
   design << gaussians(points, warp.centres, kWidth), points, Eigen::VectorXd::Ones(points.rows());
   const Eigen::MatrixXd kernel = gaussians(warp.centres, warp.centres, kWidth);
-  Points moved = images_of(AppearanceWarp(start), points);
+  Points moved = images_of(start, points);
   for (int step = 0; step < kSteps; ++step) {
     const double share = static_cast<double>(step) / static_cast<double>(kSteps - 1);
     const double sigma = kFirstSigma * std::pow(kLastSigma / kFirstSigma, share);

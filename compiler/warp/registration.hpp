@@ -23,11 +23,10 @@ Eigen::MatrixXd common_axes(const AppearanceSpace& source, const AppearanceSpace
 // The mean position of the finite texels of each stroke, one row per stroke.
 Points stroke_centres(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes);
 
-// Least squares over the centres of strokes plus `prior` times |linear - common axes|^2, which determines
-// directions that the strokes do not fix. kStartPrior is strong, so that a registration starts near the
-// common axes; kAlonePrior is for a map without registration.
-inline constexpr double kStartPrior = 0.3, kAlonePrior = 0.05;
-AffineMap affine_from_strokes(const PointSets& sets, double prior = kStartPrior);
+// Least squares over the centres of strokes plus a prior times |linear - common axes|^2, which determines
+// directions that the strokes do not fix. The prior of 0.3 is strong, so that a registration starts near the
+// common axes.
+AffineMap affine_from_strokes(const PointSets& sets);
 
 // Computes a SmoothWarp with 80 centres of width 1.2 in 25 steps with sigma from 0.4 to 0.05. Each step
 // matches all points softly, and separately the points of every stroke pair with 1.5 times the weight, and

@@ -8,7 +8,6 @@
 
 #include "text/errors.hpp"
 #include "text/report_text.hpp"
-#include "warp/paper_warp.hpp"
 #include "warp/warp_table.hpp"
 
 namespace remapc {
@@ -56,20 +55,6 @@ Selection selection_of(const MaterialRef& material, const std::vector<StrokePair
   return result;
 }
 
-AppearanceWarp warp_by(WarpMethod method, const PointSets& sets) {
-  switch (method) {
-    case WarpMethod::kAffine:
-      return affine_from_strokes(sets, kAlonePrior);
-    case WarpMethod::kHistogram:
-      return warp_by_histograms(sets);
-    case WarpMethod::kPaper:
-      return warp_of_paper(sets).warp;
-    case WarpMethod::kRegistration:
-      break;
-  }
-  return register_points(sets, affine_from_strokes(sets));
-}
-
 // The number of directions along which the centres of the strokes differ by more than a tenth of the radius.
 int fixed_directions(const Points& centres) {
   const Points centred = centres.rowwise() - centres.colwise().mean();
@@ -87,7 +72,7 @@ double rms_distance(const Points& a, const Points& b, std::size_t* worst = nullp
 }
 
 // The share of template points that have the image of a source point within one bin.
-double coverage_of(const AppearanceWarp& warp, const PointSets& sets) {
+double coverage_of(const SmoothWarp& warp, const PointSets& sets) {
   const Points images = images_of(warp, sets.source.points);
   const Points& goal = sets.target.points;
   std::vector<char> used(static_cast<std::size_t>(goal.rows()), 0);
@@ -111,14 +96,6 @@ WarpDiagnostics::SharedStroke most_shared(const MaterialRef& source, const Mater
   return most;
 }
 
-void require_options(const WarpOptions& options) {
-  if (options.dimensions < 0 || options.dimensions > static_cast<int>(remap::kLargestWarpDimension))
-    throw usage_error("dimensions: " + std::to_string(options.dimensions) +
-                      " is out of range (1 to 3, or 0 for as many as needed)");
-  if (options.nodes == 1 || options.nodes > 1024)
-    throw usage_error("nodes: " + std::to_string(options.nodes) + " is out of range (2 to 1024)");
-}
-
 // A match and the data that it was computed from.
 struct Matched {
   Selection source, target;
@@ -140,7 +117,6 @@ void diagnose(const PointSets& sets, AppearanceMatch& match) {
 
 Matched matched(const MaterialRef& source, const MaterialRef& target, const std::vector<StrokePair>& strokes,
                 const WarpOptions& options) {
-  require_options(options);
   require_valid(source, target, strokes);
   const FeaturePair features = appearance_features(source, target, options.distance);
   const AppearanceSpace from_space = appearance_space(source, features.source);
@@ -153,8 +129,7 @@ Matched matched(const MaterialRef& source, const MaterialRef& target, const std:
   for (std::size_t k = 0; k < strokes.size(); ++k) found.strokes.push_back(stroke_name(strokes, k));
   found.source_dimensions = dimension_of(from_space);
   found.target_dimensions = dimension_of(to_space);
-  found.dimensions = options.dimensions != 0 ? options.dimensions
-                                             : std::max(found.source_dimensions, found.target_dimensions);
+  found.dimensions = std::max(found.source_dimensions, found.target_dimensions);
   const auto last = static_cast<std::size_t>(found.dimensions) - 1;
   found.source_stress = from_space.stress[last];
   found.target_stress = to_space.stress[last];
@@ -169,12 +144,12 @@ Matched matched(const MaterialRef& source, const MaterialRef& target, const std:
   found.target_left_out = result.target.left_out;
   result.source_positions = positions_of(match.source, source, result.source.texels);
   result.target_positions = positions_of(match.target, target, result.target.texels);
-  const PointSets sets = {occupancy_of(result.source_positions, result.source.strokes, options.points),
-                          occupancy_of(result.target_positions, result.target.strokes, options.points),
+  const PointSets sets = {occupancy_of(result.source_positions, result.source.strokes),
+                          occupancy_of(result.target_positions, result.target.strokes),
                           common_axes(from_space, to_space, found.dimensions),
                           stroke_centres(result.source_positions, result.source.strokes),
                           stroke_centres(result.target_positions, result.target.strokes)};
-  match.warp = warp_by(options.method, sets);
+  match.warp = register_points(sets, affine_from_strokes(sets));
   diagnose(sets, match);
   return result;
 }
@@ -199,11 +174,9 @@ WarpFit fit_warp(const WarpMaterial& source, const WarpMaterial& target,
   Matched matched_texels = matched(source, target, strokes, options);
   WarpFit fit{std::move(matched_texels.match), {}};
   fit.compiled.coordinates = std::get<remap::AppearanceCoordinates>(fit.source.coordinates);
-  const std::size_t nodes =
-      options.nodes != 0 ? options.nodes : default_nodes(fit.diagnostics.dimensions, options.exact);
   fit.compiled.table =
       compile_table(fit.warp, matched_texels.source_positions, NearestTexel(matched_texels.target_positions),
-                    reduced(target, matched_texels.target.texels), nodes, options.exact);
+                    reduced(target, matched_texels.target.texels), options.exact);
   return fit;
 }
 
@@ -243,8 +216,7 @@ std::vector<std::string> warnings_of(const WarpDiagnostics& found) {
                        " of the template are not finite and were skipped");
   if (found.coordinates_error > 0.03)
     warnings.push_back("positions in appearance space have an error of " + percent(found.coordinates_error) +
-                       " of the spread: this distance is approximated poorly for these materials (--distance "
-                       "relative is exact)");
+                       " of the spread: the distance is approximated poorly for these materials");
   if (found.shared.overlap.share > 0.5)
     warnings.push_back(found.strokes[found.shared.overlap.other] + " covers " +
                        percent(found.shared.overlap.share) + " of " + found.strokes[found.shared.stroke] +

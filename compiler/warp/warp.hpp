@@ -5,35 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "remap/named_values.hpp"
-#include "warp/baselines.hpp"
 #include "warp/nearest_texel.hpp"
+#include "warp/registration.hpp"
 
 namespace remapc {
 
-enum class WarpMethod {
-  kRegistration,  // affine from strokes, then annealed registration (registration.hpp)
-  kAffine,        // from stroke centres alone
-  kHistogram,     // match_histograms
-  kPaper,         // warp_of_paper
-};
-
-inline constexpr remap::NamedValues<WarpMethod, 4> kWarpMethods = {
-    {{WarpMethod::kRegistration, "registration"},
-     {WarpMethod::kAffine, "affine"},
-     {WarpMethod::kHistogram, "histogram"},
-     {WarpMethod::kPaper, "paper"}}};
-
 struct WarpOptions {
-  WarpMethod method = WarpMethod::kRegistration;
   AppearanceDistance distance = AppearanceDistance::kRelative;
-  int dimensions = 0;             // 1 to 3; 0: as many as the materials need (dimension_of)
-  double points = kWantedPoints;  // approximate number of occupied bins per material
-  std::size_t nodes = 0;          // of the table along each dimension; 0: default_nodes()
-  bool exact = false;             // results are texels of the template, not blends
+  bool exact = false;  // results are texels of the template, not blends
 };
 
-// Figures that help a user to improve strokes and options.
+// Figures that help a user to improve strokes.
 struct WarpDiagnostics {
   int source_dimensions = 0, target_dimensions = 0;  // that each material needs
   int dimensions = 0;                                // of the warp
@@ -61,13 +43,13 @@ struct WarpDiagnostics {
 struct AppearanceMatch {
   WarpDiagnostics diagnostics;
   Placement source, target;
-  AppearanceWarp warp;         // from the source's to the template's space
+  SmoothWarp warp;             // from the source's to the template's space
   double target_radius = 0.0;  // RMS spread of the template, in features
 };
 
 // Deterministic, single-threaded. Uses at most 2^16 texels of the source and 2^18 of the template, evenly
 // spread, and all texels of strokes. Throws the errors of require_valid(), appearance_features() and
-// appearance_space(), and kUsage for dimensions or nodes out of range.
+// appearance_space().
 AppearanceMatch match_appearances(const MaterialRef& source, const MaterialRef& target,
                                   const std::vector<StrokePair>& strokes, const WarpOptions& options = {});
 

@@ -52,7 +52,7 @@ Points node_positions(const ParameterTable& table) {
 
 // The Gaussians take most of the time of a table. On a grid, they are products of one factor per axis, which
 // is faster.
-Points smooth_images_of_nodes(const SmoothWarp& warp, const ParameterTable& table) {
+Points images_of_nodes(const SmoothWarp& warp, const ParameterTable& table) {
   const std::size_t dimension = table.low.size();
   Points images = images_of(warp.affine, node_positions(table));
   std::vector<Eigen::MatrixXd> factors;  // nodes x centres, for each axis
@@ -68,11 +68,6 @@ Points smooth_images_of_nodes(const SmoothWarp& warp, const ParameterTable& tabl
     images.middleRows(start, run) += factors[0] * (factor.transpose().asDiagonal() * warp.weights);
   }
   return images;
-}
-
-Points images_of_nodes(const AppearanceWarp& warp, const ParameterTable& table) {
-  if (const auto* smooth = std::get_if<SmoothWarp>(&warp)) return smooth_images_of_nodes(*smooth, table);
-  return images_of(warp, node_positions(table));
 }
 
 std::uint8_t encoded(float value, float least, float largest) {
@@ -108,9 +103,8 @@ remap::CopiedNodes copied_nodes(const std::vector<std::uint32_t>& texels, const 
     entries.indices.push_back(static_cast<std::uint16_t>(place->second));
   }
   if (known.size() > remap::kLargestPalette)
-    throw usage_error("nodes: the exact table needs " + std::to_string(known.size()) + " texels of " +
-                      target.name + ", more than " + std::to_string(remap::kLargestPalette) +
-                      " (use fewer nodes)");
+    throw usage_error("exact: the table needs " + std::to_string(known.size()) + " texels of " + target.name +
+                      ", more than " + std::to_string(remap::kLargestPalette) + " (remove --exact)");
   return entries;
 }
 
@@ -181,18 +175,18 @@ std::vector<std::uint32_t> node_texels(const Points& positions, const ParameterT
   return texels;
 }
 
-}  // namespace
-
-std::size_t default_nodes(int dimension, bool exact) noexcept {
+std::size_t nodes_of(Eigen::Index dimension, bool exact) noexcept {
   if (dimension == 1) return exact ? 4096 : 1024;
   if (dimension == 2) return exact ? 256 : 128;
   return exact ? 48 : 32;
 }
 
-ParameterTable compile_table(const AppearanceWarp& warp, const Points& positions, const NearestTexel& nearest,
-                             const WarpMaterial& target, std::size_t nodes, bool exact) {
+}  // namespace
+
+ParameterTable compile_table(const SmoothWarp& warp, const Points& positions, const NearestTexel& nearest,
+                             const WarpMaterial& target, bool exact) {
   ParameterTable table;
-  table.nodes = nodes;
+  table.nodes = nodes_of(positions.cols(), exact);
   set_box(table, positions);
   const std::vector<std::uint32_t> texels =
       node_texels(positions, table, images_of_nodes(warp, table), nearest);

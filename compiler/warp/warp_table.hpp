@@ -7,16 +7,13 @@
 
 namespace remapc {
 
-// The default number of nodes along each dimension. Blended tables use up to 250 KB; they differ from the
-// exact copy by about the distance of neighboring template texels, 1.5 to 2 % of the template's spread. Exact
-// tables have more nodes, because the nearest node has a larger error than a blend.
-std::size_t default_nodes(int dimension, bool exact) noexcept;
-
 // `positions`: of the source texels, which determine the box. `nearest`: finds texels of `target`. A node has
 // the parameters of the texel nearest to its image: unchanged (CopiedNodes) if `exact`, otherwise rounded to
-// a byte and blended with those of other nodes. Throws kUsage if an exact table needs more than 65536 texels.
-remap::ParameterTable compile_table(const AppearanceWarp& warp, const Points& positions,
-                                    const NearestTexel& nearest, const WarpMaterial& target,
-                                    std::size_t nodes, bool exact = false);
+// a byte and blended with those of other nodes. Blended tables use up to 250 KB; they differ from the exact
+// copy by about the distance of neighboring template texels, 1.5 to 2 % of the template's spread. Exact
+// tables have more nodes, because the nearest node has a larger error than a blend. Throws kUsage if an exact
+// table needs more than 65536 texels.
+remap::ParameterTable compile_table(const SmoothWarp& warp, const Points& positions,
+                                    const NearestTexel& nearest, const WarpMaterial& target, bool exact);
 
 }  // namespace remapc

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <nlohmann/json.hpp>
-
 #include "fit_file/fit_fields.hpp"
 #include "remap/error.hpp"
 #include "renderer/scene.hpp"
@@ -16,10 +14,10 @@
 namespace remapc {
 namespace {
 
-using nlohmann::ordered_json;
 using remap::Error;
 using remap::ErrorKind;
 using remap::Field;
+using remap::Json;
 using remap::Range;
 using remap::RoughnessConvention;
 
@@ -28,9 +26,9 @@ constexpr std::size_t kMostModels = 1000, kMostParameters = 100;
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
-ordered_json scene_json(const Scene& scene) {
+Json scene_json(const Scene& scene) {
   const double angle = scene.light.angle * std::numbers::pi / 180.0, distance = scene.light.distance;
-  ordered_json json = {
+  Json json = {
       {"resolution", scene.resolution},
       {"samples_per_axis", scene.samples_per_axis},
       {"camera", {{"distance", kCameraDistance}, {"half_angle", degrees(std::asin(1.0 / kCameraDistance))}}},
@@ -64,13 +62,6 @@ ParameterRole read_role(const Field& field) {
              "\" (choose roughness, specular, diffuse, index, extinction or other)");
 }
 
-// An optional field; false if it is missing.
-bool read_flag(const Field& field, const std::string& name) {
-  if (!field.json().contains(name)) return false;
-  field[name].require(field[name].json().is_boolean(), "true or false");
-  return field[name].json().get<bool>();
-}
-
 ParameterDescription read_parameter(const Field& field, RoughnessConvention* convention) {
   ParameterDescription parameter{field["name"].text(), read_role(field["role"]),
                                  remap::read_range(field["range"])};
@@ -83,7 +74,7 @@ ParameterDescription read_parameter(const Field& field, RoughnessConvention* con
     parameter.standard = field["default"].number();
     field["default"].require(parameter.range.contains(parameter.standard), "a number of the range");
   }
-  parameter.grey = read_flag(field, "grey");
+  parameter.grey = field.flag("grey");
   return parameter;
 }
 
@@ -113,38 +104,37 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
   model.alpha = canonical_widths(model.roughness, model.parameter(ParameterRole::kRoughness).range);
   if (!(model.alpha.min >= 0.0) || !(model.alpha.max > 0.0) || !std::isfinite(model.alpha.max))
     throw Error(ErrorKind::kInput, model.name + ": the range of its roughness does not fit its convention");
-  if (field.json().contains("precision")) {
+  if (field.contains("precision")) {
     model.precision = field["precision"].number();
     field["precision"].require(model.precision >= 0.0 && model.precision < 0.1, "a number from 0 to 0.1");
   }
   model.is_external = true;  // another process, and its files
-  model.noise = read_flag(field, "noise");
+  model.noise = field.flag("noise");
   return model;
 }
 
-// Parses an answer. It must have the id of the request. nlohmann's message for invalid JSON
-// quotes only the place in the text; the message here quotes the line.
-ordered_json parse_answer(const std::string& line, std::int64_t id, const std::string& place) {
+// Parses an answer. It must have the id of the request. The message for invalid JSON quotes the line.
+Json parse_answer(const std::string& line, std::int64_t id, const std::string& place) {
   const auto shown = [&] { return remap::plain(line, 80); };
   if (remap::is_nested_too_deep(line))
     throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\", JSON nested deeper than " +
                                        std::to_string(remap::kDeepestJson) + " levels");
-  const ordered_json answer = ordered_json::parse(line, nullptr, false);
-  if (!answer.is_object())
+  std::variant<Json, remap::JsonFault> parsed = remap::json_of(line);
+  const Json* answer = std::get_if<Json>(&parsed);
+  if (answer == nullptr || answer->fields() == nullptr)
     throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\", which is not a line of JSON");
-  const bool own = answer.contains("id") && answer["id"].is_number_integer() && answer["id"] == id;
-  if (!own)
+  if (const Json* own = answer->find("id"); own == nullptr || own->whole() != id)
     throw Error(ErrorKind::kInput, place + ": answered \"" + shown() + "\" without the id " +
                                        std::to_string(id) + " of the request");
-  return answer;
+  return std::move(std::get<Json>(parsed));
 }
 
 // The complaint of an answer, for a message: its line breaks are spaces, and it is cut.
-std::optional<std::string> complaint_of(const ordered_json& answer, const std::string& place) {
+std::optional<std::string> complaint_of(const Json& answer, const std::string& place) {
   if (!answer.contains("error")) return std::nullopt;
   const Field error = Field(answer, place)["error"];
-  error.require(error.json().is_string(), "a text");
-  std::string complaint = error.json().get<std::string>();
+  error.require(error.json().text() != nullptr, "a text");
+  std::string complaint = *error.json().text();
   std::ranges::replace(complaint, '\n', ' ');
   return remap::plain(complaint);
 }
@@ -153,36 +143,36 @@ std::optional<std::string> complaint_of(const ordered_json& answer, const std::s
 
 PictureRequest picture_request(const Material& material, const Scene& scene) {
   PictureRequest request{"", shown_request(material, scene), scene.resolution, scene.shape, 1};
-  ordered_json parameters = ordered_json::object();
+  Json parameters = Json::object();
   for (const auto& [name, values] : material.parameters) {
     parameters[name] = values;
     if (values.size() > 1) request.channels = 3;
   }
-  const ordered_json json = {{"model", material.model},
-                             {"parameters", parameters},
-                             {"scene", scene_json(scene)},
-                             {"seed", scene.seed},
-                             {"channels", request.channels}};
+  const Json json = {{"model", material.model},
+                     {"parameters", parameters},
+                     {"scene", scene_json(scene)},
+                     {"seed", scene.seed},
+                     {"channels", request.channels}};
   request.text = json.dump();
   return request;
 }
 
 std::string describe_line(std::int64_t id, unsigned threads) {
-  const ordered_json json = {
+  const Json json = {
       {"id", id}, {"request", "describe"}, {"protocol", kWorkerProtocol}, {"threads", threads}};
   return json.dump();
 }
 
 std::string render_line(std::int64_t id, const PictureRequest& request, const std::filesystem::path& image,
                         const std::filesystem::path& mesh) {
-  ordered_json json = {{"id", id}, {"request", "render"}};
-  json.update(ordered_json::parse(request.text));
+  Json json = {{"id", id}, {"request", "render"}};
+  json.update(std::get<Json>(remap::json_of(request.text)));
   if (request.shape != Shape::kSphere) json["scene"]["mesh"] = mesh.string();
   json["image"] = image.string();
   return json.dump();
 }
 
-std::string quit_line(std::int64_t id) { return ordered_json{{"id", id}, {"request", "quit"}}.dump(); }
+std::string quit_line(std::int64_t id) { return Json{{"id", id}, {"request", "quit"}}.dump(); }
 
 bool is_answer(const std::string& line) { return line.starts_with('{'); }
 
@@ -192,7 +182,7 @@ std::optional<std::string> read_answer(const std::string& line, std::int64_t id,
 
 WorkerDescription read_description(const std::string& line, std::int64_t id, const std::string& prefix,
                                    const std::string& place) {
-  const ordered_json answer = parse_answer(line, id, place);
+  const Json answer = parse_answer(line, id, place);
   if (const auto complaint = complaint_of(answer, place))
     throw Error(ErrorKind::kInput, place + ": " + *complaint);
   const Field field(answer, place);
@@ -202,7 +192,7 @@ WorkerDescription read_description(const std::string& line, std::int64_t id, con
   WorkerDescription description;
   description.renderer = field["renderer"].text();
   field["renderer"].require(!description.renderer.empty(), "a name and a version");
-  description.meshes = read_flag(field, "meshes");
+  description.meshes = field.flag("meshes");
   description.models = field["models"].list(
       1, [&](const Field& model) { return read_model(model, prefix); }, kMostModels);
   return description;

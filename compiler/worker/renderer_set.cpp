@@ -24,7 +24,7 @@ WorkerEntry read_entry(const Field& field, const fs::path& folder) {
   WorkerEntry entry{field["name"].text(), field["command"].text(), folder.string(), ""};
   field["name"].require(is_name(entry.name), "a name without / and spaces");
   field["command"].require(!entry.command.empty(), "a command");
-  if (field.json().contains("install")) entry.install = field["install"].text();
+  if (field.contains("install")) entry.install = field["install"].text();
   return entry;
 }
 

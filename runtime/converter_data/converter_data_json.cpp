@@ -10,8 +10,6 @@
 namespace remap {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::int64_t kFormatVersion = 1;
 constexpr std::int64_t kMostCells = 4096;
 constexpr std::int64_t kMostDegree = 64;
@@ -39,7 +37,7 @@ std::string polynomial_text(const PiecewisePolynomial& polynomial) {
   const float* next = polynomial.coefficients.data();
   for (int cell = 0; cell < polynomial.cell_count; ++cell)
     for (const int degree : polynomial.degrees) {
-      Json line = Json::array();
+      Json line = Json::list();
       for (int k = 0; k <= degree; ++k) line.push_back(decimal(*next++));
       text += separator + std::string(10, ' ') + line.dump();
       separator = ",\n";
@@ -99,11 +97,10 @@ float read_float(const Field& field) {
 }
 
 int read_whole(const Field& field, std::int64_t least, std::int64_t most) {
-  const Json& json = field.json();
-  field.require(
-      json.is_number_integer() && json.get<std::int64_t>() >= least && json.get<std::int64_t>() <= most,
-      "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
-  return static_cast<int>(json.get<std::int64_t>());
+  const std::optional<std::int64_t> whole = field.json().whole();
+  field.require(whole && *whole >= least && *whole <= most,
+                "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<int>(*whole);
 }
 
 PiecewisePolynomial read_polynomial(const Field& field) {
@@ -166,11 +163,11 @@ ConverterData read_converter(const Field& field) {
   data.specular_polynomial = read_polynomial(field["specular"]);
   data.alpha_limit = read_limit(field["limits"]["alpha"]);
   data.specular_limit = read_limit(field["limits"]["specular"]);
-  if (field.json().contains("wide")) {
+  if (field.contains("wide")) {
     data.mapping_to = read_float(field["wide"]["mapping_to"]);
     data.wide = read_series(field["wide"]);
   }
-  if (field.json().contains("bright")) data.bright = read_series(field["bright"]);
+  if (field.contains("bright")) data.bright = read_series(field["bright"]);
   field.require(!data.wide || data.alpha_limit, "a limit of alpha beside the wide regime");
   field.require(!data.bright || data.specular_limit, "a limit of specular beside the bright regime");
   data.golden = field["golden"].list(1, read_golden);

@@ -16,19 +16,10 @@ namespace {
 
 // Otherwise a mistyped optional field would go unnoticed.
 void refuse_unknown_fields(const Field& field, const std::vector<std::string>& known) {
-  field.require(field.json().is_object(), "an object");
-  for (const auto& [key, value] : field.json().items())
+  field.require(field.json().fields() != nullptr, "an object");
+  for (const auto& [key, value] : *field.json().fields())
     if (std::find(known.begin(), known.end(), key) == known.end())
       field.fail("unknown field '" + key + "'" + suggestion(key, known));
-}
-
-bool has(const Field& field, const std::string& key) { return field.json().contains(key); }
-
-// False if the field is missing.
-bool read_flag(const Field& field, const std::string& key) {
-  if (!has(field, key)) return false;
-  field[key].require(field.json()[key].is_boolean(), "true or false");
-  return field.json()[key].get<bool>();
 }
 
 // The value of the enumeration that the text names; `noun` says what it is.
@@ -51,16 +42,18 @@ void refuse_doubles(const Field& field, const std::vector<ChannelMeaning>& meani
 }
 
 std::vector<ChannelMeaning> read_channels(const Field& field) {
-  field.require(field.json().is_object() && !field.json().empty(), "an object of channels and their roles");
+  field.require(field.json().fields() != nullptr && !field.json().empty(),
+                "an object of channels and their roles");
   std::vector<std::string> known = names_of(kChannels);
   known.erase(known.begin());  // the whole map
   refuse_unknown_fields(field, known);
-  const bool color = has(field, "RGB");
-  field.require(!color || (!has(field, "R") && !has(field, "G") && !has(field, "B")),
+  const bool color = field.contains("RGB");
+  field.require(!color || (!field.contains("R") && !field.contains("G") && !field.contains("B")),
                 "RGB or its channels one by one");
   std::vector<ChannelMeaning> meaning;
   for (const auto& [channels, name] : kChannels)
-    if (const std::string key(name); has(field, key)) meaning.push_back({channels, read_role(field[key])});
+    if (const std::string key(name); field.contains(key))
+      meaning.push_back({channels, read_role(field[key])});
   refuse_doubles(field, meaning);
   return meaning;
 }
@@ -75,11 +68,11 @@ std::string read_word(const Field& field) {
 
 NamingRule read_rule(const Field& field) {
   refuse_unknown_fields(field, {"words", "ordinary", "role", "channels"});
-  field.require(has(field, "role") != has(field, "channels"), "either \"role\" or \"channels\"");
+  field.require(field.contains("role") != field.contains("channels"), "either \"role\" or \"channels\"");
   NamingRule rule;
   rule.words = field["words"].list(1, read_word);
-  rule.ordinary = read_flag(field, "ordinary");
-  if (has(field, "role"))
+  rule.ordinary = field.flag("ordinary");
+  if (field.contains("role"))
     rule.meaning = {{Channels::kWhole, read_role(field["role"])}};
   else
     rule.meaning = read_channels(field["channels"]);
@@ -91,8 +84,8 @@ Habit read_habit(const Field& field) {
   Habit habit;
   habit.name = field["name"].text();
   field["name"].require(!habit.name.empty(), "a name");
-  habit.camel_case = read_flag(field, "camel_case");
-  if (has(field, "resolution"))
+  habit.camel_case = field.flag("camel_case");
+  if (field.contains("resolution"))
     habit.resolution = read_named(field["resolution"], kResolutionPlaces, "place of a resolution");
   habit.rules = field["rules"].list(1, read_rule);
 
@@ -112,12 +105,12 @@ struct NamingTables {
 };
 
 NamingTables read_tables(std::string_view text, const std::string& place) {
-  const nlohmann::ordered_json json = parse_json(text, place);
+  const remap::Json json = parse_json(text, place);
   const Field field(json, place);
   refuse_unknown_fields(field, {"habits", "ignored_words"});
   NamingTables tables;
   tables.habits = field["habits"].list(1, read_habit);
-  if (has(field, "ignored_words")) tables.ignored_words = field["ignored_words"].list(0, read_word);
+  if (field.contains("ignored_words")) tables.ignored_words = field["ignored_words"].list(0, read_word);
   return tables;
 }
 

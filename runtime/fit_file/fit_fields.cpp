@@ -8,8 +8,6 @@
 namespace remap {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Layer read_layer(const Field& field, std::size_t input_count) {
   Layer layer{input_count, field["weights"].numbers(1), field["biases"].numbers(1)};
   field["weights"].require(layer.weights.size() == layer.biases.size() * input_count,
@@ -63,7 +61,7 @@ double finite(double value) {
 }
 
 Json numbers_json(const std::vector<double>& numbers) {
-  Json list = Json::array();
+  Json list = Json::list();
   for (const double number : numbers) list.push_back(finite(number));
   return list;
 }
@@ -74,7 +72,7 @@ Json scaling_json(const Scaling& scaling) {
 }
 
 Json scalings_json(const std::vector<Scaling>& scalings) {
-  Json list = Json::array();
+  Json list = Json::list();
   for (const Scaling& scaling : scalings) list.push_back(scaling_json(scaling));
   return list;
 }
@@ -94,7 +92,7 @@ Scaling read_output_scaling(const Field& field) {
 Json network_json(const Network& network) {
   if (const std::string fault = oversize(network); !fault.empty())
     throw Error(ErrorKind::kInput, "network: " + fault);
-  Json layers = Json::array();
+  Json layers = Json::list();
   for (const Layer& layer : network.layers)
     layers.push_back({{"weights", numbers_json(layer.weights)}, {"biases", numbers_json(layer.biases)}});
   return {{"activation", std::string(activation_name(network.activation))},

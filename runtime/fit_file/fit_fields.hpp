@@ -25,24 +25,24 @@ std::string read_tool_version(const Field& field);
 
 // The number itself.
 double finite(double value);
-nlohmann::ordered_json numbers_json(const std::vector<double>& numbers);
+remap::Json numbers_json(const std::vector<double>& numbers);
 
-nlohmann::ordered_json scaling_json(const Scaling& scaling);
-nlohmann::ordered_json scalings_json(const std::vector<Scaling>& scalings);
+remap::Json scaling_json(const Scaling& scaling);
+remap::Json scalings_json(const std::vector<Scaling>& scalings);
 Scaling read_scaling(const Field& field);
 Scaling read_output_scaling(const Field& field);
 
-nlohmann::ordered_json network_json(const Network& network);
+remap::Json network_json(const Network& network);
 // Refuses another number of outputs, and layers that do not fit each other.
 Network read_network(const Field& field, std::size_t output_count);
 
-nlohmann::ordered_json figures_json(const ErrorFigures& figures);
+remap::Json figures_json(const ErrorFigures& figures);
 ErrorFigures read_figures(const Field& field);
 
-nlohmann::ordered_json split_json(const Split& split);
+remap::Json split_json(const Split& split);
 Split read_split(const Field& field);
 
-nlohmann::ordered_json table_record_json(const TableRecord& table);
+remap::Json table_record_json(const TableRecord& table);
 TableRecord read_table_record(const Field& field);
 
 // One end of a fit between workflows.

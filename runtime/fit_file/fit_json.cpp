@@ -1,21 +1,19 @@
+#include <algorithm>
 #include <cmath>
-
-#include <nlohmann/json.hpp>
 
 #include "fit_file/fit_fields.hpp"
 #include "model/limits.hpp"
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "system/files.hpp"
+#include "text/json.hpp"
 
 namespace remap {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::int64_t kLargestPower = 4;  // of specular, in a parametric form
 
-Json to_json(const Range& range) { return Json::array({finite(range.min), finite(range.max)}); }
+Json to_json(const Range& range) { return Json::list({finite(range.min), finite(range.max)}); }
 
 Json to_json(const ModelSide& side) {
   return {{"model", side.model},
@@ -24,7 +22,7 @@ Json to_json(const ModelSide& side) {
 }
 
 Json to_json(const Parametric& form) {
-  Json roughness = Json::array(), specular = Json::array();
+  Json roughness = Json::list(), specular = Json::list();
   for (const auto& row : form.alpha) roughness.push_back(numbers_json(row));
   for (const auto& [power, curve] : form.specular)
     specular.push_back({{"power", power},
@@ -49,7 +47,7 @@ Json to_json(const Mlp& mlp) {
 }
 
 Json to_json(const TexelSeries& series) {
-  Json rows = Json::array();
+  Json rows = Json::list();
   for (const auto& row : series.coefficients) rows.push_back(numbers_json(row));
   return {{"alpha", to_json(series.alpha)}, {"specular", to_json(series.specular)}, {"coefficients", rows}};
 }
@@ -62,7 +60,7 @@ Json to_json(const Series& series) {
 Json mapping_json(const MappingKind& mapping);
 
 Json to_json(const Chain& chain) {
-  Json steps = Json::array();
+  Json steps = Json::list();
   for (const auto& [id, mapping] : chain.steps)
     steps.push_back({{"id", id}, {"mapping", mapping_json(widened(mapping))}});
   return {{"steps", steps}};
@@ -105,7 +103,7 @@ Json to_json(const Candidate& candidate) {
 
 Json to_json(const std::optional<ImageSimilarity>& image_similarity) {
   if (!image_similarity) return nullptr;
-  Json spheres = Json::array();
+  Json spheres = Json::list();
   for (const auto& [alpha, ssim] : image_similarity->ssim)
     spheres.push_back({{"alpha", finite(alpha)}, {"ssim", finite(ssim)}});
   return {{"image_error", figures_json(image_similarity->image_error)}, {"spheres", spheres}};
@@ -199,9 +197,9 @@ Regimes read_regimes(const Field& field) {
   Regimes regimes;
   regimes.alpha_limit = read_positive(field["alpha_limit"]);
   if (!field["specular_limit"].is_null()) regimes.specular_limit = read_positive(field["specular_limit"]);
-  if (field.json().contains("wide"))
+  if (field.contains("wide"))
     regimes.wide = {read_positive(field["wide"]["mapping_to"]), read_series(field["wide"]["specular"])};
-  if (field.json().contains("bright")) {
+  if (field.contains("bright")) {
     field.require(regimes.specular_limit.has_value(), "a specular_limit beside the regime bright");
     regimes.bright = read_series(field["bright"]["alpha"]);
   }
@@ -210,7 +208,7 @@ Regimes read_regimes(const Field& field) {
 
 // Fits of 0.1.0 have none.
 RelativeError read_relative(const Field& candidate, const std::string& name) {
-  if (!candidate.json().contains(name)) return {};
+  if (!candidate.contains(name)) return {};
   return {candidate[name]["rms"].number(), candidate[name]["standard_error"].number()};
 }
 
@@ -241,7 +239,7 @@ std::optional<ImageSimilarity> read_similarity(const Field& field) {
 std::string fit_to_json(const Fit& fit) {
   if (const std::string fault = oversize(fit); !fault.empty())
     throw Error(ErrorKind::kInput, fit.id + ": " + fault);
-  Json candidates = Json::array();
+  Json candidates = Json::list();
   for (const Candidate& candidate : fit.candidates) candidates.push_back(to_json(candidate));
   const Json json = {
       {"format", "remap-fit"},
@@ -274,7 +272,7 @@ Fit read_fit(const Field& root) {
   root["domain"]["alpha"].require(fit.domain.alpha.min > 0.0, "an alpha above 0");
   root["domain"]["specular"].require(fit.domain.specular.min == 0.0, "a range from 0");
   fit.mapping = read_mapping(root["mapping"]);
-  if (root.json().contains("regimes")) fit.regimes = read_regimes(root["regimes"]);
+  if (root.contains("regimes")) fit.regimes = read_regimes(root["regimes"]);
   if (const std::string fault = oversize(fit); !fault.empty()) root.fail(fault);
   fit.method = root["method"].text_dictionary();
   fit.candidates = root["candidates"].list(0, read_candidate);
@@ -297,7 +295,7 @@ AnyFit any_fit_from_json(std::string_view text, const std::string& place) {
     root.fail("has format version " + std::to_string(version) + "; this program reads version " +
               std::to_string(kFitFormatVersion));
   // The ends of fits of whole materials name their workflows.
-  const bool is_of_materials = json.contains("source") && json["source"].contains("workflow");
+  const bool is_of_materials = json.contains("source") && json.find("source")->contains("workflow");
   if (!is_of_materials) return read_fit(root);
   if (root["mapping"]["kind"].text() == kWarpKind) return read_warp_fit(root);
   return read_workflow_fit(root);

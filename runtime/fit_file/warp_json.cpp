@@ -2,18 +2,15 @@
 // take 400. Numbers of more than a byte are little-endian, floats as their bits.
 #include <bit>
 
-#include <nlohmann/json.hpp>
-
 #include "fit_file/fit_fields.hpp"
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
 #include "text/base64.hpp"
+#include "text/json.hpp"
 #include "text/number_text.hpp"
 
 namespace remap {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kSeparable = "separable";
 constexpr const char* kQuadratic = "quadratic";
@@ -84,7 +81,7 @@ std::vector<WarpTexel> read_palette(const Field& field) {
 
 template <typename Floats>
 Json floats_json(const Floats& values) {
-  Json list = Json::array();
+  Json list = Json::list();
   for (const float value : values) list.push_back(decimal_value(value));
   return list;
 }

@@ -5,8 +5,6 @@
 namespace remap {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json to_json(const SpecularWorkflow& workflow) {
   return {{"model", workflow.model},
           {"workflow", "specular"},

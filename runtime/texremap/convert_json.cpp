@@ -28,7 +28,7 @@ Json file_json(const JobReport& report, Parameter parameter) {
 }
 
 Json paths_json(const std::vector<std::filesystem::path>& paths) {
-  Json names = Json::array();
+  Json names = Json::list();
   for (const std::filesystem::path& path : paths) names.push_back(path.string());
   return names;
 }
@@ -91,9 +91,7 @@ Json f0_json(const std::optional<DielectricF0>& f0) {
 }
 
 // File names need not be UTF-8.
-void print(const Json& json, int indent = 2) {
-  std::cout << json.dump(indent, ' ', false, Json::error_handler_t::replace) << std::endl;
-}
+void print(const Json& json, int indent = 2) { std::cout << json.dump(indent) << std::endl; }
 void print_line(const Json& json) { print(json, -1); }
 
 Json counts_json(const MapStatistics& counts) {
@@ -152,7 +150,7 @@ std::string_view state_text(const JobReport& report, bool dry_run) {
 Json colors_json(const ColorNotes& colors) {
   constexpr NamedValues<TransferReason, 3> kReasons = {
       {{TransferReason::kUsual, "usual"}, {TransferReason::kFile, "file"}, {TransferReason::kUser, "user"}}};
-  Json notes = Json::array();
+  Json notes = Json::list();
   for (const auto& [note, count] : colors)
     notes.push_back({{"color", parameter_name(note.color)},
                      {"use", note.is_written ? "written" : "read"},
@@ -168,7 +166,7 @@ Json set_json(const Outcome& outcome, const JobReport& report) {
                {"state", state_text(report, outcome.dry_run)},
                {"failure", report.failure ? Json(*report.failure) : Json()},
                {"tiles", report.tiles},
-               {"results", Json::array()},
+               {"results", Json::list()},
                {"inputs", paths_json(report.inputs)}};
   for (const JobReport::Result& result : report.results) json["results"].push_back(result.path.string());
   json.update(job_json(outcome, report));

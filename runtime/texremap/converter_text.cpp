@@ -88,7 +88,7 @@ Json errors_json(const ConverterInfo& info) {
 Json ssim_json(const ConverterInfo& info) { return info.ssim ? Json(*info.ssim) : Json(); }
 
 Json path_json(const ConverterPath& path) {
-  Json ids = Json::array();
+  Json ids = Json::list();
   for (const Converter* step : path.steps) ids.push_back(step->info().id);
   return ids;
 }

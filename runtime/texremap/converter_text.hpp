@@ -4,13 +4,10 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
 #include "remap/closeness.hpp"
+#include "text/json.hpp"
 
 namespace remap {
-
-using Json = nlohmann::ordered_json;
 
 // `alpha 0.01 to 1`.
 std::string range_text(std::string_view name, const Range& range);

@@ -9,18 +9,15 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
 #include "remap/error.hpp"
 #include "system/files.hpp"
+#include "text/json_field.hpp"
 #include "text/plain_text.hpp"
 #include "texture/content_hash.hpp"
 
 namespace remap {
 namespace fs = std::filesystem;
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A journal line is far shorter; more is damage.
 constexpr std::size_t kLongestLine = std::size_t{16} << 20;
@@ -36,21 +33,17 @@ struct Entry {
 // for each byte that is not ASCII.
 std::string journal_name(const fs::path& path, const fs::path& folder) {
   const std::string name = path.lexically_normal().lexically_relative(folder).generic_string();
-  try {
-    (void)Json(name).dump();
-    return name;
-  } catch (const nlohmann::json::exception&) {
-    constexpr const char* kDigits = "0123456789ABCDEF";
-    std::string escaped;
-    for (const char letter : name) {
-      const auto byte = static_cast<unsigned char>(letter);
-      if (byte < 0x80)
-        escaped += letter;
-      else
-        escaped += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
-    }
-    return escaped;
+  if (is_utf8(name)) return name;
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string escaped;
+  for (const char letter : name) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (byte < 0x80)
+      escaped += letter;
+    else
+      escaped += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
   }
+  return escaped;
 }
 
 // What the lines say, read anew from where reading ended.
@@ -63,10 +56,9 @@ struct Content {
   void add(const std::string& line);
 };
 
-ConversionNote note_of(const Json& json) {
+ConversionNote note_of(const Field& field) {
   ConversionNote note;
-  for (const auto& [name, value] : json.items()) {
-    const auto text = value.get<std::string>();
+  for (const auto& [name, text] : field.text_dictionary()) {
     if (name == "source")
       note.source = text;
     else if (name == "target")
@@ -81,22 +73,29 @@ ConversionNote note_of(const Json& json) {
 
 void Content::add(const std::string& line) {
   try {
-    const Json json = Json::parse(line);
-    if (const auto conversion = json.find("conversion"); conversion != json.end() && conversion->is_object())
-      owner = note_of(*conversion);
-    if (const auto begun = json.find("begun"); begun != json.end())
-      for (const Json& name : *begun) {
-        Entry& entry = files[name.get<std::string>()];
-        entry = {};
-        entry.conversion = json.at("conversion").get<std::string>();
+    const Json json = parse_json(line, kJournalName);
+    const Field field(json, kJournalName);
+    if (field.contains("conversion") && json.find("conversion")->fields() != nullptr)
+      owner = note_of(field["conversion"]);
+    if (field.contains("begun"))
+      for (const std::string& name :
+           field["begun"].list(0, [](const Field& entry) { return entry.text(); })) {
+        files[name] = {};
+        files[name].conversion = field["conversion"].text();
       }
-    if (const auto written = json.find("files"); written != json.end())
-      for (const Json& file : *written)
-        files[file.at("name").get<std::string>()] = {
-            json.at("conversion").get<std::string>(), json.at("inputs").get<std::string>(),
-            json.at("target").get<std::string>(),     true,
-            file.at("bytes").get<std::uintmax_t>(),   file.at("hash").get<std::string>()};
-  } catch (const nlohmann::json::exception&) {
+    if (field.contains("files")) {
+      const auto read = [&](const Field& file) {
+        files[file["name"].text()] = {field["conversion"].text(),
+                                      field["inputs"].text(),
+                                      field["target"].text(),
+                                      true,
+                                      static_cast<std::uintmax_t>(file["bytes"].count()),
+                                      file["hash"].text()};
+        return true;
+      };
+      field["files"].list(0, read);
+    }
+  } catch (const Error&) {
     // A line of a killed run, or damage: what it would say is unknown.
   }
 }
@@ -201,7 +200,7 @@ struct Journal::State {
 // One write, so that lines of several processes do not mix.
 void Journal::State::append(const Json& json) const {
   // File names need not be UTF-8.
-  const std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+  const std::string line = json.dump() + '\n';
   const int journal = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   const bool written = journal >= 0 &&
                        ::write(journal, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
@@ -265,7 +264,7 @@ bool Journal::is_done(const std::string& inputs, const std::vector<fs::path>& fi
 
 void Journal::begin(const std::vector<fs::path>& files) {
   create_parent(state_->file);
-  Json names = Json::array();
+  Json names = Json::list();
   for (const fs::path& path : files) names.push_back(state_->name_of(path));
   const std::lock_guard lock(state_->mutex);
   state_->append({{"begun", names}, {"conversion", state_->conversion.hash}});
@@ -279,7 +278,7 @@ void Journal::commit(const std::string& set, const std::string& inputs,
                {"conversion", state_->conversion.hash},
                {"source", state_->conversion.source},
                {"target", state_->conversion.target},
-               {"files", Json::array()}};
+               {"files", Json::list()}};
   for (const FinishedFile& file : files)
     line["files"].push_back(
         {{"name", state_->name_of(file.path)}, {"bytes", file.bytes}, {"hash", file.hash}});

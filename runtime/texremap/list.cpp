@@ -70,7 +70,7 @@ void print_converter(const ListedConverter& entry) {
 
 void list_converters(const ListOptions& options) {
   const ConverterGraph graph = shipped_graph();
-  Json all = Json::array();
+  Json all = Json::list();
   std::string failed;
   for (const auto& converter : shipped_converters()) {
     if (options.json)
@@ -111,14 +111,14 @@ void print_reached(const ConverterPath& path, const Closeness& closeness) {
 
 void list_models(const ListOptions& options) {
   const ConverterGraph graph = shipped_graph();
-  Json all = Json::array();
+  Json all = Json::list();
   for (const std::string& model : graph.models()) {
-    Json entry = side_json(side_of(model));
-    entry["reaches"] = Json::array();
+    const ModelSide side = side_of(model);
+    Json entry = side_json(side);
+    entry["reaches"] = Json::list();
     if (!options.json)
       std::cout << model << '\n'
-                << "  takes    " << entry["roughness"].get<std::string>() << " and "
-                << entry["specular"].get<std::string>() << '\n';
+                << "  takes    " << convention_name(side.roughness) << " and " << side.specular << '\n';
     std::vector<ConverterPath> paths;
     for (const std::string& target : graph.reachable_from(model))
       paths.push_back(graph.find_paths({model, target, {}}).front());
@@ -161,7 +161,7 @@ void print_workflow(const WorkflowModel& model) {
 }
 
 void list_workflows(const ListOptions& options) {
-  Json all = Json::array();
+  Json all = Json::list();
   for (const WorkflowModel& model : workflow_models()) {
     if (options.json)
       all.push_back(workflow_json(model));

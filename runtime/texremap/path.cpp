@@ -1,7 +1,6 @@
 // `texremap path`: explains which converters `convert` uses from one model to another, with their errors and
 // the reason for the choice.
 #include "remap/path.hpp"
-#include "remap/shipped_converters.hpp"
 
 #include <iostream>
 #include <memory>
@@ -11,6 +10,7 @@
 
 #include "command_line/command.hpp"
 #include "remap/chained_converter.hpp"
+#include "remap/shipped_converters.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
 #include "texremap/workflow_choice.hpp"
@@ -87,7 +87,7 @@ Json step_json(const ConverterInfo& info) {
 
 Json plan_json(const Plan& plan) {
   const std::vector<ConverterPath>& paths = plan.paths;
-  Json steps = Json::array(), alternatives = Json::array();
+  Json steps = Json::list(), alternatives = Json::list();
   for (const Converter* step : paths.front().steps) steps.push_back(step_json(step->info()));
   for (std::size_t i = 1; i < paths.size(); ++i)
     alternatives.push_back({{"models", path_models(paths[i])},
@@ -147,7 +147,7 @@ void explain(const PathOptions& options) {
   if (!choice.is_material() || choice.source_brdf != choice.target_brdf || !ends.via.empty())
     plan = plan_of({choice.source_brdf, choice.target_brdf, ends.via}, choice);
   if (options.json) {
-    Json result = plan ? plan_json(*plan) : Json{{"path", Json::array()}, {"expected_error", 0.0}};
+    Json result = plan ? plan_json(*plan) : Json{{"path", Json::list()}, {"expected_error", 0.0}};
     result["closest_of"] = choice.is_closest ? Json(choice.renderer) : Json();
     if (choice.is_material()) result["stages"] = stages;
     std::cout << result.dump(2) << '\n';

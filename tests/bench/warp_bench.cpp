@@ -1,7 +1,7 @@
 // Appearance warps: the fit from two texture sets and strokes, and the pass of the compiled table.
 #include "bench/bench.hpp"
 #include "convert/warp_kernel.hpp"
-#include "study/warp_sets.hpp"
+#include "support/warp_sets.hpp"
 #include "warp/warp.hpp"
 
 namespace remap_bench {

@@ -1,4 +1,4 @@
-// Runs `remapc sweep` with stages and diffuse, `remapc sample`, and the studies of measured materials.
+// Runs `remapc sweep` with stages and diffuse, `remapc sample`, and the study of dielectrics.
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -45,22 +45,6 @@ TEST_CASE("remapc sweep: models with an index are swept in F0") {
   CHECK(table.find("# target_specular_law: ior\n") != std::string::npos);
   CHECK(table.find("# target_specular_column: f0\n") != std::string::npos);
   CHECK(table.find("3 specular 0 to 0.36\n") != std::string::npos);
-}
-
-TEST_CASE("remap-study conductors: writes tables and a summary") {
-  const Session session;
-  const ProcessResult result =
-      require_success(session.study(study(session, "conductors", {"--alphas", "0.2,0.4"})));
-  CHECK(result.output.find("figure 6: smooth") != std::string::npos);
-  CHECK(result.output.find("figure 7: the ") != std::string::npos);
-  CHECK(result.output.find("Schlick (from F0) against exact Fresnel") != std::string::npos);
-  for (const std::string file : {"conductors.csv", "fresnel.csv", "as_to_ward.csv", "ward_to_as.csv"})
-    CHECK(fs::exists(session.path("conductors/" + file)));
-  CHECK(session.remapc({"check", session.path("conductors/as_to_ward.csv")}).output.find("contradiction") ==
-        std::string::npos);
-  const ProcessResult json = session.study(study(session, "conductors", {"--alphas", "0.2", "--json"}));
-  CHECK(json.output.find("\"slope\": ") != std::string::npos);
-  CHECK(json.output.find("null") == std::string::npos);
 }
 
 TEST_CASE("remap-study dielectrics: compares one, two and three stages") {

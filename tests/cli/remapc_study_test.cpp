@@ -96,20 +96,3 @@ TEST_CASE("remap-study workflows: writes tables, pictures, a summary and notes",
        {"\"gltf\": {", "\"projection\": {", "\"worst_ssim\": ", "\"uniform, 8-bit\": {"})
     CHECK(figures.find(key) != std::string::npos);
 }
-
-TEST_CASE("remap-study warp: figures as JSON, tables, a plot and sheets", "[needs][slow]") {
-  const Session session;
-  const ProcessResult result =
-      require_success(session.study({"warp", "--size", "32", "--stroke-sets", "1", "--material", "wood",
-                                     "--json", "-o", session.path("study"), "--pictures"}));
-  for (const std::string key :
-       {"\"method\": {", "\"registration\": {", "\"dimensions\": {", "\"points\": {", "\"nodes\": {",
-        "\"error\": ", "\"folds\": ", "\"table_difference\": ", "\"wood\": {", "\"seconds\": "})
-    CHECK(result.output.find(key) != std::string::npos);
-  CHECK(read_file(session.path("study/warp.csv")).find("\nwood,0,method,registration,") != std::string::npos);
-  CHECK(read_file(session.path("study/warp_sensitivity.csv"))
-            .find("\nset,group,variant,first,second,change\n") != std::string::npos);
-  for (const std::string name : {"methods", "sampling", "strokes"})
-    CHECK(contrast(session.path("study/warp_" + name + "_wood.png")) > 0.2f);
-  check_plot(session, result, "warp.svg");
-}

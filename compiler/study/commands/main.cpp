@@ -1,5 +1,5 @@
-// remap-study: measures how accurate the converters are (under environment maps, between workflows, for
-// measured materials and for warps) and reproduces figures of the papers.
+// remap-study: measures how accurate the converters are (under environment maps, between workflows and
+// for dielectrics) and reproduces figures of the papers.
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "remap/version.hpp"
@@ -14,8 +14,6 @@ int main(int argc, char** argv) {
   remapc::add_environments_study(app);
   remapc::add_reach_study(app);
   remapc::add_workflows_study(app);
-  remapc::add_conductors_study(app);
   remapc::add_dielectrics_study(app);
-  remapc::add_warp_study(app);
   return remap::run_app(app, argc, argv);
 }

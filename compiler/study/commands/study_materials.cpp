@@ -1,5 +1,4 @@
-// `remap-study conductors` and `remap-study dielectrics`: match measured materials and write tables, plots
-// and a summary.
+// `remap-study dielectrics` matches measured dielectrics and writes tables, a plot and a summary.
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -8,7 +7,6 @@
 #include "remap/error.hpp"
 #include "study/commands/studies.hpp"
 #include "study/commands/study_options.hpp"
-#include "study/conductors_study.hpp"
 #include "study/dielectrics_study.hpp"
 #include "text/number_text.hpp"
 
@@ -56,10 +54,6 @@ void show(const MaterialsCommand& command, StudyReport report) {
   std::cout << (command.output.json ? report.figures.dump(2) + "\n" : report.summary);
 }
 
-void run_conductors(const MaterialsCommand& command) {
-  show(command, conductors_report(run_with_progress(command, "conductors", study_conductors)));
-}
-
 void run_dielectrics(const MaterialsCommand& command) {
   if (!(command.diffuse >= 0.0 && command.diffuse <= 1.0))
     throw Error(ErrorKind::kUsage,
@@ -88,18 +82,6 @@ void add_options(remap::Command& app, MaterialsCommand& command) {
 }
 
 }  // namespace
-
-void add_conductors_study(remap::Command& app) {
-  remap::Command* command = app.add_subcommand(
-      "conductors",
-      "Convert measured metals from Ashikhmin-Shirley to Ward and back (figures 6 and 7 of the paper)");
-  auto options = std::make_shared<MaterialsCommand>();
-  options->study.alphas = {0.05, 0.1, 0.2, 0.3, 0.5};
-  options->study.resolution = 256;
-  add_options(*command, *options);
-  command->footer("Example:\n  remap-study conductors -o conductors");
-  command->callback([options] { run_conductors(*options); });
-}
 
 void add_dielectrics_study(remap::Command& app) {
   remap::Command* command = app.add_subcommand(

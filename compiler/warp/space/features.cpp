@@ -25,10 +25,6 @@ Eigen::VectorXd weights_of(const std::vector<QuadratureDirection>& directions,
   return weights;
 }
 
-bool is_quadratic(AppearanceDistance distance) {
-  return distance == AppearanceDistance::kRelative || distance == AppearanceDistance::kPlain;
-}
-
 Eigen::VectorXd mean_of(const MaterialRef& material, const std::vector<QuadratureDirection>& directions) {
   if (!material.is_separable()) return mean_of_samples(material);
   return mean_reflectance(*material.parametric(), lobe_table(material.parametric()->model, directions));
@@ -99,7 +95,7 @@ Eigen::VectorXd direction_weights(const MaterialRef& source, const MaterialRef& 
 
 FeaturePair appearance_features(const MaterialRef& source, const MaterialRef& target,
                                 AppearanceDistance distance) {
-  if (is_quadratic(distance) && source.is_separable() && target.is_separable())
+  if (source.is_separable() && target.is_separable())
     return separable_features(*source.parametric(), *target.parametric(), distance);
   if (source.is_profiles() != target.is_profiles())
     throw input_error(source.name() + " and " + target.name() +

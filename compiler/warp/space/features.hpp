@@ -15,29 +15,23 @@ namespace remapc {
 
 // The weight of differences between two reflectances over directions (An et al. 2011, equation 1). kRelative
 // divides a difference by the mean reflectance of both materials plus 0.03. Its rank correlation with
-// differences of lit spheres is 0.95; that of kPlain is 0.58, because highlight peaks dominate. Both are
-// quadratic in reflectance. kCubeRoot and kLog compare the cube root and log(1 + rho / 0.05); their
-// correlation is 0.96, but they have no closed form.
-enum class AppearanceDistance { kRelative, kPlain, kCubeRoot, kLog };
-inline constexpr remap::NamedValues<AppearanceDistance, 4> kAppearanceDistances = {
-    {{AppearanceDistance::kRelative, "relative"},
-     {AppearanceDistance::kPlain, "plain"},
-     {AppearanceDistance::kCubeRoot, "cube-root"},
-     {AppearanceDistance::kLog, "log"}}};
+// differences of lit spheres is 0.95; that of kPlain is 0.58, because highlight peaks dominate.
+enum class AppearanceDistance { kRelative, kPlain };
+inline constexpr remap::NamedValues<AppearanceDistance, 2> kAppearanceDistances = {
+    {{AppearanceDistance::kRelative, "relative"}, {AppearanceDistance::kPlain, "plain"}}};
 
 inline constexpr Eigen::Index kFeatureBasis = 14;  // features per channel; the error is 3e-4 of the distance
 
-// Features of parameters for a quadratic distance. The features of one channel are d * diffuse + s *
-// slope(alpha) + base(alpha), where d is diffuse and s specular. Columns are nodes of alpha.
+// Features of parameters whose lobes are linear in diffuse and specular. The features of one channel are d *
+// diffuse + s * slope(alpha) + base(alpha), where d is diffuse and s specular. Columns are nodes of alpha.
 struct SeparableFeatures {
   Eigen::VectorXd diffuse;      // kFeatureBasis
   Eigen::MatrixXd slope, base;  // kFeatureBasis x kWidthNodes
 };
 
-// Features of samples for any distance. Samples are at the directions of half_vector_quadrature() or at the
-// radii of profiles.
+// Features of samples, for tables and for exact Fresnel reflectance. Samples are at the directions of
+// half_vector_quadrature() or at the radii of profiles.
 struct SampledFeatures {
-  AppearanceDistance distance = AppearanceDistance::kRelative;
   std::vector<double> radii;  // union of both materials; empty for reflectances
   Eigen::VectorXd weights;    // square roots of the weights of the samples of one channel
   Eigen::MatrixXd basis;      // 3 x samples rows; orthonormal columns that span 512 texels
@@ -52,9 +46,9 @@ struct FeaturePair {
   AppearanceFeatures source, target;
 };
 
-// Uses closed forms if both materials are parametric and the distance is quadratic, samples otherwise. Throws
-// kInput if only one of the materials has profiles, and kUsage for profiles with the relative distance, which
-// is defined for reflectances only.
+// Uses closed forms if both materials are parametric, without exact Fresnel reflectance, samples otherwise.
+// Throws kInput if only one of the materials has profiles, and kUsage for profiles with the relative
+// distance, which is defined for reflectances only.
 FeaturePair appearance_features(const MaterialRef& source, const MaterialRef& target,
                                 AppearanceDistance distance = AppearanceDistance::kRelative);
 

@@ -28,14 +28,16 @@ std::vector<int> count_texels(const Points& positions, const BinGrid& grid) {
   return counts;
 }
 
-double search_spacing(const Points& positions, double wanted) {
+constexpr double kWantedPoints = 350.0;
+
+double search_spacing(const Points& positions) {
   const double extent = largest_extent(positions);
   double spacing = extent / kCoarsest;
   for (int step = 0; step < kSearchSteps; ++step) {
     const std::vector<int> counts = count_texels(positions, BinGrid(positions, spacing));
     const auto occupied =
         std::count_if(counts.begin(), counts.end(), [](int count) { return count >= kLeastTexels; });
-    const double ratio = static_cast<double>(std::max<std::ptrdiff_t>(occupied, 1)) / wanted;
+    const double ratio = static_cast<double>(std::max<std::ptrdiff_t>(occupied, 1)) / kWantedPoints;
     if (std::abs(ratio - 1.0) < 0.08) break;
     spacing *= std::pow(ratio, 0.8 / static_cast<double>(positions.cols()));
     spacing = std::clamp(spacing, extent / kFinest, extent / 2.0);
@@ -82,26 +84,19 @@ BinGrid::BinGrid(const Points& positions, double spacing) : dimension_(positions
   }
 }
 
-long BinGrid::bin_of(const double* position) const noexcept {
+long BinGrid::bin_of(const Points& positions, Eigen::Index i) const noexcept {
   long bin = 0;
   for (auto k = static_cast<std::size_t>(dimension_); k-- > 0;) {
-    const double place = (position[k] - low_[k]) / spacing_;
+    const double place = (positions(i, static_cast<Eigen::Index>(k)) - low_[k]) / spacing_;
     if (!(place >= 0.0 && place < static_cast<double>(cells_[k]))) return -1;
     bin = bin * cells_[k] + static_cast<long>(place);
   }
   return bin;
 }
 
-long BinGrid::bin_of(const Points& positions, Eigen::Index i) const noexcept {
-  std::array<double, 3> position{};
-  for (Eigen::Index k = 0; k < dimension_; ++k) position[static_cast<std::size_t>(k)] = positions(i, k);
-  return bin_of(position.data());
-}
-
-Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes,
-                       double wanted) {
+Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes) {
   Occupancy result;
-  result.spacing = search_spacing(positions, wanted);
+  result.spacing = search_spacing(positions);
   const BinGrid grid(positions, result.spacing);
   const std::vector<int> counts = count_texels(positions, grid);
   // With few texels in total, every occupied bin counts.

@@ -25,14 +25,11 @@ struct Occupancy {
   double spacing = 0.0;                   // width of a bin
 };
 
-inline constexpr double kWantedPoints = 350.0;
-
-// Searches the width of the bins so that about `wanted` of them contain at least four texels. Any number from
+// Searches the width of the bins so that about 350 of them contain at least four texels. Any number from
 // 300 to 1200 points gives results within one percentage point of error. `positions`: of texels, NaN is
 // ignored. `strokes`: indices of texels. A stroke whose texels are all in sparse bins gets the point nearest
 // to its centre.
-Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes,
-                       double wanted = kWantedPoints);
+Occupancy occupancy_of(const Points& positions, const std::vector<std::vector<std::uint32_t>>& strokes);
 
 // The grid of `occupancy_of`: finds the bin of a position.
 class BinGrid {
@@ -40,7 +37,6 @@ class BinGrid {
   BinGrid(const Points& positions, double spacing);
   std::size_t size() const noexcept { return size_; }
   // The index of the bin, or -1 for NaN.
-  long bin_of(const double* position) const noexcept;
   long bin_of(const Points& positions, Eigen::Index i) const noexcept;
 
  private:

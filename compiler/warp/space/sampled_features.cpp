@@ -1,4 +1,4 @@
-// Features by samples, for every model, table and distance without a closed form.
+// Features by samples, for every model and table without a closed form.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,6 @@ namespace {
 constexpr std::size_t kBasisTexels = 256;  // of each material
 constexpr double kLeastShare = 1e-9;       // relative to the largest eigenvalue; weaker directions are noise
 constexpr Eigen::Index kLargestBasis = 64;
-constexpr double kLogFloor = 0.05;
 constexpr double kLargestF0 = 0.999;
 
 // The radii of both materials in increasing order, without duplicates.
@@ -53,29 +52,21 @@ double profile_at(const std::vector<double>& radii, const float* samples, double
 SampledFeatures frame_of(const MaterialRef& source, const MaterialRef& target, AppearanceDistance distance,
                          const Eigen::VectorXd& weights) {
   SampledFeatures frame;
-  frame.distance = distance;
   frame.weights = weights;
   if (!source.is_profiles()) return frame;
   if (distance == AppearanceDistance::kRelative)
     throw usage_error(
         "distance: 'relative' is not defined for scattering profiles (choose plain, as An et al. 2011, "
-        "section 4, cube-root or log)");
+        "section 4)");
   frame.radii = merged_radii(*source.tabulated(), *target.tabulated());
   frame.weights = radial_measure(frame.radii).cwiseSqrt();
   return frame;
 }
 
-double compared(AppearanceDistance distance, double value) {
-  if (distance == AppearanceDistance::kCubeRoot) return std::cbrt(value);
-  if (distance == AppearanceDistance::kLog) return std::log1p(value / kLogFloor);
-  return value;
-}
-
 // Weights samples so that their Euclidean distance is the appearance distance.
 Eigen::VectorXd weighted(const SampledFeatures& features, Eigen::VectorXd samples) {
   const Eigen::Index rows = features.weights.size();
-  for (Eigen::Index i = 0; i < samples.size(); ++i)
-    samples[i] = features.weights[i % rows] * compared(features.distance, samples[i]);
+  for (Eigen::Index i = 0; i < samples.size(); ++i) samples[i] *= features.weights[i % rows];
   return samples;
 }
 

@@ -309,7 +309,8 @@ TEST_CASE(
   CHECK(natural.ssim > copy.ssim);
   CHECK(natural.energy < copy.energy);
   const StudyReport report = environments_report(options, result);
-  for (const auto& worse : report.figures["worse_than_copy"]) CHECK(worse["method"] != "natural");
+  for (const remap::Json& worse : *report.figures.find("worse_than_copy")->entries())
+    CHECK(*worse.find("method")->text() != "natural");
   options.jobs = 1;
   CHECK(environments_report(options, study_environments(options)).tables == report.tables);
 }

@@ -3,7 +3,6 @@
 #include "warp/warp.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,10 +10,8 @@
 
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
-#include "study/warp_sets.hpp"
 #include "support/random_warp.hpp"
-#include "warp/paper_warp.hpp"
-#include "warp/simplex_search.hpp"
+#include "support/warp_sets.hpp"
 #include "warp/space/quadrature.hpp"
 
 namespace {
@@ -193,79 +190,6 @@ TEST_CASE("warp: near the truth, without tears and folds", "[warp][slow]") {
   }
 }
 
-TEST_CASE("warp: more accurate than histogram matching and affine on both sets", "[warp][slow]") {
-  const std::array sets = {leaf_set(128), rust_set(128)};
-  const auto error_by = [&](WarpMethod method) {
-    WarpOptions options;
-    options.method = method;
-    double sum = 0.0;
-    for (const WarpSet& set : sets)
-      sum += measure(set, fit_warp(set.source, set.target, strokes_of(set, 0), options)).error;
-    return sum / static_cast<double>(sets.size());
-  };
-  const double own = error_by(WarpMethod::kRegistration);
-  CHECK(own < 0.7 * error_by(WarpMethod::kAffine));
-  CHECK(own < 0.7 * error_by(WarpMethod::kHistogram));
-  CHECK(own < 1.1 * error_by(WarpMethod::kPaper));
-}
-
-TEST_CASE("simplex search: the valley of Rosenbrock and a paraboloid", "[warp]") {
-  const auto valley = [](const std::vector<double>& x) {
-    return 100.0 * std::pow(x[1] - x[0] * x[0], 2.0) + std::pow(1.0 - x[0], 2.0);
-  };
-  const auto lowest = simplex_search({-1.2, 1.0}, {0.1, 0.1}, 300, valley);
-  CHECK(lowest[0] == Approx(1.0).margin(1e-4));
-  CHECK(lowest[1] == Approx(1.0).margin(1e-4));
-  int calls = 0;
-  const auto counted = [&](const std::vector<double>& x) {
-    ++calls;
-    return x[0] * x[0] + 2.0 * x[1] * x[1] + 3.0 * x[2] * x[2];
-  };
-  const auto found = simplex_search({1.0, 2.0, 3.0}, {0.5, 0.5, 0.5}, 50, counted);
-  CHECK(calls == 50);
-  CHECK(counted(found) < 1.0);
-}
-
-TEST_CASE("paper: the simplex search lowers the published energy and changes the result little",
-          "[warp][slow]") {
-  const WarpSet set = leaf_set(128);
-  const auto strokes = strokes_of(set, 0);
-  WarpOptions options;
-  options.method = WarpMethod::kPaper;
-  WarpFit fit = fit_warp(set.source, set.target, strokes, options);
-  const double searched = measure(set, fit).error;
-  auto& warp = std::get<BinnedAffine>(fit.warp);
-  double moved = 0.0;
-  for (AffineMap& correction : warp.corrections) {
-    moved += correction.linear.norm() + correction.offset.norm();
-    correction.linear.setZero();
-    correction.offset.setZero();
-  }
-  CHECK(moved > 0.0);
-  const double initial = measure(set, fit).error;
-  CAPTURE(searched, initial);
-  CHECK(std::abs(searched - initial) < 0.5);
-}
-
-TEST_CASE("paper: with equal sets and equal strokes the search changes nothing", "[warp]") {
-  PointSets sets;
-  sets.source.points = Points(36, 2);
-  for (Eigen::Index i = 0; i < 36; ++i)
-    sets.source.points.row(i) << 0.1 * static_cast<double>(i % 6), 0.1 * static_cast<double>(i / 6);
-  sets.source.texel_count = Eigen::VectorXd::Ones(36);
-  sets.source.spacing = 0.1;
-  sets.source.strokes = {{0, 1, 6, 7}, {4, 5, 10, 11}, {24, 25, 30, 31}, {28, 29, 34, 35}};
-  sets.target = sets.source;
-  sets.common_axes = Eigen::MatrixXd::Identity(2, 2);
-  sets.source_centres = Points(4, 2);
-  sets.source_centres << 0.05, 0.05, 0.45, 0.05, 0.05, 0.45, 0.45, 0.45;
-  sets.target_centres = sets.source_centres;
-  const PaperWarp found = warp_of_paper(sets);
-  CHECK(found.energy_after <= found.energy_before);
-  const Points images = images_of(AppearanceWarp(initialisation_of_paper(sets)), sets.source.points);
-  CHECK((images - sets.source.points).cwiseAbs().maxCoeff() < 0.05);
-}
-
 TEST_CASE("warp: results are bit-identical in every run", "[warp]") {
   const WarpSet set = small_leaf();
   const auto strokes = strokes_of(set, 0);
@@ -372,10 +296,6 @@ TEST_CASE("warp: invalid input is refused", "[warp]") {
              Contains("leaf source: all texels look the same"));
   CHECK_THAT(message([&] { fit_warp(set.source, plain, strokes); }),
              Contains("leaf template: all texels look the same"));
-  WarpOptions options;
-  options.dimensions = 4;
-  CHECK_THAT(message([&] { fit_warp(set.source, set.target, strokes, options); }),
-             Contains("is out of range (1 to 3"));
 }
 
 TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", "[warp]") {

@@ -1,4 +1,4 @@
-// Distances without a closed form and tabulated materials, compared with parametric materials and with
+// Features by samples and tabulated materials, compared with parametric materials and with
 // profiles whose distance is known.
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
-#include "study/warp_sets.hpp"
-#include "support/campaign.hpp"
+#include "support/warp_sets.hpp"
 #include "warp/space/features.hpp"
 #include "warp/space/quadrature.hpp"
 #include "warp/warp.hpp"
@@ -89,45 +88,20 @@ std::vector<double> even_radii(double step, std::size_t count) {
 
 TEST_CASE("sampled features: distances are the integral over directions", "[warp]") {
   const WarpSet set = rust_set(32);
-  const auto directions = half_vector_quadrature();
   const TabulatedMaterial a = tabulated(set.source), b = tabulated(set.target);
-  for (const auto distance : {AppearanceDistance::kCubeRoot, AppearanceDistance::kLog}) {
-    const FeaturePair features = appearance_features(set.source, set.target, distance);
-    for (Eigen::Index i = 0; i < 30; ++i) {
-      const Eigen::Index first = 31 * i, second = 17 * i + 5, rows = a.samples.rows() / 3;
-      double sum = 0.0;
-      for (Eigen::Index row = 0; row < a.samples.rows(); ++row) {
-        const auto f = [&](float value) {
-          const auto v = static_cast<double>(value);
-          return distance == AppearanceDistance::kCubeRoot ? std::cbrt(v) : std::log(1.0 + v / 0.05);
-        };
-        sum += directions[static_cast<std::size_t>(row % rows)].weight *
-               std::pow(f(a.samples(row, first)) - f(b.samples(row, second)), 2.0);
-      }
-      const double found = (features_of(features.source, set.source.texels[static_cast<std::size_t>(first)]) -
-                            features_of(features.target, set.target.texels[static_cast<std::size_t>(second)]))
-                               .norm();
-      CHECK(found == Approx(std::sqrt(sum)).epsilon(0.01));
-    }
-  }
-}
-
-TEST_CASE("distances without a closed form find the same correspondence", "[warp][slow][campaign]") {
-  // A full campaign has both distances for both sets.
-  const WarpSet rust = rust_set(96);
-  for (const WarpSet& set : {leaf_set(96), rust}) {
-    const auto strokes = strokes_of(set, 0);
-    for (const auto distance : {AppearanceDistance::kCubeRoot, AppearanceDistance::kLog}) {
-      const bool is_own = (distance == AppearanceDistance::kLog) == (set.name == rust.name);
-      if (!is_own && !remap::is_full_campaign()) continue;
-      const WarpFit fit = fit_warp(set.source, set.target, strokes, by(distance));
-      const double error = error_of(set, fit, set.source, set.target);
-      CAPTURE(set.name, static_cast<int>(distance), error, fit.diagnostics.coordinates_error);
-      CHECK(fit.diagnostics.coordinates_error < 0.03);
-      CHECK(error < 0.35);  // unrelated texels: 1.41
-      CHECK(fit.diagnostics.fold_share == 0.0);
-      CHECK(std::holds_alternative<remap::QuadraticTerms>(fit.compiled.coordinates.terms));
-    }
+  const auto relative = AppearanceDistance::kRelative;
+  const Eigen::VectorXd weights = direction_weights(set.source, set.target, relative);
+  const FeaturePair features = sampled_features(set.source, set.target, relative, weights);
+  for (Eigen::Index i = 0; i < 30; ++i) {
+    const Eigen::Index first = 31 * i, second = 17 * i + 5, rows = a.samples.rows() / 3;
+    double sum = 0.0;
+    for (Eigen::Index row = 0; row < a.samples.rows(); ++row)
+      sum += std::pow(
+          weights[row % rows] * static_cast<double>(a.samples(row, first) - b.samples(row, second)), 2.0);
+    const double found = (features_of(features.source, set.source.texels[static_cast<std::size_t>(first)]) -
+                          features_of(features.target, set.target.texels[static_cast<std::size_t>(second)]))
+                             .norm();
+    CHECK(found == Approx(std::sqrt(sum)).epsilon(0.01));
   }
 }
 

@@ -8,15 +8,19 @@
 #include <string>
 #include <vector>
 
-#include "study/warp_case.hpp"
+#include "warp/space/material.hpp"
 
 namespace remapc {
 
 using Latents = std::vector<std::array<double, 3>>;
 
-// A case of width and height `size`. The truth is the template's reflectance at the source's latents.
-struct WarpSet : WarpCase {
+// Maps of width and height `size`, row-major.
+struct WarpSet {
+  std::string name;
+  std::size_t size = 0;
+  WarpMaterial source, target;
   Latents source_latents, target_latents;
+  std::vector<remap::WarpTexel> truth;  // the template's reflectance at the source's latents
 };
 
 // `leaf`: age and stem. `wood`: grain and wear. `rust`: rust, grime and polish.
@@ -27,13 +31,5 @@ WarpSet rust_set(std::size_t size);
 // Draws thin straight lines in each region, clipped to the region: three, or more until they cover 80 texels.
 // They differ between the materials and the seeds.
 std::vector<StrokePair> strokes_of(const WarpSet& set, std::uint32_t seed);
-
-// The names of the sets: `leaf`, `wood`, `rust`.
-std::vector<std::string> builtin_warp_names();
-
-// Returns the sets of `names` (all if empty) with `size` x `size` texels and `stroke_sets` sets of strokes
-// each. Throws kUsage unless `size` is 32 to 2048 and `stroke_sets` 1 to 100.
-std::vector<WarpCase> builtin_warp_cases(std::size_t size, std::size_t stroke_sets,
-                                         const std::vector<std::string>& names = {});
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-#include "study/warp_sets.hpp"
+#include "support/warp_sets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,9 @@
 #include <numeric>
 #include <random>
 
-#include "remap/error.hpp"
-
 namespace remapc {
 namespace {
 
-using remap::Error;
-using remap::ErrorKind;
 using Color = std::array<double, 3>;
 using Region = std::function<bool(const std::array<double, 3>&)>;
 
@@ -104,7 +100,7 @@ std::vector<remap::WarpTexel> material_of(Law law, const Latents& latents, std::
 WarpSet set_of(const std::string& name, std::size_t size, Law source, Law target, Latents from, Latents to) {
   WarpSet set;
   set.name = name;
-  set.width = set.height = size;
+  set.size = size;
   set.source = {name + " source", {}, material_of(source, from, 5)};
   set.target = {name + " template", {}, material_of(target, to, 6)};
   for (const auto& latent : from) set.truth.push_back(target(latent));
@@ -216,9 +212,6 @@ std::vector<std::uint32_t> scribbles(const Latents& latents, std::size_t size, c
   return texels;
 }
 
-constexpr std::array<std::pair<const char*, WarpSet (*)(std::size_t)>, 3> kSets = {
-    {{"leaf", leaf_set}, {"wood", wood_set}, {"rust", rust_set}}};
-
 }  // namespace
 
 WarpSet leaf_set(std::size_t size) {
@@ -240,33 +233,10 @@ std::vector<StrokePair> strokes_of(const WarpSet& set, std::uint32_t seed) {
   std::vector<StrokePair> strokes;
   for (const Region& region : regions_of(set)) {
     const auto index = static_cast<std::uint32_t>(strokes.size()) + 10 * seed;
-    strokes.push_back({scribbles(set.source_latents, set.width, region, 100 + index),
-                       scribbles(set.target_latents, set.width, region, 200 + index)});
+    strokes.push_back({scribbles(set.source_latents, set.size, region, 100 + index),
+                       scribbles(set.target_latents, set.size, region, 200 + index)});
   }
   return strokes;
-}
-
-std::vector<std::string> builtin_warp_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, make] : kSets) names.emplace_back(name);
-  return names;
-}
-
-std::vector<WarpCase> builtin_warp_cases(std::size_t size, std::size_t stroke_sets,
-                                         const std::vector<std::string>& names) {
-  if (size < 32 || size > 2048)
-    throw Error(ErrorKind::kUsage, "--size: " + std::to_string(size) + " is out of range (32 to 2048)");
-  if (stroke_sets < 1 || stroke_sets > 100)
-    throw Error(ErrorKind::kUsage,
-                "--stroke-sets: " + std::to_string(stroke_sets) + " is out of range (1 to 100)");
-  std::vector<WarpCase> cases;
-  for (const auto& [name, make] : kSets) {
-    if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end()) continue;
-    WarpSet set = make(size);
-    for (std::uint32_t seed = 0; seed < stroke_sets; ++seed) set.strokes.push_back(strokes_of(set, seed));
-    cases.push_back(std::move(set));
-  }
-  return cases;
 }
 
 }  // namespace remapc

@@ -1,0 +1,102 @@
+// JSON as values: what the programs print and write, and what json_field.hpp reads. The library that turns
+// values into text and back is included by json.cpp alone.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace remap {
+
+// A list in braces whose entries are all pairs that begin with a text is an object: `{{"id", id}, {"rows",
+// 3}}`. Use Json::list() where such a list is meant as one.
+class Json {
+ public:
+  using List = std::vector<Json>;
+  using Object = std::vector<std::pair<std::string, Json>>;  // in the order in which fields were added
+
+  Json() = default;  // null
+  Json(std::nullptr_t) {}
+  Json(bool value) : value_(value) {}
+  template <std::integral T>
+  Json(T value) {
+    if constexpr (std::is_signed_v<T>)
+      value_ = static_cast<std::int64_t>(value);
+    else
+      value_ = static_cast<std::uint64_t>(value);
+  }
+  template <std::floating_point T>
+  Json(T value) : value_(static_cast<double>(value)) {}
+  Json(const char* text) : value_(std::string(text)) {}
+  Json(std::string text) : value_(std::move(text)) {}
+  Json(std::string_view text) : value_(std::string(text)) {}
+  template <typename T>
+  Json(const std::optional<T>& value) {
+    if (value) *this = Json(*value);
+  }
+  template <typename T>
+  Json(const std::vector<T>& values) : value_(List(values.begin(), values.end())) {}
+  template <typename T, std::size_t N>
+  Json(const std::array<T, N>& values) : value_(List(values.begin(), values.end())) {}
+  template <typename T>
+  Json(const std::map<std::string, T>& values) : value_(Object(values.begin(), values.end())) {}
+  Json(std::initializer_list<Json> entries);
+
+  static Json list(std::initializer_list<Json> entries = {});
+  static Json object();
+
+  // The field of an object, which is added if it is missing; null becomes an object.
+  Json& operator[](const std::string& key);
+  // Null where the object lacks the field, or this is none.
+  const Json* find(std::string_view key) const;
+  bool contains(std::string_view key) const { return find(key) != nullptr; }
+  // Removes a field, if it is there.
+  void erase(std::string_view key);
+  // Adds an entry to a list; null becomes a list.
+  void push_back(Json entry);
+  // Adds the fields of another object; a field that exists already takes the new value.
+  void update(const Json& other);
+
+  // Null where this is of another kind.
+  const bool* boolean() const { return std::get_if<bool>(&value_); }
+  const std::string* text() const { return std::get_if<std::string>(&value_); }
+  const List* entries() const { return std::get_if<List>(&value_); }
+  const Object* fields() const { return std::get_if<Object>(&value_); }
+  List* entries() { return std::get_if<List>(&value_); }
+  // None where this is no number, or, of whole(), no whole number that a signed one of 64 bits holds.
+  std::optional<double> number() const;
+  std::optional<std::int64_t> whole() const;
+  bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
+  // Of the entries or fields; 0 of other values.
+  std::size_t size() const;
+  bool empty() const { return size() == 0; }
+
+  // The text: on one line, or with `indent` spaces for each level. Text that is not UTF-8 has replacement
+  // characters.
+  std::string dump(int indent = -1) const;
+
+ private:
+  friend class JsonBuilder;
+  std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string, List, Object> value_;
+};
+
+// Whether JSON can hold a text as it is.
+bool is_utf8(const std::string& text);
+
+// Why a text was refused: the words of the library, which quote the text.
+struct JsonFault {
+  std::string reason;
+};
+// Parses a text, without the limits of parse_json() (json_field.hpp).
+std::variant<Json, JsonFault> json_of(std::string_view text);
+
+}  // namespace remap
