@@ -20,7 +20,7 @@ label_columns() {
     fi
     ((column += 1))
   done
-  oiiotool "${words[@]}" -d uint8 -o "$labelled"
+  oiiotool --nosoftwareattrib "${words[@]}" -d uint8 -o "$labelled"
 }
 
 # percent_off FILE N: the Nth "rms" of a JSON report as a percentage.

@@ -62,7 +62,7 @@ def parse(text):
         elif case:
             case[1].append(line)
         else:
-            parts.append(f"# {line}")
+            sys.exit(f"{line}: neither a remark nor below a command")
     return parts
 
 
@@ -87,9 +87,9 @@ def shown(command, inputs, programs):
     lines = [line for line in text.splitlines() if line.strip()] or ["(nothing)"]
     if code != 1:
         lines[0] = f"{code} {lines[0]}"
-    faults = ["was not refused"] if code == 0 else []
+    faults = ["was not refused"] if code == 0 else ["did not end by itself"] if not 0 < code < 126 else []
     faults += [f"left {path}" for path in sorted(after.keys() - before.keys())]
-    faults += [f"changed {path}" for path in sorted(before) if after.get(path, b"") != before[path]]
+    faults += [f"changed {path}" for path in sorted(before) if after.get(path, "gone") != before[path]]
     return lines, faults
 
 
@@ -108,12 +108,13 @@ def check(path, programs, record):
                     sys.exit(f"{path}: {part}: exit code {code}: {text}")
         results = pool.map(lambda case: shown(case[0], inputs, programs), cases)
         for case, (lines, faults) in zip(cases, results):
-            if lines != case[1] and not record:
+            if record and not faults:
+                case[1] = lines
+            elif lines != case[1]:
                 faults += difflib.unified_diff(case[1], lines, "committed", "today", lineterm="", n=0)
             if faults:
                 failed += 1
                 print(f"{path.name}: $ {case[0]}", *faults, sep="\n  ", flush=True)
-            case[1] = lines
     if record:
         path.write_text(unparsed(parts))
     return len(cases), failed
@@ -127,7 +128,8 @@ def main():
     given = arguments.parse_args()
     counts = [check(path, given.programs.resolve(), given.record) for path in given.files]
     count, failed = (sum(numbers) for numbers in zip(*counts))
-    print(f"{count} refusals, {failed} not as committed" + (" (if the new texts are right: tests/cli/errors.py --record)" if failed else ""))
+    remedy = " (if the new texts are right: tests/cli/errors.py --record)" if failed else ""
+    print(f"{count} refusals, {failed} not as committed{remedy}")
     sys.exit(1 if failed or not count else 0)
 
 

@@ -38,7 +38,7 @@ TEST_CASE("remapc: sweep, check, fit, emit, eval, list and show work in a row") 
 TEST_CASE("remapc eval --grid: prints what the interpreter gives over the domain, without a table") {
   const Session session;
   session.write("t.csv", made_table(8, 3));
-  REQUIRE(session.remapc(session.fit("t.csv")).exit_code == 0);
+  require_success(session.remapc(session.fit("t.csv")));
   const std::string path = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
   const Fit fit = load_fit(path);
   std::string expected = "source_alpha,source_specular,target_alpha,target_f0\n";
@@ -54,6 +54,14 @@ TEST_CASE("remapc eval --grid: prints what the interpreter gives over the domain
   const std::string file = session.path("new/grid.csv");
   CHECK(session.remapc({"eval", path, "--grid", "3", "-o", file}).output.empty());
   CHECK(read_file(file) == expected);
+}
+
+TEST_CASE("remapc list: a folder without fits says so") {
+  const Session session;
+  session.write("empty/readme.txt", "");
+  const ProcessResult result = session.remapc({"list", "--fits", session.path("empty")});
+  CHECK(result.exit_code == 0);
+  CHECK(result.errors.find("no fits (*.json) in this folder") != std::string::npos);
 }
 
 TEST_CASE("remapc sweep: killed or interrupted it leaves nothing under the final name") {
