@@ -28,7 +28,6 @@ int main(int argc, char** argv) {
   remapc::add_preview_command(app);
   remapc::add_eval_command(app);
   remapc::add_renderers_command(app);
-  remapc::add_worker_check_command(app);
   remapc::add_warp_command(app);
   app.footer(
       "Example:\n"

@@ -35,7 +35,6 @@ void add_preview_command(remap::Command& app);
 void add_eval_command(remap::Command& app);
 
 void add_renderers_command(remap::Command& app);
-void add_worker_check_command(remap::Command& app);
 
 void add_warp_command(remap::Command& app);
 

@@ -274,7 +274,7 @@ void add_warp_command(remap::Command& app) {
                       "Folder for the exact copy: maps of texels copied from the template, and an index map");
   command->add_option(
       "--report FILE", options.report,
-      "Pictures of materials, strokes, appearance spaces and result: .html with the diagnostics, or .png");
+      "HTML page with pictures of materials, strokes, appearance spaces and result, and the diagnostics");
   command->add_flag("--json", options.json, "Print the diagnostics as JSON to standard output");
   add_model_options(*command, options);
   command->footer(

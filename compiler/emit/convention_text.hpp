@@ -1,4 +1,4 @@
-// What the conventions of widths are called in generated headers and lookup tables.
+// What the conventions of widths are called in generated headers.
 #pragma once
 
 #include "remap/convention.hpp"

@@ -119,7 +119,7 @@ std::string cell_table(const PiecewisePolynomial& polynomial, const std::string&
   if (polynomial.cell_count == 1) return "";
   std::vector<std::string> numbers;
   for (const float coefficient : polynomial.coefficients) numbers.push_back(float_literal(coefficient));
-  return table_code("float", name, polynomial.coefficients_a_cell(), numbers);
+  return table_code(name, polynomial.coefficients_a_cell(), numbers);
 }
 
 constexpr std::string_view kCellOf = R"(

@@ -18,7 +18,7 @@ std::string layer_table(const std::string& name, const Layer& layer) {
     for (std::size_t k = 0; k < layer.input_count; ++k)
       numbers.push_back(literal(layer.weights[j * layer.input_count + k]));
   }
-  return table_code("float", name, layer.input_count + 1, numbers);
+  return table_code(name, layer.input_count + 1, numbers);
 }
 
 // The calls that compute each layer from the rows of the one before. `last` receives the name of the last

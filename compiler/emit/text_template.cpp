@@ -89,10 +89,9 @@ std::string double_literal(double value) {
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-std::string table_code(const std::string& type, const std::string& name, std::size_t width,
-                       const std::vector<std::string>& numbers) {
-  std::string text = "inline constexpr " + type + " " + name + "[" + std::to_string(numbers.size() / width) +
-                     "][" + std::to_string(width) + "] = {\n";
+std::string table_code(const std::string& name, std::size_t width, const std::vector<std::string>& numbers) {
+  std::string text = "inline constexpr float " + name + "[" + std::to_string(numbers.size() / width) + "][" +
+                     std::to_string(width) + "] = {\n";
   for (std::size_t i = 0; i < numbers.size(); ++i)
     text += (i % width == 0 ? "    {" : ", ") + numbers[i] + ((i + 1) % width == 0 ? "},\n" : "");
   return text + "};\n";

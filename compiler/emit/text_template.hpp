@@ -36,8 +36,7 @@ std::string joined(const List& list, std::string_view between, const Text& text_
 std::string literal(double value);
 std::string double_literal(double value);
 
-// `inline constexpr TYPE NAME[rows][width] = {...};`, with one row on each line.
-std::string table_code(const std::string& type, const std::string& name, std::size_t width,
-                       const std::vector<std::string>& numbers);
+// `inline constexpr float NAME[rows][width] = {...};`, with one row on each line.
+std::string table_code(const std::string& name, std::size_t width, const std::vector<std::string>& numbers);
 
 }  // namespace remapc

@@ -71,7 +71,7 @@ std::string report_hash(const BuildFolders& folders, const Lock& lock) {
 
 bool has_report(const BuildFolders& folders, const Lock& lock) {
   return lock.report == report_hash(folders, lock) && fs::exists(folders.fits / kReportName) &&
-         fs::exists(folders.fits / kFiguresName) && fs::exists(folders.fits / kPlotName);
+         fs::exists(folders.fits / kFiguresName);
 }
 
 std::string converters_hash(const BuildFolders& folders, const Lock& lock) {

@@ -173,19 +173,13 @@ std::string page(const FitFolder& folder, const Lock& lock) {
   text += pair_lines(folder.fits) + uncompared_lines(folder.fits);
   if (!folder.analytic.empty()) text += kWorkflowIntroduction + workflow_lines(folder.analytic);
   if (!folder.warps.empty()) text += kWarpIntroduction + warp_lines(folder.warps);
-  text +=
-      std::string("\n![A panel for each compared pair](") + kPlotName +
-      ")\n\nBlue: target alpha over source alpha, 0 to 1. Orange: target specular / source specular, 0 to 2. "
-      "Grey: the identity.\n";
   return text;
 }
 
 }  // namespace
 
 std::vector<ReportFile> report(const FitFolder& folder, const Lock& lock) {
-  return {{kReportName, page(folder, lock)},
-          {kFiguresName, converters_csv(folder, lock)},
-          {kPlotName, pairs_plot(folder.fits)}};
+  return {{kReportName, page(folder, lock)}, {kFiguresName, converters_csv(folder, lock)}};
 }
 
 }  // namespace remapc

@@ -11,14 +11,13 @@ namespace remapc {
 
 inline constexpr const char* kReportName = "README.md";
 inline constexpr const char* kFiguresName = "converters.csv";
-inline constexpr const char* kPlotName = "pairs.svg";
 
 struct ReportFile {
   std::string name;  // in the folder of fits
   std::string text;
 };
 
-// Returns the page in Markdown, the table of all figures and the plot. `lock` holds the bounds of lowering.
+// Returns the page in Markdown and the table of all figures. `lock` holds the bounds of lowering.
 // The same fits give the same bytes on every machine.
 std::vector<ReportFile> report(const FitFolder& folder, const Lock& lock);
 
@@ -27,12 +26,5 @@ std::vector<ReportFile> report(const FitFolder& folder, const Lock& lock);
 // workflows, then warps. Errors are shares, lengths of the domain are alpha and specular; unknown figures are
 // empty. `lock` holds the bounds of lowering.
 std::string converters_csv(const FitFolder& folder, const Lock& lock);
-
-// Returns small multiples as an SVG: a panel for each measured pair: target alpha over source alpha, and the
-// ratio of speculars, at specular 0.5 or at the edge of the domain if that is lower. Pairs of the hub form a
-// matrix, a row for each source and a column for each target; the others follow. The hub holds models with
-// measured converters to or from more than one other, and pairs without further partners. The same fits give
-// the same bytes on every machine.
-std::string pairs_plot(const std::vector<remap::Fit>& fits);
 
 }  // namespace remapc

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "renderer/image.hpp"
 
@@ -22,9 +21,5 @@ void place_picture(Image* sheet, int side, std::size_t row, std::size_t column,
 
 // Returns a picture of one grey value.
 Image blank_picture(int width, int height, float grey);
-
-// Arranges rows of pictures on a light background, with gaps. Columns are as wide as the widest picture, rows
-// as high as their highest picture, and pictures are centered in their cells.
-Image sheet_of(const std::vector<std::vector<Image>>& rows);
 
 }  // namespace remapc

@@ -267,21 +267,15 @@ WarpPictures warp_pictures(const TextureMaterial& source, const TextureMaterial&
 }
 
 void require_report_path(const std::filesystem::path& path) {
-  if (path.extension() != ".html" && path.extension() != ".png")
+  if (path.extension() != ".html")
     throw remap::Error(remap::ErrorKind::kUsage,
-                       "--report: " + path.string() + ": the file name must end with .html or .png");
+                       "--report: " + path.string() + ": the file name must end with .html");
 }
 
 void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,
                        const WarpWords& words) {
   require_report_path(path);
-  if (path.extension() == ".html") {
-    remap::write_file(path, report_html(pictures, words));
-    return;
-  }
-  write_png(path, sheet_of({{pictures.source, pictures.target, pictures.result},
-                            {pictures.source_strokes, pictures.target_strokes, pictures.before},
-                            {pictures.source_space, pictures.target_space, pictures.after}}));
+  remap::write_file(path, report_html(pictures, words));
 }
 
 }  // namespace remapc

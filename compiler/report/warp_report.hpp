@@ -36,12 +36,10 @@ struct WarpWords {
   std::size_t stroke_count = 0;
 };
 
-// Throws kUsage unless the name ends with .html or .png.
+// Throws kUsage unless the name ends with .html.
 void require_report_path(const std::filesystem::path& path);
 
-// Writes one HTML file with embedded pictures, or one PNG with three rows of pictures: source, template,
-// result; strokes on source and template, points before the warp; both spaces, points after the warp. Throws
-// the errors of require_report_path(), and kOutput.
+// Writes one HTML file with embedded pictures. Throws the errors of require_report_path(), and kOutput.
 void write_warp_report(const std::filesystem::path& path, const WarpPictures& pictures,
                        const WarpWords& words);
 

@@ -70,21 +70,6 @@ bool is_inside(const Fit& fit, double alpha, double specular) {
          !(fit.regimes.specular_limit && mapped.specular >= *fit.regimes.specular_limit);
 }
 
-bool reaches_limit(const Fit& fit) {
-  constexpr int kSteps = 64;
-  constexpr double kSame = 1e-6;
-  const auto at = [](const Range& range, int i) { return range.min + (range.max - range.min) * i / kSteps; };
-  for (int i = 0; i <= kSteps; ++i)
-    for (int j = 0; j <= kSteps; ++j) {
-      const double alpha = at(fit.domain.alpha, i), specular = at(fit.domain.specular, j);
-      const MappedTexel mapped = evaluate_mapping(fit.mapping, alpha, specular),
-                        limited = evaluate_fit(fit, alpha, specular);
-      if (std::fabs(limited.alpha - mapped.alpha) > kSame) return true;
-      if (std::fabs(limited.specular - std::max(mapped.specular, 0.0)) > kSame) return true;
-    }
-  return false;
-}
-
 Domain mapping_domain(const Fit& fit) {
   Domain domain = fit.domain;
   domain.alpha.max = mapping_alpha(fit, domain.alpha.max);

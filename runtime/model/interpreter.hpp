@@ -26,9 +26,6 @@ double target_channel(const Fit& fit, double wide, double alpha, double specular
 // Whether the mapping alone answers: neither target parameter reaches its limit. A texel of one channel.
 bool is_inside(const Fit& fit, double alpha, double specular);
 
-// Whether limits change what the mapping gives somewhere in the domain, by samples.
-bool reaches_limit(const Fit& fit);
-
 // The part of the domain in which the mapping is evaluated; beyond, it is held.
 Domain mapping_domain(const Fit& fit);
 

@@ -81,7 +81,7 @@ TEST_CASE("remapc warp: strokes that share most of a region give a warning") {
   CHECK(result.errors.find("stroke 2 covers 75 % of stroke 1 in the source") != std::string::npos);
 }
 
-TEST_CASE("remapc warp: --report writes one HTML file with its pictures, or one PNG", "[slow]") {
+TEST_CASE("remapc warp: --report writes one HTML file with its pictures", "[slow]") {
   const Session session;
   write_materials(session);
   std::vector<std::string> words = mask_words(session);
@@ -97,12 +97,6 @@ TEST_CASE("remapc warp: --report writes one HTML file with its pictures, or one 
   CHECK(html.find("<h1>Warp stony</h1>") != std::string::npos);
   CHECK(html.find("<td>folds</td><td>0 %</td>") != std::string::npos);
   CHECK(html.ends_with("</html>\n"));
-  words.back() = session.path("report.png");
-  require_success(session.remapc(warp_words(session, words)));
-  const TestImage sheet = read_image(session.path("report.png"));
-  CHECK(sheet.spec.width == 3 * 518 + 6);  // pictures of 512 pixels, gaps of 6
-  CHECK(sheet.spec.height > 2 * 518);
-  CHECK(sheet.spec.nchannels == 3);
 }
 
 TEST_CASE("remapc warp: a report contains the warnings") {

@@ -190,26 +190,3 @@ TEST_CASE("remapc renderers: what is there is listed, and why the rest is not", 
   CHECK_THAT(result.output, Contains("\"version\": \"Fake 1\"") && Contains("\"model\": \"fake/ggx\""));
   CHECK_THAT(result.output, Contains("worker gone, request describe: ended with exit code 127"));
 }
-
-TEST_CASE("remapc worker-check: says in words what is wrong, and fails then", "[slow]") {
-  const Session session;
-  const remapc::FakeSession fake;
-  ProcessResult result = session.remapc({"worker-check", "--resolution", "32", fake.command()});
-  INFO(result.output);
-  CHECK(result.exit_code == 0);
-  CHECK_THAT(result.output, Contains("orientation") && !Contains("wrong"));
-  result = session.remapc({"worker-check", "--resolution", "32", fake.command("bright")});
-  CHECK(result.exit_code == 1);
-  CHECK_THAT(result.output, Contains("(pi); the light must have a radiant intensity of 1"));
-}
-
-TEST_CASE("remapc worker-check: the examples pass") {
-  const Session session;
-#ifdef REMAP_EXAMPLE_WORKER
-  CHECK(session.remapc({"worker-check", "--resolution", "24", REMAP_EXAMPLE_WORKER}).exit_code == 0);
-#endif
-  CHECK(session
-            .remapc({"worker-check", "--resolution", "24",
-                     "python3 " REMAP_SOURCE_DIR "/examples/lambert_worker.py"})
-            .exit_code == 0);
-}

@@ -64,12 +64,9 @@ remap::WarpTexel held(const remap::WarpTexel& texel) noexcept {
   return result;
 }
 
-bool is_finite(const remap::WarpTexel& texel) noexcept {
-  return std::all_of(texel.begin(), texel.end(), [](float value) { return std::isfinite(value); });
-}
-
 bool MaterialRef::takes_part(std::size_t texel) const noexcept {
-  if (parametric_ != nullptr) return is_finite(parametric_->texels[texel]);
+  if (parametric_ != nullptr)
+    return std::ranges::all_of(parametric_->texels[texel], [](float value) { return std::isfinite(value); });
   return static_cast<Eigen::Index>(tabulated_->entries[texel]) < tabulated_->samples.cols();
 }
 

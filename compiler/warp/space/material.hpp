@@ -94,7 +94,4 @@ void require_valid(const MaterialRef& source, const MaterialRef& target,
 // Clamps the values of a texel to 0 to 1; NaN is kept.
 remap::WarpTexel held(const remap::WarpTexel& texel) noexcept;
 
-// Whether all values are finite.
-bool is_finite(const remap::WarpTexel& texel) noexcept;
-
 }  // namespace remapc

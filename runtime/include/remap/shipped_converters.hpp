@@ -12,7 +12,8 @@
 namespace remap {
 
 // Replaces the shipped converters by those of `path`: a file that `remapc emit --all` wrote, a fit, or a
-// folder of fits; an empty path changes nothing. Call it before any other function of this header, from one thread. Throws kInput.
+// folder of fits; an empty path changes nothing. Call it before any other function of this header, from one
+// thread. Throws kInput.
 void use_converters(const std::filesystem::path& path);
 
 // Every shipped converter, in the order of their ids, for an instruction set that this processor has.

@@ -127,15 +127,3 @@ TEST_CASE("regimes: the inverse finds what lies inside, and nothing for a width 
   CHECK(found->specular == Approx(0.5));
   CHECK_FALSE(inverse(fit, {0.95, 0.5}).has_value());
 }
-
-TEST_CASE("regimes: reaches_limit tells whether limits change anything") {
-  Fit fit = made_regimes::fit();
-  CHECK(reaches_limit(fit));
-  fit.domain = {{0.01, 0.59}, {0.0, 0.62}};
-  CHECK_FALSE(reaches_limit(fit));
-  fit.mapping = Parametric{{{1.0}}, {{1, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
-  fit.regimes.wide.reset();
-  fit.regimes.bright.reset();
-  fit.domain = {{0.01, made_regimes::kAlphaLimit}, {0.0, 1.0}};  // the limit itself is no matter
-  CHECK_FALSE(reaches_limit(fit));
-}

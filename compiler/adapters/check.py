@@ -1,0 +1,453 @@
+"""Renders known scenes with a worker (PROTOCOL.md) and reports what is wrong with its pictures.
+
+    python3 check.py [--json] [--resolution N] [--timeout SECONDS] WORKER_COMMAND...
+
+WORKER_COMMAND: the command of a worker, or the name of one in workers.json. The exit code is 1 if a check fails.
+"""
+import argparse
+import array
+import json
+import math
+import os
+import pathlib
+import select
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+CAMERA = 3.0  # its distance; the sphere touches the edges of the picture
+HEADLIGHT, ASIDE, FAR = (0, 3), (60, 3), (0, 6)  # lights: angle, distance
+SAME = 2e-3  # pictures that differ by more are different; half floats are exact to 5e-4
+WIDE = 0.5  # the alpha of checks that need no peak
+# Constants that renderers put between their unit of light and radiant intensity.
+FACTORS = {"pi": math.pi, "1 / pi": 1 / math.pi, "4 pi": 4 * math.pi, "1 / (4 pi)": 0.25 / math.pi, "4": 4, "1 / 4": 0.25}
+OWN_WIDTH = {"alpha": lambda a: a, "roughness": math.sqrt, "exponent": lambda a: 2 / a**2 - 2,
+             "glossiness": lambda a: 1 - math.sqrt(a), "squared": lambda a: a**2}
+ALPHA = {"alpha": lambda w: w, "roughness": lambda w: w**2, "exponent": lambda w: math.sqrt(2 / (w + 2)),
+         "glossiness": lambda w: (1 - w)**2, "squared": math.sqrt}
+
+
+class Refused(Exception):
+    """The worker answered with an error."""
+
+
+class Broken(Exception):
+    """The worker does not follow the protocol, or is gone: nothing more can be asked."""
+
+
+class Worker:
+    def __init__(self, command, folder, timeout):
+        self.image, self.timeout, self.number, self.pending = folder / "picture.f32", timeout, 0, b""
+        self.log = open(folder / "log", "wb+")
+        self.process = subprocess.Popen(["sh", "-c", "exec " + command], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=self.log, start_new_session=True)
+
+    def close(self):
+        try:
+            os.killpg(self.process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        self.process.wait()
+
+    def broken(self, words):
+        self.log.seek(0)
+        last = self.log.read().decode(errors="replace").splitlines()[-5:]
+        return Broken(words + ("; last lines of its log: " + " / ".join(last) if last else ""))
+
+    def line(self):
+        while b"\n" not in self.pending:
+            if not select.select([self.process.stdout], [], [], self.timeout)[0]:
+                raise self.broken(f"no answer within {self.timeout:g} s")
+            more = os.read(self.process.stdout.fileno(), 1 << 16)
+            if not more:
+                code = self.process.wait()
+                raise self.broken(f"died with signal {-code}" if code < 0 else f"ended with exit code {code}")
+            self.pending += more
+        line, self.pending = self.pending.split(b"\n", 1)
+        return line.decode(errors="replace")
+
+    def ask(self, **request):
+        self.number += 1
+        try:
+            self.process.stdin.write(json.dumps({"id": self.number, **request}).encode() + b"\n")
+            self.process.stdin.flush()
+        except BrokenPipeError:
+            pass  # its end is found where the answer is read
+        line = self.line()
+        while self.number == 1 and not line.startswith("{"):  # a banner
+            line = self.line()
+        try:
+            answer = json.loads(line)
+        except ValueError:
+            answer = None
+        if not isinstance(answer, dict) or answer.get("id") != self.number:
+            raise self.broken(f"this is not the answer to request {self.number}: {line[:80]!r}")
+        if "error" in answer:
+            raise Refused(str(answer["error"])[:2000])
+        return answer
+
+    def render(self, model, parameters, light, resolution, samples, seed):
+        """A picture: rows of pixels, each a list of channels."""
+        turn, distance = math.radians(light[0]), light[1]
+        channels = 3 if any(len(values) > 1 for values in parameters.values()) else 1
+        scene = {"resolution": resolution, "samples_per_axis": samples,
+                 "camera": {"distance": CAMERA, "half_angle": math.degrees(math.asin(1 / CAMERA))},
+                 "light": {"angle": light[0], "distance": distance, "intensity": 1,
+                           "position": [distance * math.sin(turn), 0, distance * math.cos(turn)]}}
+        self.image.unlink(missing_ok=True)
+        self.ask(request="render", model=model, parameters=parameters, scene=scene, seed=seed, channels=channels,
+                 image=str(self.image))
+        values = array.array("f")
+        try:
+            values.frombytes(self.image.read_bytes())
+        except (OSError, ValueError) as failure:
+            raise Refused(f"the picture cannot be read: {failure}")
+        if len(values) != resolution**2 * channels:
+            raise Refused(f"the picture has {len(values)} values, not {resolution**2 * channels}")
+        if any(not math.isfinite(v) or v > 1e18 for v in values) or min(values) < -1e-4 * max(values):
+            raise Refused("values of a picture must be finite, not above 1e18 and not negative")
+        return Picture(resolution, [values[c::channels] for c in range(channels)])
+
+
+def normal(side, row, column):
+    """The point of the sphere that a pixel's centre shows; None beside it."""
+    half = 1 / math.sqrt(CAMERA**2 - 1)  # half the width of the picture at distance 1
+    dx, dy = ((2 * (column + 0.5) / side - 1) * half, (1 - 2 * (row + 0.5) / side) * half)
+    a = dx * dx + dy * dy + 1
+    root = CAMERA**2 - a * (CAMERA**2 - 1)
+    if root <= 0:
+        return None
+    t = (CAMERA - math.sqrt(root)) / a
+    return t * dx, t * dy, CAMERA - t
+
+
+class Picture:
+    def __init__(self, side, channels):
+        self.side, self.channels, self.values = side, channels, channels[0]
+
+    def made(self, side, pixel):
+        return Picture(side, [array.array("f", (pixel(i // side, i % side) for i in range(side * side)))])
+
+    def at(self, row, column):
+        return self.values[row * self.side + column]
+
+    def flipped(self, rows):
+        last = self.side - 1
+        return self.made(self.side, lambda r, c: self.at(last - r, c) if rows else self.at(r, last - c))
+
+    def every_third(self):
+        """The pixel centres of a picture a third as large."""
+        return self.made(self.side // 3, lambda r, c: self.at(3 * r + 1, 3 * c + 1))
+
+    def mean_of_nine(self):
+        return self.made(self.side // 3, lambda r, c: sum(self.at(3 * r + i // 3, 3 * c + i % 3) for i in range(9)) / 9)
+
+    def minus(self, other):
+        return Picture(self.side, [array.array("f", (a - b for a, b in zip(self.values, other.values)))])
+
+    def times(self, factor):
+        return Picture(self.side, [array.array("f", (factor * value for value in self.values))])
+
+    def brightest(self):
+        return max(map(abs, self.values))
+
+    def brightest_outside(self):
+        return max(abs(v) for i, v in enumerate(self.values) if normal(self.side, i // self.side, i % self.side) is None)
+
+    def centre(self):
+        """The mean position of the light, from -1 (left, bottom) to 1."""
+        light = sum(self.values)
+        if not light > 0:
+            return 0, 0
+        places = [2 * (i + 0.5) / self.side - 1 for i in range(self.side)]
+        return (sum(v * places[i % self.side] for i, v in enumerate(self.values)) / light,
+                -sum(v * places[i // self.side] for i, v in enumerate(self.values)) / light)
+
+    def within(self):
+        """The indices of pixels whose neighbours show the sphere, too: the cosine to the camera is above 0.2."""
+        for i in range(self.side**2):
+            n = normal(self.side, i // self.side, i % self.side)
+            if n and (CAMERA * n[2] - 1) / math.dist(n, (0, 0, CAMERA)) > 0.2:
+                yield i
+
+    def difference(self, other):
+        """RMS, relative to that of this picture."""
+        square = power = 0.0
+        for i in self.within():
+            square += (self.values[i] - other.values[i])**2
+            power += self.values[i]**2
+        return math.sqrt(square / max(power, 1e-30)) if square else 0.0
+
+    def over(self, unit):
+        """The least squares factor from `unit` to this picture."""
+        pairs = [(self.values[i], unit.values[i]) for i in self.within()]
+        power = sum(y * y for _, y in pairs)
+        return sum(x * y for x, y in pairs) / power if power > 0 else 0.0
+
+
+def lambertian(side, light):
+    """A Lambertian sphere of albedo 1 under a light of radiant intensity 1."""
+    x, z = light[1] * math.sin(math.radians(light[0])), light[1] * math.cos(math.radians(light[0]))
+
+    def pixel(row, column):
+        n = normal(side, row, column)
+        if n is None:
+            return 0.0
+        away = math.dist(n, (x, 0, z))
+        return max(0.0, (x * n[0] + z * n[2] - 1) / away) / (math.pi * away**2)
+
+    return Picture(side, [()]).made(side, pixel)
+
+
+def percent(share):
+    return f"{100 * share:.2g} %"
+
+
+class ModelCheck:
+    def __init__(self, worker, model, side):
+        self.worker, self.model, self.side, self.findings = worker, model, side, []
+        self.noise = model.get("noise", False)
+        self.role = {parameter["role"]: parameter for parameter in model["parameters"]}
+        self.low, self.high = self.role["specular"]["range"]
+        self.material(WIDE, self.low, 0)  # needs every field of the description
+
+    def run(self):
+        try:
+            for check in (self.refusals, self.geometry, self.light, self.values, self.repeats, self.samples, self.color,
+                          self.width):
+                check()
+        except (Refused, Broken) as failure:
+            self.add("answer", "wrong", str(failure))
+            return not isinstance(failure, Broken)
+        return True
+
+    def add(self, check, verdict, words):
+        self.findings.append({"model": self.model["name"], "check": check, "verdict": verdict, "words": words})
+
+    def judge(self, check, good, found, fault):
+        self.add(check, "good" if good else "wrong", found if good else fault)
+
+    def material(self, alpha, specular, diffuse):
+        convention, (least, most) = self.role["roughness"]["convention"], self.role["roughness"]["range"]
+        ends = sorted((ALPHA[convention](least), ALPHA[convention](most)))
+        values = {p["name"]: [p["default"]] for p in self.model["parameters"] if p["role"] == "other"}
+        values[self.role["roughness"]["name"]] = [OWN_WIDTH[convention](min(max(alpha, ends[0]), ends[1]))]
+        values[self.role["specular"]["name"]] = specular if isinstance(specular, list) else [specular]
+        if "diffuse" in self.role:
+            values[self.role["diffuse"]["name"]] = [diffuse]
+        return values
+
+    def take(self, material, light=HEADLIGHT, seed=0, enlarged=1, samples=1, model=None):
+        return self.worker.render(model or self.model["name"], material, light, enlarged * self.side, samples, seed)
+
+    def highlight(self, alpha, light=HEADLIGHT, **more):
+        return self.take(self.material(alpha, self.high, 0), light, **more)
+
+    def diffuse(self, share, light):
+        """The light that diffuse adds."""
+        full = self.role["diffuse"]["range"][1]
+        lit, dark = (self.take(self.material(WIDE, self.low, value), light) for value in (share * full, 0))
+        return lit.minus(dark)
+
+    def refusals(self):
+        name, beyond = self.role["specular"]["name"], self.high + 1
+        self.refuses("range", self.material(WIDE, beyond, 0), None,
+                     f"{name} = {beyond:g} was rendered, but is out of range (answer with an error)")
+        unknown = self.model["name"] + "-which-is-none"
+        self.refuses("unknown model", self.material(WIDE, self.high, 0), unknown,
+                     unknown + " was rendered, but is unknown (answer with an error)")
+
+    def refuses(self, check, material, model, otherwise):
+        try:
+            self.take(material, model=model)
+        except Refused:
+            self.add(check, "good", "refused")
+        else:
+            self.add(check, "wrong", otherwise)
+
+    def geometry(self):
+        """Where the light is: background, symmetry, left and right."""
+        front = self.highlight(WIDE)
+        top = front.brightest()
+        if not top > 0:
+            self.add("highlight", "wrong", "the picture at full specular is black under a headlight")
+            return
+        outside = front.brightest_outside()
+        self.judge("background", outside <= 1e-6 * top, "black",
+                   f"pixels outside the sphere are up to {outside:.6g}, not 0: wrong field of view, or an environment")
+        rows, columns = front.difference(front.flipped(True)), front.difference(front.flipped(False))
+        uneven = 0.0 if self.noise else max(rows, columns)
+        halves = "upper and lower" if rows >= columns else "left and right"
+        self.judge("symmetry", uneven <= SAME, "to " + percent(uneven),
+                   f"under a headlight the {halves} halves differ by {percent(uneven)}: the picture is shifted, often by one "
+                   "pixel, or the sphere is a mesh")
+        x, y = self.highlight(WIDE, ASIDE).centre()
+        if abs(y) > abs(x):
+            where, why = "the top" if y > 0 else "the bottom", "rows and columns are exchanged"
+        elif x < -0.1:
+            where, why = "the left", "columns run from +x to -x, or the light turns the other way"
+        else:
+            where, why = "the middle", "the light does not move"
+        self.judge("orientation", x > 0.1 and abs(y) < 0.05, "a light at +60 degrees is on the right",
+                   f"a light at +60 degrees lights {where} of the picture, not the right: {why}")
+
+    def light(self):
+        """Diffuse light against Lambert's law: intensity, inverse square, linearity."""
+        if "diffuse" not in self.role:
+            self.add("light scale", "remark", "unknown: the model has no diffuse parameter")
+            return
+        full = self.role["diffuse"]["range"][1]
+        near, unit = self.diffuse(1, HEADLIGHT), lambertian(self.side, HEADLIGHT)
+        scale = near.over(unit) / full
+        if not scale > 0:
+            self.add("light scale", "wrong", "diffuse adds no light")
+            return
+        left = near.difference(unit.times(scale * full))
+        known = "".join(f" ({name})" for name, value in FACTORS.items() if abs(scale / value - 1) < 0.01)
+        if left > 0.02:
+            self.add("light scale", "remark", f"the diffuse lobe is not Lambertian ({percent(left)} left); the best Lambertian "
+                     f"lobe is {scale:.4g} times as bright as it should be")
+        else:
+            self.judge("light scale", abs(scale - 1) <= 2e-3, "within " + percent(abs(scale - 1)),
+                       f"diffuse light is {scale:.4g} times as strong as it should be{known}; the light must have a radiant "
+                       "intensity of 1")
+        found, expected = self.diffuse(1, FAR).over(near), lambertian(self.side, FAR).over(unit)
+        self.judge("inverse square", abs(found / expected - 1) < 0.01, "holds",
+                   f"a light twice as far is {found:.3g} times as bright, not {expected:.3g}")
+        half = self.diffuse(0.5, HEADLIGHT).over(near)
+        exponent = math.log(half) / math.log(0.5) if half > 0 else math.inf
+        self.judge("linearity", abs(half - 0.5) < 1e-3, "half the diffuse is half the light",
+                   f"half the diffuse gives {half:.3g} of the light, not 0.5: a tone curve or display gamma of about "
+                   f"{max(exponent, 1 / exponent):.2g}")
+
+    def values(self):
+        """What storage or tone mapping did to the values."""
+        sharp = self.highlight(0.1)
+        top = max(sharp.values)
+        flat = sum(v == top for v in sharp.values)
+        self.judge("clamping", sharp.brightest() != 1 or flat <= 4, f"none seen up to {sharp.brightest():.3g}",
+                   f"{flat} pixels of a highlight are exactly 1: values are clamped")
+        told = [v for channel in sharp.channels for v in channel if v not in (0, 1)]
+        if all(abs(255 * v - round(255 * v)) < 1e-4 for v in told):
+            self.add("precision", "wrong", "values have 8 bits (write floats)")
+        elif all(struct.unpack("<I", struct.pack("<f", v))[0] & 0x1fff == 0 for v in told):  # 10 of 23 bits
+            self.add("precision", "remark", "values are half floats: steps of 0.05 %")
+        else:
+            self.add("precision", "good", "floats")
+
+    def repeats(self):
+        """The same picture with another between, and the same with another seed."""
+        first = self.highlight(0.3, ASIDE)
+        self.highlight(WIDE)
+        again = first.difference(self.highlight(0.3, ASIDE))
+        self.judge("repeatability", not again > 0, "bit for bit",
+                   f"the same request gives pictures that differ by {percent(again)}: noise must depend on the seed only, and "
+                   "requests must not affect later ones")
+        noise = first.difference(self.highlight(0.3, ASIDE, seed=1))
+        if noise > 0 and not self.noise:
+            self.add("noise", "wrong", f"another seed gives a picture that differs by {percent(noise)} (describe the model with "
+                     "\"noise\": true, or remove the noise)")
+        elif noise > 0:
+            self.add("noise", "remark", percent(noise) + " between two seeds")
+        else:
+            self.add("noise", "good", "none")
+
+    def samples(self):
+        """The pixel centres of a picture are among those of a picture three times as large."""
+        if self.noise:
+            self.add("pixel centres", "remark", "not checked: the model has noise")
+            return
+        small, large = self.highlight(0.2, ASIDE), self.highlight(0.2, ASIDE, enlarged=3)
+        jitter = small.difference(large.every_third())
+        self.judge("pixel centres", jitter <= SAME, "to " + percent(jitter),
+                   f"pixels differ by {percent(jitter)} from those of a larger picture with the same centres: jitter in the "
+                   "pixel, a filter, or a shifted picture")
+        grid = self.highlight(0.2, ASIDE, samples=3).difference(large.mean_of_nine())
+        self.judge("pixel grid", grid <= SAME, "to " + percent(grid),
+                   f"3 x 3 samples in a pixel differ by {percent(grid)} from the mean of nine pixels (sample an even grid)")
+
+    def color(self):
+        """Channels are independent and in order."""
+        values = [self.low + share * (self.high - self.low) for share in (1, 0.5, 0.25)]
+        try:
+            picture = self.take(self.material(WIDE, values, 0))
+        except Refused as refused:
+            self.add("color", "remark", f"none in {self.role['specular']['name']}: {refused}")
+            return
+        wrong = ""
+        for c, value in enumerate(values):
+            off = self.take(self.material(WIDE, value, 0)).difference(Picture(self.side, [picture.channels[c]]))
+            if off > SAME and not wrong:
+                wrong = (f"channel {c} differs by {percent(off)} from a grey picture of its value; channels must be red, green, "
+                         "blue and independent")
+        self.judge("color", not wrong, "red, green, blue", wrong)
+
+    def width(self):
+        """A wider highlight has more light relative to its peak."""
+        spreads = [sum(picture.values) / max(picture.brightest(), 1e-30) for picture in map(self.highlight, (0.15, 0.3, 0.6))]
+        self.judge("width", spreads[0] < spreads[1] < spreads[2], "a larger alpha is a wider highlight",
+                   "highlights do not widen from alpha 0.15 to 0.3 and 0.6 (check the convention)")
+
+
+def command_of(words):
+    """The command of the worker of that name in a file workers.json, or else the words themselves."""
+    config = pathlib.Path(os.environ.get("XDG_CONFIG_HOME") or "~/.config").expanduser() / "remap/workers.json"
+    data = pathlib.Path(os.environ.get("XDG_DATA_HOME") or "~/.local/share").expanduser()
+    os.environ.setdefault("REMAP_RENDERERS", str(data / "remap/renderers"))
+    for path in (pathlib.Path(os.environ.get("REMAP_WORKERS") or config), FOLDER / "workers.json"):
+        for worker in json.loads(path.read_text())["workers"] if path.is_file() else []:
+            if worker["name"] == words:
+                os.environ["REMAP_WORKER_FOLDER"] = str(path.parent)
+                return worker["command"]
+    return words
+
+
+def checked(worker, side):
+    """The name of the renderer, and what was found."""
+    described, findings = worker.ask(request="describe", protocol=1, threads=os.cpu_count()), []
+    for model in described["models"]:
+        check = ModelCheck(worker, model, side)
+        is_usable = check.run()
+        findings += check.findings
+        if not is_usable:
+            break
+    return described["renderer"], findings
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--json", action="store_true", help="print the findings as JSON")
+    parser.add_argument("--resolution", type=int, default=48, help="width and height of the pictures in pixels (default: 48)")
+    parser.add_argument("--timeout", type=float, default=120, help="seconds to wait for an answer (default: 120)")
+    parser.add_argument("command", nargs=argparse.REMAINDER, metavar="WORKER_COMMAND")
+    options = parser.parse_args()
+    if not options.command:
+        parser.error("name the command of a worker")
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # the worker must not stay behind
+    with tempfile.TemporaryDirectory(prefix="remap-check-") as folder:
+        worker = Worker(command_of(" ".join(options.command)), pathlib.Path(folder), options.timeout)
+        try:
+            renderer, findings = checked(worker, options.resolution)
+        except (Refused, Broken) as failure:
+            sys.exit(f"check.py: request describe: {failure}")
+        except KeyError as missing:
+            sys.exit(f"check.py: request describe: the answer has no {missing}")
+        finally:
+            worker.close()
+    wrong = sum(finding["verdict"] == "wrong" for finding in findings)
+    if options.json:
+        print(json.dumps({"renderer": renderer, "wrong": wrong, "findings": findings}, indent=2))
+    else:
+        print(renderer)
+        for i, finding in enumerate(findings):
+            if i == 0 or finding["model"] != findings[i - 1]["model"]:
+                print(finding["model"])
+            print(f"  {finding['verdict']:8}{finding['check']:16}{finding['words']}")
+    if wrong:
+        sys.exit(f"check.py: {wrong} of {len(findings)} checks failed")
+
+
+main()
