@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <iostream>
-#include <memory>
 
 #include "command_line/command.hpp"
 #include "command_line/interruption.hpp"
@@ -99,38 +98,29 @@ void run(const BuildCommand& command) {
 
 void add_build_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
-      "build", "Make every table, fit and header of fits/manifest.json that is out of date");
-  command->group(kCompileStage);
-  auto options = std::make_shared<BuildCommand>();
+      "build", "Make every table, fit and header of fits/manifest.json that is out of date", kCompileStage);
+  BuildCommand& options = set_work<BuildCommand>(*command, run);
   command->option_group("Folders");
-  command
-      ->add_option("--fits", options->folders.fits,
-                   "Folder of fits, with manifest.json, tables/ and the report README.md")
-      ->type_name("FOLDER")
-      ->capture_default_str();
-  command->add_option("-o,--output", options->folders.generated, "Folder for the headers")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("--fits FOLDER", options.folders.fits,
+                      "Folder of fits, with manifest.json, tables/ and the report README.md");
+  command->add_option("-o,--output FOLDER", options.folders.generated, "Folder for the headers");
   command->option_group("What to make");
-  command->add_flag("--check", options->check,
+  command->add_flag("--check", options.check,
                     "Write nothing, list the items that are out of date; exit code 1 if there are any");
-  command->add_flag("--force", options->force, "Make every item anew");
-  command->add_flag("--prune", options->prune,
+  command->add_flag("--force", options.force, "Make every item anew");
+  command->add_flag("--prune", options.prune,
                     "Remove files of items that the manifest no longer lists, unless they were edited");
-  command->add_flag("--json", options->json, "Print the result as JSON to standard output");
+  command->add_flag("--json", options.json, "Print the result as JSON to standard output");
   command->option_group(remap::kRareOptions);
-  command
-      ->add_option("--jobs", options->jobs,
-                   "Items made at a time, 0: one per core; the results do not depend on it")
-      ->capture_default_str();
-  add_renderer_options(*command, options->renderers);
+  command->add_option("--jobs", options.jobs,
+                      "Items made at a time, 0: one per core; the results do not depend on it");
+  add_renderer_options(*command, options.renderers);
   command->footer(
       "An item is out of date where its entry in the manifest, its inputs or one of its files differ from "
       "manifest.lock. --check compares converters.json with manifest.lock, too; `remapc emit --all --check` "
       "makes headers and converters.json again and compares their text. An interrupted build continues "
       "where it stopped.\n\n"
       "Example:\n  remapc build");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 #include "command_line/command.hpp"
 #include "commands/commands.hpp"
@@ -101,36 +100,30 @@ void run(const EmitCommand& options) {
 
 void add_emit_command(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
-      "emit", "Write the C++ headers of fits, or of all fits together with the data of texremap");
-  command->group(kCompileStage);
-  auto options = std::make_shared<EmitCommand>();
-  command->add_option("fits", options->fits, "Fits: files, or ids in the folder of fits");
+      "emit", "Write the C++ headers of fits, or of all fits together with the data of texremap",
+      kCompileStage);
+  EmitCommand& options = set_work<EmitCommand>(*command, run);
+  command->add_option("fits", options.fits, "Fits: files, or ids in the folder of fits");
   command->option_group("Input");
-  command->add_flag("--all", options->all, "Emit every fit of the folder, and converters.json");
-  command->add_option("--fits", options->fit_folder, "Folder of fits")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_flag("--all", options.all, "Emit every fit of the folder, and converters.json");
+  command->add_option("--fits FOLDER", options.fit_folder, "Folder of fits");
   command->option_group("Output");
-  command->add_option("-o,--output", options->output, "Folder for the headers")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+  command->add_option("-o,--output FOLDER", options.output, "Folder for the headers");
   command->add_flag(
-      "--check", options->check,
+      "--check", options.check,
       "Write nothing; exit code 1 if a header, or with --all converters.json, is missing or differs "
       "from what the fits give");
   command->option_group(remap::kRareOptions);
   command
-      ->add_option("--lower", options->tolerance,
+      ->add_option("--lower", options.tolerance,
                    "Largest proven deviation of the header's polynomials from the fit: absolute for target "
                    "alpha, and ten times it relative to the largest target specular")
-      ->positive()
-      ->capture_default_str();
+      ->positive();
   command->footer(
       "--lower does not affect fits of kind analytic or warp.\n\n"
       "Example:\n"
       "  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n"
       "  remapc emit --all --check");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

@@ -28,11 +28,19 @@ namespace {
 // Larger values are assumed to be typos: the networks of the paper have 300 units.
 constexpr int kMostUnits = 4096, kMostStarts = 1000;
 
+// No kind: the best by cross-validation.
+constexpr remap::NamedValues<std::optional<Regressor>, 5> kModels = {{{std::nullopt, "auto"},
+                                                                      {Regressor::kParametric, "parametric"},
+                                                                      {Regressor::kSeries, "series"},
+                                                                      {Regressor::kSvr, "svr"},
+                                                                      {Regressor::kMlp, "mlp"}}};
+
+std::string model_name(std::optional<Regressor> model) { return std::string(remap::name_of(kModels, model)); }
+
 struct FitCommand {
   TableInput table;
   FitOptions options;
-  std::string model = "auto";
-  std::string activation = "tanh";
+  std::optional<Regressor> model;
   std::filesystem::path folder = "fits";
   std::filesystem::path plot;
   bool swap = false;
@@ -41,23 +49,20 @@ struct FitCommand {
 
 // Options of one regression are errors together with another one.
 void require_consistent(const FitCommand& command, const remap::Command& app) {
-  const auto require_model = [&](const std::string& option, const std::string& model) {
-    if (app.count(option) != 0 && command.model != "auto" && command.model != model)
-      throw usage_error(option + " cannot be used with --model " + command.model + " (use " + model +
-                        " or auto)");
+  const auto require_model = [&](const std::string& option, Regressor model) {
+    if (app.count(option) != 0 && command.model && command.model != model)
+      throw usage_error(option + " cannot be used with --model " + model_name(command.model) + " (use " +
+                        model_name(model) + " or auto)");
   };
-  require_model("--form", "parametric");
-  for (const std::string option : {"--layers", "--activation", "--starts"}) require_model(option, "mlp");
+  require_model("--form", Regressor::kParametric);
+  for (const std::string option : {"--layers", "--activation", "--starts"})
+    require_model(option, Regressor::kMlp);
   if (!command.options.regression.form.empty()) find_form(command.options.regression.form);
 }
 
 FitOptions fit_options(const FitCommand& command) {
   FitOptions options = command.options;
-  if (command.model == "parametric") options.regressor = Regressor::kParametric;
-  if (command.model == "svr") options.regressor = Regressor::kSvr;
-  if (command.model == "mlp") options.regressor = Regressor::kMlp;
-  if (command.model == "series") options.regressor = Regressor::kSeries;
-  options.regression.mlp.activation = *remap::activation_from_name(command.activation);
+  options.regressor = command.model;
   return options;
 }
 
@@ -101,8 +106,9 @@ void require_material_options(const FitCommand& command) {
     throw usage_error(
         command.table.path +
         ": metallic to specular is exact by equation (2) and needs no fit (use --swap to fit the inverse)");
-  if (command.model != "auto" && command.model != "mlp")
-    throw usage_error("--model " + command.model + ": not available for a table of materials (use mlp)");
+  if (command.model && command.model != Regressor::kMlp)
+    throw usage_error("--model " + model_name(command.model) +
+                      ": not available for a table of materials (use mlp)");
   if (!command.plot.empty()) throw usage_error("--plot: not available for a table of materials (remove it)");
 }
 
@@ -111,7 +117,7 @@ MaterialNetworkOptions network_options(const FitCommand& command, const remap::C
   MaterialNetworkOptions options;
   options.id = command.options.id;
   if (app.count("--layers") != 0) options.hidden = mlp.hidden;
-  if (app.count("--activation") != 0) options.activation = *remap::activation_from_name(command.activation);
+  if (app.count("--activation") != 0) options.activation = mlp.activation;
   if (app.count("--starts") != 0) options.starts = mlp.starts;
   if (app.count("--held-out") != 0) options.held_out_fraction = command.options.held_out_fraction;
   options.seed = command.options.regression.seed;
@@ -195,12 +201,12 @@ void run(const FitCommand& command, const remap::Command& app) {
 void add_regression_options(remap::Command& app, FitCommand& command) {
   RegressionOptions& regression = command.options.regression;
   app.option_group("Regression");
-  app.add_option("--model", command.model,
+  app.add_option("--model NAME", command.model, remap::one_of(kModels, "kind of fit"),
                  "parametric: polynomials and exponentials; series: of Chebyshev polynomials; svr: support "
                  "vectors; mlp: a "
                  "small network; auto: the simplest of them that is as good as the best by cross-validation, "
                  "in up to a minute")
-      ->one_of({"auto", "parametric", "series", "svr", "mlp"});
+      ->default_text("auto");
   app.add_flag("--swap", command.swap,
                "Fit the inverse, from the table's target to its source; with a table of metallic materials "
                "(remapc sample): a network from specular to metallic");
@@ -212,8 +218,9 @@ void add_regression_options(remap::Command& app, FitCommand& command) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->range(1, kMostUnits);
-  app.add_option("--activation", command.activation, "Network: activation function")
-      ->one_of(remap::activation_names());
+  app.add_option("--activation NAME", regression.mlp.activation,
+                 remap::one_of(remap::kActivations, "activation function"), "Network: activation function")
+      ->default_text(std::string(remap::activation_name(regression.mlp.activation)));
   app.add_option("--starts", regression.mlp.starts, "Network: trainings, of which the best is kept")
       ->range(1, kMostStarts);
   app.add_option("--held-out", command.options.held_out_fraction,

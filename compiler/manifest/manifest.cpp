@@ -106,12 +106,6 @@ void read_workflow_item(const Field& field, std::vector<ManifestItem>* items) {
   items->push_back({fit.id, FinishedItem{fit}, field.json().dump(), 0});
 }
 
-remap::Activation read_activation(const Field& field) {
-  const auto activation = remap::activation_from_name(field.text());
-  field.require(activation.has_value(), "relu, tanh or silu");
-  return *activation;
-}
-
 void read_network_item(const Field& field, std::vector<ManifestItem>* items) {
   NetworkItem item;
   item.fit.id = field["id"].text();
@@ -130,7 +124,7 @@ void read_network_item(const Field& field, std::vector<ManifestItem>* items) {
   item.resolution = read_resolution(samples["resolution"]);
   item.hidden =
       field["hidden"].list(0, [](const Field& units) { return static_cast<std::size_t>(units.count()); });
-  item.activation = read_activation(field["activation"]);
+  item.activation = field["activation"].named(remap::kActivations, "relu, tanh or silu");
   items->push_back(
       {item.fit.id, item, field.json().dump(), static_cast<std::uint64_t>(field["seed"].count())});
 }

@@ -28,16 +28,6 @@ Option* Option::required() {
   return this;
 }
 
-Option* Option::capture_default_str() {
-  option_->capture_default_str();
-  return this;
-}
-
-Option* Option::group(const std::string& name) {
-  option_->group(name);
-  return this;
-}
-
 Option* Option::delimiter(char character) {
   option_->delimiter(character);
   return this;
@@ -55,11 +45,6 @@ Option* Option::expected(int min, int max) {
 
 Option* Option::type_size(int count) {
   option_->type_size(count);
-  return this;
-}
-
-Option* Option::type_name(const std::string& name) {
-  option_->type_name(name);
   return this;
 }
 
@@ -178,8 +163,6 @@ Option* Command::add_words(
         CLI::Validator([](std::string&) { return std::string(); }, "{" + CLI::detail::join(choices) + "}"));
   return keep(option);
 }
-
-void Command::group(const std::string& name) { app_->group(name); }
 
 void Command::option_group(const std::string& name) { app_->option_defaults()->group(name); }
 

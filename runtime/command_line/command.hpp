@@ -72,17 +72,13 @@ class Option {
   explicit Option(CLI::Option* option) : option_(option) {}
 
   Option* required();
-  // Help shows the value that the variable has now.
-  Option* capture_default_str();
-  Option* group(const std::string& name);
   // Lists: the character between two items of one word.
   Option* delimiter(char character);
   // Lists: whether words that follow the first belong to it; without, the option is given again for each.
   Option* allow_extra_args(bool allowed);
   Option* expected(int min, int max);
-  // Lists: items come in groups of this many words, which help calls `name`.
+  // Lists: items come in groups of this many words.
   Option* type_size(int count);
-  Option* type_name(const std::string& name);
   Option* excludes(Option* other);
   Option* needs(Option* other);
   // Help shows this default.
@@ -128,8 +124,6 @@ class Command {
         reader.choices, description);
   }
   Option* add_flag(const std::string& names, bool& value, const std::string& description = "");
-  // The heading of the help under which the program lists this command.
-  void group(const std::string& name);
   // The heading under which the help of this command lists the options that are added from now on
   // (help_text.hpp).
   void option_group(const std::string& name);

@@ -5,17 +5,15 @@
 //
 //   command->option_group("Output");
 //
-// stand under the heading "Output:"; `->group("Output")` behind one add_option() places that option alone.
-// Groups appear in the order in which their first options were added, so add common options first. A group
-// whose name begins with "Rare" (kRareOptions, or "Rare: real renderers") is left out of `--help` and shown
-// by `--help-all` only. A command gets the heading it is listed under in the program's help by
-// `command->group("Measure")`.
+// stand under the heading "Output:". Groups appear in the order in which their first options were added, so
+// add common options first. A group whose name begins with "Rare" (kRareOptions, or "Rare: real renderers")
+// is left out of `--help` and shown by `--help-all` only. The last argument of add_subcommand() is the
+// heading under which the program lists a command.
 //
-// The layout derives from CLI11's data, so do not repeat it in descriptions: the default
-// (capture_default_str()), "required", the choices of CLI::IsMember, the bounds of CLI::Range and
-// CLI::PositiveNumber, and the options of excludes(). Name the value by `->type_name("FILE")`; numbers are
-// called N or NUMBER by themselves. In a description or a footer, a line that begins with a space (an
-// example, a table) stays as it is and must fit into 80 columns; other lines are wrapped.
+// The layout adds what the option itself says, so do not repeat it in descriptions: the default, "required",
+// the choices, the bounds and the options of excludes(). Name the value behind the option, as `--fit FILE`;
+// numbers are called N or NUMBER by themselves. In a description or a footer, a line that begins with a space
+// (an example, a table) stays as it is and must fit into 80 columns; other lines are wrapped.
 #pragma once
 
 #include <string>

@@ -1,6 +1,5 @@
 // `remap-study environments`: compares pictures of source and converted spheres under environment maps.
 #include <algorithm>
-#include <memory>
 
 #include "manifest/fit_folder.hpp"
 #include "remap/error.hpp"
@@ -71,11 +70,8 @@ void add_options(remap::Command& app, EnvironmentsCommand& command) {
   app.add_option("--pair", command.pairs, "SOURCE:TARGET, repeatable; default: six pairs of Mitsuba models")
       ->allow_extra_args(false);
   app.add_flag("--plain", command.plain, "Use the default pairs without Fresnel (constant reflectance)");
-  app.add_option("--alphas", study.alphas, "Source alphas, comma-separated")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--specular", study.specular, "Specular reflectance of the source, linear")
-      ->capture_default_str();
+  app.add_option("--alphas", study.alphas, "Source alphas, comma-separated")->delimiter(',');
+  app.add_option("--specular", study.specular, "Specular reflectance of the source, linear");
   add_environment_options(app, command.environments);
   app.add_flag("--least-error", study.least_error,
                "Also search for the parameters of least mean RMSE under these environments (`best`)");
@@ -97,12 +93,11 @@ void add_environments_study(remap::Command& study) {
       "environments",
       "Compare pictures of source and converted spheres under environment maps, for copied parameters, for "
       "matches by both objectives and for the shipped fits");
-  auto options = std::make_shared<EnvironmentsCommand>();
-  add_options(*command, *options);
+  EnvironmentsCommand& options = remap::set_work<EnvironmentsCommand>(*command, run);
+  add_options(*command, options);
   command->footer(
       "Example:\n  remap-study environments --environment forest.exr --environment studio.exr \\\n    -o "
       "study");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

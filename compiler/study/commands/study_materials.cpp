@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
-#include <memory>
 
 #include "remap/error.hpp"
 #include "study/commands/studies.hpp"
@@ -70,13 +69,10 @@ void add_options(remap::Command& app, MaterialsCommand& command) {
   app.add_option("-o,--output", command.output.folder,
                  "Write tables and plots to this folder; existing files are replaced")
       ->required();
-  app.add_option("--alphas", command.study.alphas, "Source alphas in increasing order")
-      ->delimiter(',')
-      ->capture_default_str();
+  app.add_option("--alphas", command.study.alphas, "Source alphas in increasing order")->delimiter(',');
   app.add_option("--resolution", command.study.resolution, "Width and height of the pictures in pixels")
-      ->range(16, kMostResolution)
-      ->capture_default_str();
-  app.add_option("--jobs", command.study.jobs, "Number of threads; 0: one per core")->capture_default_str();
+      ->range(16, kMostResolution);
+  app.add_option("--jobs", command.study.jobs, "Number of threads; 0: one per core");
   app.add_flag("--json", command.output.json, "Print the figures and the summary as JSON");
   app.add_flag("--quiet", command.output.quiet, "Do not show progress");
 }
@@ -87,14 +83,12 @@ void add_dielectrics_study(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
       "dielectrics",
       "Match diffuse and specular together in one, two and three stages (figures 8 and 10 of the paper)");
-  auto options = std::make_shared<MaterialsCommand>();
-  options->study.alphas = {0.1, 0.3, 0.725, 0.75};
-  options->study.resolution = 128;
-  add_options(*command, *options);
-  command->add_option("--diffuse", options->diffuse, "Diffuse reflectance of the source")
-      ->capture_default_str();
+  MaterialsCommand& options = remap::set_work<MaterialsCommand>(*command, run_dielectrics);
+  options.study.alphas = {0.1, 0.3, 0.725, 0.75};
+  options.study.resolution = 128;
+  add_options(*command, options);
+  command->add_option("--diffuse", options.diffuse, "Diffuse reflectance of the source");
   command->footer("Example:\n  remap-study dielectrics -o dielectrics");
-  command->callback([options] { run_dielectrics(*options); });
 }
 
 }  // namespace remapc

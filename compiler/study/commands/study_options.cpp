@@ -18,8 +18,7 @@ void add_environment_options(remap::Command& app, EnvironmentOptions& options) {
          "Environment map in latitude and longitude (HDR, EXR), repeatable; default: built-in clear sky, "
          "overcast sky and studio")
       ->allow_extra_args(false);
-  app.add_option("--exposure", options.exposure, "Scale every environment to this mean luminance")
-      ->capture_default_str();
+  app.add_option("--exposure", options.exposure, "Scale every environment to this mean luminance");
 }
 
 std::vector<Environment> read_environments(const EnvironmentOptions& options) {
@@ -37,16 +36,15 @@ std::vector<Environment> read_environments(const EnvironmentOptions& options) {
 }
 
 void add_sampling_options(remap::Command& app, SphereSampling& sampling) {
-  app.add_option("--resolution", sampling.resolution, "Width and height of the pictures in pixels")
-      ->capture_default_str();
-  app.add_option("--samples", sampling.samples, "Light directions per pixel")->capture_default_str();
+  app.add_option("--resolution", sampling.resolution, "Width and height of the pictures in pixels");
+  app.add_option("--samples", sampling.samples, "Light directions per pixel");
 }
 
 void add_output_options(remap::Command& app, OutputOptions& options, unsigned& jobs,
                         const OutputTexts& texts) {
   app.add_option("-o,--output", options.folder, texts.folder);
   app.add_flag("--pictures", options.pictures, texts.pictures);
-  app.add_option("--jobs", jobs, "Number of threads; 0: one per core. " + texts.jobs)->capture_default_str();
+  app.add_option("--jobs", jobs, "Number of threads; 0: one per core. " + texts.jobs);
   app.add_flag("--json", options.json, texts.json);
   app.add_flag("--quiet", options.quiet, "Do not show progress");
 }

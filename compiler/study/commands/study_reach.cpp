@@ -53,21 +53,18 @@ void add_reach_study(remap::Command& app) {
   remap::Command* command = app.add_subcommand(
       "reach",
       "Compare converted materials with the best that the target can do, over the whole range of the source");
-  auto options = std::make_shared<ReachCommand>();
-  command->add_option("ID", options->ids, "Fits between Mitsuba models; default: all of the folder");
-  command->add_option("--fits", options->fit_folder, "Folder of the fits; default: fits, if it exists");
-  command->add_option("--materials", options->study.materials, "Source alphas, and speculars of each")
-      ->range(2, 256)
-      ->capture_default_str();
-  command->add_option("--resolution", options->study.resolution, "Width and height of the pictures in pixels")
-      ->range(16, 1024)
-      ->capture_default_str();
-  add_output_options(*command, options->output, options->study.jobs,
+  ReachCommand& options = remap::set_work<ReachCommand>(*command, run);
+  command->add_option("ID", options.ids, "Fits between Mitsuba models; default: all of the folder");
+  command->add_option("--fits", options.fit_folder, "Folder of the fits; default: fits, if it exists");
+  command->add_option("--materials", options.study.materials, "Source alphas, and speculars of each")
+      ->range(2, 256);
+  command->add_option("--resolution", options.study.resolution, "Width and height of the pictures in pixels")
+      ->range(16, 1024);
+  add_output_options(*command, options.output, options.study.jobs,
                      {"Write reach.csv, a row for each material, to this folder", "",
                       "Number of threads; 0: one per core. Results do not depend on it",
                       "Print the figures of each fit as JSON"});
   command->footer("Example:\n  remap-study reach mitsuba_as_to_mitsuba_ward --materials 16");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

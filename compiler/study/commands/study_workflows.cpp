@@ -1,6 +1,5 @@
 // `remap-study workflows`: measures what conversions from the specular to the metallic workflow lose.
 #include <filesystem>
-#include <memory>
 
 #include "manifest/fit_folder.hpp"
 #include "study/commands/studies.hpp"
@@ -57,15 +56,12 @@ void add_options(remap::Command& app, WorkflowsCommand& command) {
       "--materials", command.materials.folder,
       "Folder of the measured materials (ngan_ward.fit, physicallybased.json); default: random materials "
       "only");
-  app.add_option("--count", command.materials.group_count, "Number of materials in each of the five groups")
-      ->capture_default_str();
+  app.add_option("--count", command.materials.group_count, "Number of materials in each of the five groups");
   app.add_option("--alphas", study.alphas, "Alphas, comma-separated; the materials use them in turn")
-      ->delimiter(',')
-      ->capture_default_str();
+      ->delimiter(',');
   app.add_option("--family-count", command.family_count,
-                 "Number of random metallic materials of each kind for the round trip")
-      ->capture_default_str();
-  app.add_option("--seed", command.materials.seed, "Seed of the random materials")->capture_default_str();
+                 "Number of random metallic materials of each kind for the round trip");
+  app.add_option("--seed", command.materials.seed, "Seed of the random materials");
   add_sampling_options(app, study);
   app.add_option("--fits", command.fit_folder,
                  "Folder of fits; their networks are compared, too; default: fits, if it exists");
@@ -84,12 +80,11 @@ void add_workflows_study(remap::Command& study) {
       "workflows",
       "Convert materials from the specular to the metallic workflow by every method and compare pictures "
       "under environment maps; also convert metallic materials there and back");
-  auto options = std::make_shared<WorkflowsCommand>();
-  add_options(*command, *options);
+  WorkflowsCommand& options = remap::set_work<WorkflowsCommand>(*command, run);
+  add_options(*command, options);
   command->footer(
       "Example:\n  remap-study workflows --environment forest.exr --environment studio.exr \\\n"
       "    --materials measured -o study");
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace remapc

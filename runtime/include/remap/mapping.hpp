@@ -83,10 +83,6 @@ enum class Activation { kRelu, kTanh, kSilu };
 inline constexpr NamedValues<Activation, 3> kActivations = {
     {{Activation::kRelu, "relu"}, {Activation::kTanh, "tanh"}, {Activation::kSilu, "silu"}}};
 inline std::string_view activation_name(Activation activation) { return name_of(kActivations, activation); }
-inline std::optional<Activation> activation_from_name(std::string_view name) {
-  return value_named(kActivations, name);
-}
-inline std::vector<std::string> activation_names() { return names_of(kActivations); }
 
 // One layer: outputs = weights inputs + biases.
 struct Layer {

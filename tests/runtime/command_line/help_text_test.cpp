@@ -23,17 +23,16 @@ std::string help_of_bake(CLI::AppFormatMode mode) {
   bake->add_option("table", input, "The table to read")->required();
   bake->option_group("Fit");
   bake->add_option("--model", model, "How to fit it, in a description that takes more than a single line")
-      ->one_of({"auto", "svr"})
-      ->capture_default_str();
+      ->one_of({"auto", "svr"});
   Option* sizes = bake->add_option("--layers", layers, "Units of each layer")
                       ->delimiter(',')
-                      ->range(std::size_t{1}, std::size_t{4096})
-                      ->capture_default_str();
+                      ->range(std::size_t{1}, std::size_t{4096});
   bake->add_flag("--exact", exact, "As it was fitted")->excludes(sizes);
   bake->option_group("Output");
-  bake->add_option("-o,--output", folder, "Folder for the fit")->type_name("FOLDER")->capture_default_str();
-  bake->add_option("--mask", stroke, "Two masks")->type_name("SOURCE_MASK TEMPLATE_MASK[:CHANNEL]");
-  bake->add_flag("--quiet", quiet, "Print nothing")->group(kRareOptions);
+  bake->add_option("-o,--output FOLDER", folder, "Folder for the fit");
+  bake->add_option("--mask SOURCE_MASK TEMPLATE_MASK[:CHANNEL]", stroke, "Two masks");
+  bake->option_group(kRareOptions);
+  bake->add_flag("--quiet", quiet, "Print nothing");
   bake->footer("Example:\n  tool bake table.csv");
   lay_out_help(app.app());
   return bake->app().help("tool", mode);
@@ -80,9 +79,9 @@ TEST_CASE("help_text: --help-all shows rare options") {
 
 TEST_CASE("help_text: commands stand in their groups") {
   Command app("A tool.", "tool");
-  app.add_subcommand("bake", "Bake a map")->group("Make");
-  app.add_subcommand("show", "Show a map")->group("Look");
-  app.add_subcommand("burn", "Burn a map")->group("Make");
+  app.add_subcommand("bake", "Bake a map", "Make");
+  app.add_subcommand("show", "Show a map", "Look");
+  app.add_subcommand("burn", "Burn a map", "Make");
   lay_out_help(app.app());
   CHECK(app.app().help() ==
         "A tool.\n"
