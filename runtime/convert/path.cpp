@@ -212,10 +212,20 @@ void ConverterGraph::refuse(const std::vector<std::size_t>& waypoints) const {
                                      " twice, as every path through these models does (choose other models)");
 }
 
-ConverterGraph shipped_graph(InstructionSet set) {
-  std::vector<const Converter*> converters;
-  for (const auto& converter : shipped_converters(set)) converters.push_back(converter.get());
-  return ConverterGraph(std::move(converters), Detours::kRefused);
+ModelSide ConverterGraph::side_of(const std::string& model) const {
+  for (const Converter* converter : converters_) {
+    if (converter->info().source.model == model) return converter->info().source;
+    if (converter->info().target.model == model) return converter->info().target;
+  }
+  return {};
 }
+
+ConverterGraph graph_of(const ConverterList& converters) {
+  std::vector<const Converter*> all;
+  for (const auto& converter : converters) all.push_back(converter.get());
+  return ConverterGraph(std::move(all), Detours::kRefused);
+}
+
+ConverterGraph shipped_graph(InstructionSet set) { return graph_of(shipped_converters(set)); }
 
 }  // namespace remap

@@ -15,13 +15,6 @@ namespace remap {
 namespace {
 
 namespace fs = std::filesystem;
-using ConverterVector = std::vector<std::unique_ptr<Converter>>;
-
-// Empty: those of the library.
-fs::path& chosen_path() {
-  static fs::path path;
-  return path;
-}
 
 ConverterData data_of(const Fit& fit) { return converter_data(fit, lower(fit)); }
 
@@ -38,7 +31,7 @@ bool may_be_fit(const fs::path& path) {
   return path.extension() == ".json" && name != "manifest.json" && name != "lock.json";
 }
 
-std::vector<ConverterData> read_converters(const fs::path& path) {
+std::vector<ConverterData> read_data(const fs::path& path) {
   std::vector<ConverterData> converters;
   if (fs::is_directory(path)) {
     for (const auto& entry : fs::directory_iterator(path))
@@ -51,53 +44,47 @@ std::vector<ConverterData> read_converters(const fs::path& path) {
   return converters;
 }
 
-std::vector<ConverterData> load_data() {
-  const fs::path& path = chosen_path();
-  std::vector<ConverterData> data =
-      path.empty() ? converters_from_json(shipped_text(), "converters.json") : read_converters(path);
-  if (data.empty())
-    throw Error(ErrorKind::kInput, path.string() +
-                                       ": holds no converter (name a file of `remapc emit --all`, a fit or "
-                                       "a folder of fits)");
-  std::sort(data.begin(), data.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  return data;
-}
-
-const std::vector<ConverterData>& shipped_data() {
-  static const std::vector<ConverterData> data = load_data();
-  return data;
-}
-
-ConverterVector make_converters(InstructionSet set) {
-  ConverterVector made;
-  for (const ConverterData& data : shipped_data()) made.push_back(make_converter(data, set));
+ConverterList make_converters(std::vector<ConverterData> all, InstructionSet set) {
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  ConverterList made;
+  for (const ConverterData& data : all) made.push_back(make_converter(data, set));
   return made;
+}
+
+ConverterList make_shipped(InstructionSet set) {
+  static const std::vector<ConverterData> data = converters_from_json(shipped_text(), "converters.json");
+  return make_converters(data, set);
 }
 
 }  // namespace
 
-void use_converters(const fs::path& path) {
-  if (!path.empty() && !fs::exists(path))
+ConverterList read_converters(const fs::path& path, InstructionSet set) {
+  if (!fs::exists(path))
     throw Error(ErrorKind::kInput, path.string() +
                                        ": does not exist (name a file of converters, a fit or a folder "
                                        "of fits)");
-  chosen_path() = path;
+  std::vector<ConverterData> data = read_data(path);
+  if (data.empty())
+    throw Error(ErrorKind::kInput, path.string() +
+                                       ": holds no converter (name a file of `remapc emit --all`, a fit or "
+                                       "a folder of fits)");
+  return make_converters(std::move(data), set);
 }
 
-const ConverterVector& shipped_converters(InstructionSet set) {
+const ConverterList& shipped_converters(InstructionSet set) {
   switch (set) {
     case InstructionSet::kBaseline: {
-      static const ConverterVector baseline = make_converters(InstructionSet::kBaseline);
+      static const ConverterList baseline = make_shipped(InstructionSet::kBaseline);
       return baseline;
     }
     case InstructionSet::kAvx2: {
-      static const ConverterVector avx2 = make_converters(InstructionSet::kAvx2);
+      static const ConverterList avx2 = make_shipped(InstructionSet::kAvx2);
       return avx2;
     }
     case InstructionSet::kAvx512:
       break;
   }
-  static const ConverterVector avx512 = make_converters(InstructionSet::kAvx512);
+  static const ConverterList avx512 = make_shipped(InstructionSet::kAvx512);
   return avx512;
 }
 

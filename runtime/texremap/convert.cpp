@@ -13,7 +13,6 @@
 #include "remap/chained_converter.hpp"
 #include "remap/error.hpp"
 #include "remap/fit_file.hpp"
-#include "remap/shipped_converters.hpp"
 #include "remap/warp_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/conversion_request.hpp"
@@ -76,7 +75,7 @@ void choose_brdf(const ConvertOptions& options, const GivenFit& fit, Instruction
       throw Error(ErrorKind::kUsage,
                   std::string(options.from.empty() ? "--from" : "--to") + " is required (or --fit)");
     if (workflow.is_material() && workflow.source_brdf == workflow.target_brdf && options.via.empty()) return;
-    const ConverterGraph graph = shipped_graph(set);
+    const ConverterGraph graph = options.converters.graph(set);
     chosen.path = graph.find_paths({workflow.source_brdf, workflow.target_brdf, options.via}).front();
     chosen.closeness =
         closeness_of(chosen.path, graph.paths_to_renderer({workflow.source_brdf, workflow.renderer, {}}));
@@ -202,7 +201,6 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
 }
 
 void convert(const ConvertOptions& options) {
-  use_converters(options.converters);
   const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_any_fit(options.fit));
   const WarpMapFit* warp = warp_in(fit);
   WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);

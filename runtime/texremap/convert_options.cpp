@@ -108,7 +108,7 @@ void add_source_options(Command& command, ConvertOptions& options) {
       .add_option("--via MODEL", options.via, "Model that the path must pass through; repeatable, in order")
       ->allow_extra_args(false)
       ->excludes(command.option("--fit"));
-  add_converters_option(command, options.converters)->excludes(command.option("--fit"));
+  options.converters.add_option(command)->excludes(command.option("--fit"));
 }
 
 // The footer of the command explains the value MAP.

@@ -12,6 +12,7 @@
 #include "remap/convention.hpp"
 #include "remap/instruction_set.hpp"
 #include "remap/workflow_models.hpp"
+#include "texremap/used_converters.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_set.hpp"
 
@@ -51,7 +52,7 @@ struct ConvertOptions {
   std::string from, to;
   std::vector<std::string> via;
   std::string fit;
-  std::filesystem::path converters;
+  UsedConverters converters;
   bool recursive = false;
 
   std::map<Parameter, std::optional<MapSource>> maps;

@@ -9,10 +9,10 @@
 #include "command_line/command.hpp"
 #include "remap/closeness.hpp"
 #include "remap/error.hpp"
-#include "remap/shipped_converters.hpp"
 #include "remap/workflow_models.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
+#include "texremap/used_converters.hpp"
 
 namespace remap {
 namespace {
@@ -21,7 +21,7 @@ struct ListOptions {
   bool models = false;
   bool workflows = false;
   bool json = false;
-  std::filesystem::path converters;
+  UsedConverters converters;
 };
 
 // A converter as a path of one step.
@@ -69,10 +69,10 @@ void print_converter(const ListedConverter& entry) {
 }
 
 void list_converters(const ListOptions& options) {
-  const ConverterGraph graph = shipped_graph();
+  const ConverterGraph graph = options.converters.graph();
   Json all = Json::list();
   std::string failed;
-  for (const auto& converter : shipped_converters()) {
+  for (const Converter* converter : graph.converters()) {
     if (options.json)
       all.push_back(converter_json(listed(graph, *converter)));
     else
@@ -82,15 +82,6 @@ void list_converters(const ListOptions& options) {
   if (options.json) std::cout << all.dump(2) << '\n';
   if (!failed.empty())
     throw Error(ErrorKind::kNumeric, failed + ": self-test failed (results would be wrong)");
-}
-
-// The two parameters of a model, as given by a converter from or to it.
-ModelSide side_of(const std::string& model) {
-  for (const auto& converter : shipped_converters()) {
-    if (converter->info().source.model == model) return converter->info().source;
-    if (converter->info().target.model == model) return converter->info().target;
-  }
-  return {};
 }
 
 Json reached_json(const ConverterPath& path, const Closeness& closeness) {
@@ -110,10 +101,10 @@ void print_reached(const ConverterPath& path, const Closeness& closeness) {
 }
 
 void list_models(const ListOptions& options) {
-  const ConverterGraph graph = shipped_graph();
+  const ConverterGraph graph = options.converters.graph();
   Json all = Json::list();
   for (const std::string& model : graph.models()) {
-    const ModelSide side = side_of(model);
+    const ModelSide side = graph.side_of(model);
     Json entry = side_json(side);
     entry["reaches"] = Json::list();
     if (!options.json)
@@ -172,21 +163,11 @@ void list_workflows(const ListOptions& options) {
 }
 
 void list(const ListOptions& options) {
-  use_converters(options.converters);
   if (options.workflows) return list_workflows(options);
   options.models ? list_models(options) : list_converters(options);
 }
 
 }  // namespace
-
-Option* add_converters_option(Command& command, std::filesystem::path& path) {
-  return command
-      .add_option(
-          "--converters PATH", path,
-          "Use these converters instead of the shipped ones: a converters.json of `remapc emit --all`, a "
-          "fit, or a folder of fits")
-      ->environment("REMAP_CONVERTERS");
-}
 
 void add_list_command(Command& app) {
   Command* command = app.add_subcommand("list", "List the converters, their models, or the workflows");
@@ -195,7 +176,7 @@ void add_list_command(Command& app) {
   command->add_flag("--workflows", options.workflows,
                     "List the named workflows with their conventions. `convert` combines other models with a "
                     "workflow by --from-workflow and --to-workflow");
-  add_converters_option(*command, options.converters);
+  options.converters.add_option(*command);
   command->add_flag("--json", options.json, "Print JSON");
   command->footer("Example:\n  texremap list --json\n  texremap list --workflows");
 }

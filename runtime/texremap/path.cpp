@@ -10,7 +10,6 @@
 
 #include "command_line/command.hpp"
 #include "remap/chained_converter.hpp"
-#include "remap/shipped_converters.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
 #include "texremap/workflow_choice.hpp"
@@ -20,13 +19,6 @@ namespace {
 
 // The chosen path and the next best two.
 constexpr std::size_t kPathsShown = 3;
-
-struct PathOptions {
-  std::string from, to;
-  std::vector<std::string> via;
-  std::filesystem::path converters;
-  bool json = false;
-};
 
 // What is printed of a conversion that needs converters.
 struct Plan {
@@ -124,8 +116,7 @@ std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
   return stages;
 }
 
-Plan plan_of(const PathRequest& request, const WorkflowChoice& choice) {
-  const ConverterGraph graph = shipped_graph();
+Plan plan_of(const ConverterGraph& graph, const PathRequest& request, const WorkflowChoice& choice) {
   Plan plan;
   plan.paths = graph.find_paths(request, kPathsShown);
   plan.whole = make_chained_converter(plan.paths.front().steps)->info();
@@ -134,18 +125,13 @@ Plan plan_of(const PathRequest& request, const WorkflowChoice& choice) {
   return plan;
 }
 
-void explain(const PathOptions& options) {
-  use_converters(options.converters);
-  ConvertOptions ends;
-  ends.from = options.from;
-  ends.to = options.to;
-  ends.via = options.via;
-  const WorkflowChoice choice = workflow_choice(ends);
+void explain(const ConvertOptions& options) {
+  const WorkflowChoice choice = workflow_choice(options);
   const std::vector<std::string> stages =
       choice.is_material() ? stage_texts(choice) : std::vector<std::string>{};
   std::optional<Plan> plan;
-  if (!choice.is_material() || choice.source_brdf != choice.target_brdf || !ends.via.empty())
-    plan = plan_of({choice.source_brdf, choice.target_brdf, ends.via}, choice);
+  if (!choice.is_material() || choice.source_brdf != choice.target_brdf || !options.via.empty())
+    plan = plan_of(options.converters.graph(), {choice.source_brdf, choice.target_brdf, options.via}, choice);
   if (options.json) {
     Json result = plan ? plan_json(*plan) : Json{{"path", Json::list()}, {"expected_error", 0.0}};
     result["closest_of"] = choice.is_closest ? Json(choice.renderer) : Json();
@@ -163,7 +149,7 @@ void explain(const PathOptions& options) {
 
 void add_path_command(Command& app) {
   Command* command = app.add_subcommand("path", "Explain which converters lead from one model to another");
-  PathOptions& options = set_work<PathOptions>(*command, explain);
+  ConvertOptions& options = set_work<ConvertOptions>(*command, explain);
   command->add_option("--from MODEL", options.from, "Source model, e.g. mitsuba/ward")->required();
   command
       ->add_option(
@@ -173,7 +159,7 @@ void add_path_command(Command& app) {
   command
       ->add_option("--via MODEL", options.via, "Model that the path must pass through; repeatable, in order")
       ->allow_extra_args(false);
-  add_converters_option(*command, options.converters);
+  options.converters.add_option(*command);
   command->add_flag("--json", options.json, "Print JSON");
   command->footer(
       "Example:\n  texremap path --from mitsuba/ward --to mitsuba/as\n"

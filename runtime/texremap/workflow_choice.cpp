@@ -4,21 +4,10 @@
 
 #include "remap/closeness.hpp"
 #include "remap/error.hpp"
-#include "remap/shipped_converters.hpp"
 #include "text/number_text.hpp"
 
 namespace remap {
 namespace {
-
-// The roughness parameter of a model of the graph. An unknown model is refused later, by the search for a
-// path.
-RoughnessConvention width_of_brdf(const std::string& model) {
-  for (const auto& converter : shipped_converters()) {
-    if (converter->info().source.model == model) return converter->info().source.roughness;
-    if (converter->info().target.model == model) return converter->info().target.roughness;
-  }
-  return RoughnessConvention::kAlpha;
-}
 
 // One end of the conversion, before both ends are known.
 struct NamedEnd {
@@ -26,16 +15,20 @@ struct NamedEnd {
   const WorkflowModel* model = nullptr;  // null where `name` is a BRDF model
   std::optional<WorkflowKind> kind;      // as `--from-workflow` or `--to-workflow` says
 
+  // Has the roughness parameter of a BRDF model; an unknown one is refused later, by the search for a path.
+  const ConverterGraph* graph = nullptr;
+
   bool has_workflow() const { return model != nullptr || kind; }
   WorkflowModel workflow() const {
     if (model == nullptr)
-      return workflow_over(name, kind.value_or(WorkflowKind::kSpecular), width_of_brdf(name));
+      return workflow_over(name, kind.value_or(WorkflowKind::kSpecular), graph->side_of(name).roughness);
     return *model;
   }
 };
 
-NamedEnd named_end(const std::string& option, const std::string& name, std::optional<WorkflowKind> kind) {
-  NamedEnd end{option, name, find_workflow_model(name), kind};
+NamedEnd named_end(const std::string& option, const std::string& name, std::optional<WorkflowKind> kind,
+                   const ConverterGraph& graph) {
+  NamedEnd end{option, name, find_workflow_model(name), kind, &graph};
   if (end.model != nullptr && end.kind && *end.kind != kind_of(end.model->end))
     throw Error(ErrorKind::kUsage, option + "-workflow: " + name + " has the " +
                                        std::string(kind_name(end.model->end)) + " workflow, not " +
@@ -49,7 +42,7 @@ std::string target_named(const ConvertOptions& options, const NamedEnd& from) {
   const bool is_model =
       options.to.find('/') != std::string::npos || find_workflow_model(options.to) != nullptr;
   if (!options.fit.empty() || options.from.empty() || is_model) return options.to;
-  const ConverterGraph graph = shipped_graph();
+  const ConverterGraph& graph = *from.graph;
   const std::string source = from.workflow().brdf;
   if (graph.has_model(options.to) || graph.models_of(options.to).empty()) return options.to;
   if (renderer_of(source) == options.to) {
@@ -161,9 +154,10 @@ bool WorkflowChoice::has_source(Parameter parameter) const {
 }
 
 WorkflowChoice workflow_choice(const ConvertOptions& options) {
-  const NamedEnd from = named_end("--from", options.from, options.from_workflow);
+  const ConverterGraph graph = options.converters.graph();
+  const NamedEnd from = named_end("--from", options.from, options.from_workflow, graph);
   const std::string target_name = target_named(options, from);
-  const NamedEnd to = named_end("--to", target_name, options.to_workflow);
+  const NamedEnd to = named_end("--to", target_name, options.to_workflow, graph);
   WorkflowChoice choice;
   choice.source_brdf = options.from;
   choice.target_brdf = target_name;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "remap/converter.hpp"
+#include "remap/shipped_converters.hpp"
 
 namespace remap {
 
@@ -70,6 +70,10 @@ class ConverterGraph {
   std::vector<std::string> reachable_from(const std::string& model) const;
   std::vector<std::string> reaching(const std::string& model) const;
   bool has_model(const std::string& name) const;
+  // The two parameters of a model, as a converter from or to it has them; those of no model if there is none.
+  ModelSide side_of(const std::string& model) const;
+  // In the order of their ids.
+  const std::vector<const Converter*>& converters() const noexcept { return converters_; }
   // Sorted names of the models of a renderer.
   std::vector<std::string> models_of(const std::string& renderer) const;
 
@@ -99,5 +103,7 @@ class ConverterGraph {
 
 // The graph of all shipped converters, without detours.
 ConverterGraph shipped_graph(InstructionSet set = best_instruction_set());
+// The graph of the converters of a list, which must outlive it, as that of the shipped ones.
+ConverterGraph graph_of(const ConverterList& converters);
 
 }  // namespace remap

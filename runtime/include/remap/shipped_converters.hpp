@@ -1,5 +1,4 @@
-// The shipped converters: those of generated/converters.json, which is part of the library, or of a file that
-// the user names instead.
+// The shipped converters: those of generated/converters.json, which is part of the library.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +10,14 @@
 
 namespace remap {
 
-// Replaces the shipped converters by those of `path`: a file that `remapc emit --all` wrote, a fit, or a
-// folder of fits; an empty path changes nothing. Call it before any other function of this header, from one
-// thread. Throws kInput.
-void use_converters(const std::filesystem::path& path);
+using ConverterList = std::vector<std::unique_ptr<Converter>>;
 
 // Every shipped converter, in the order of their ids, for an instruction set that this processor has.
-const std::vector<std::unique_ptr<Converter>>& shipped_converters(
-    InstructionSet set = best_instruction_set());
+const ConverterList& shipped_converters(InstructionSet set = best_instruction_set());
+
+// The converters of a file that `remapc emit --all` wrote, of a fit, or of a folder of fits, in the order of
+// their ids. Throws kInput where there is none.
+ConverterList read_converters(const std::filesystem::path& path, InstructionSet set = best_instruction_set());
 
 // The shipped converter that leads from one model to another in one step; for longer ways see path.hpp.
 // Throws kUsage if there is none.
