@@ -165,7 +165,7 @@ class TableCheck : Findings {
             (mean < previous ? "alpha2 falls from " + number_text(previous)
                              : "alpha2 stays at " + number_text(previous)) +
                 " between alpha1 " + number_text(previous_alpha) + " and " + number_text(alpha) +
-                (mean < previous ? ", to " + number_text(mean) : "") + " (alpha2 must rise)");
+                (mean < previous ? ", to " + number_text(mean) : "") + ", but must rise");
       previous = mean;
       previous_alpha = alpha;
     }
