@@ -5,11 +5,11 @@
 # remap_generated/remap/ of the binary folder, and again whenever the fit or remapc changes.
 function(remap_add_converter target fit)
   if(NOT TARGET ${target})
-    message(FATAL_ERROR "remap_add_converter: ${target}: is no target of this project")
+    message(FATAL_ERROR "remap_add_converter: unknown target ${target} (add it before this call)")
   endif()
   if(NOT TARGET remap::remapc)
-    message(FATAL_ERROR "remap_add_converter: remapc is not part of this build of remap; "
-                        "expected one with REMAP_BUILD_COMPILER=ON")
+    message(FATAL_ERROR "remap_add_converter: remapc is not part of this build of remap "
+                        "(configure remap with REMAP_BUILD_COMPILER=ON)")
   endif()
   cmake_path(ABSOLUTE_PATH fit BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE OUTPUT_VARIABLE fit_file)
   _remap_read_fit_id(${fit_file} id)
@@ -28,15 +28,15 @@ endfunction()
 
 function(_remap_read_fit_id fit_file id)
   if(NOT EXISTS ${fit_file} OR IS_DIRECTORY ${fit_file})
-    message(FATAL_ERROR "remap_add_converter: ${fit_file}: there is no such file; "
-                        "expected a fit (JSON) as `remapc fit` writes it")
+    message(FATAL_ERROR "remap_add_converter: ${fit_file}: file not found "
+                        "(give a fit in JSON, as `remapc fit` writes it)")
   endif()
   # Another id in the file is another header: configure again.
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${fit_file})
   file(READ ${fit_file} text)
   string(JSON value ERROR_VARIABLE failure GET "${text}" id)
   if(failure)
-    message(FATAL_ERROR "remap_add_converter: ${fit_file}: is no fit: ${failure}")
+    message(FATAL_ERROR "remap_add_converter: ${fit_file}: not a fit: ${failure}")
   endif()
   set(${id} ${value} PARENT_SCOPE)
 endfunction()
@@ -47,8 +47,8 @@ function(_remap_emit_once fit_file id folder)
   if(TARGET ${emitter})
     get_target_property(known ${emitter} REMAP_FIT)
     if(NOT known STREQUAL fit_file)
-      message(FATAL_ERROR "remap_add_converter: ${fit_file}: has the id ${id}, which ${known} has too; "
-                          "expected one fit for each id")
+      message(FATAL_ERROR "remap_add_converter: ${fit_file}: has the same id ${id} as ${known} "
+                          "(give one of them another id)")
     endif()
     return()
   endif()

@@ -20,9 +20,9 @@ void require_form(const Image& image, int resolution, const std::string& model) 
   if (!complete)
     throw Error(ErrorKind::kInput, model + ": the picture is " + std::to_string(image.width) + " x " +
                                        std::to_string(image.height) + " with " +
-                                       std::to_string(image.channels) + " channels; expected " +
+                                       std::to_string(image.channels) + " channels (must be " +
                                        std::to_string(resolution) + " x " + std::to_string(resolution) +
-                                       " with 1 or 3");
+                                       " with 1 or 3)");
 }
 
 // Whether the picture at specular 0 is known to be black, so that it need not be rendered.

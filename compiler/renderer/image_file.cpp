@@ -45,7 +45,8 @@ void write_picture(const std::filesystem::path& path, const Image& image, const 
     if (reason.empty()) reason = "the file is incomplete";
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);
-    throw Error(ErrorKind::kOutput, path.string() + ": cannot be written: " + reason);
+    throw Error(ErrorKind::kOutput,
+                path.string() + ": cannot be written: " + remap::with_final_name(reason, unfinished, path));
   }
   remap::commit_file(unfinished, path);
 }

@@ -71,8 +71,8 @@ double similarity(const Moments& m) {
 void require_same_size(std::size_t a, std::size_t b, std::size_t expected) {
   if (a == expected && b == expected) return;
   throw remap::Error(remap::ErrorKind::kUsage, "image similarity: pictures of " + std::to_string(a) +
-                                                   " and " + std::to_string(b) + " values; expected " +
-                                                   std::to_string(expected) + " each");
+                                                   " and " + std::to_string(b) + " values (each must have " +
+                                                   std::to_string(expected) + ")");
 }
 
 }  // namespace

@@ -87,8 +87,8 @@ void require_material(const Material& material, const ModelDescription& model) {
     const std::vector<double>& values = found->second;
     const bool is_one = parameter.grey || parameter.role == ParameterRole::kRoughness;
     if (values.size() != 1 && (is_one || values.size() != 3))
-      fail("parameter " + parameter.name + " has " + std::to_string(values.size()) + " values; expected " +
-           (is_one ? "1" : "1 or 3"));
+      fail("parameter " + parameter.name + " has " + std::to_string(values.size()) + " values (give " +
+           (is_one ? "1" : "1 or 3") + ")");
     for (const double value : values) require_value(model, parameter, value);
   }
 }

@@ -107,7 +107,7 @@ class TableCheck : Findings {
         const bool possible = std::isfinite(cell.value) && (cell.open ? cell.value > 0.0 : cell.value >= 0.0);
         if (!possible)
           add(Severity::kError, "range", row.line,
-              found + "; expected a number " + (cell.open ? "above 0" : "from 0"));
+              found + " (must be " + (cell.open ? "above 0" : "0 or more") + ")");
         else if (cell.value > 1.0)
           add(Severity::kWarning, "range", row.line, found + "; physical values end at 1");
       }
@@ -120,8 +120,8 @@ class TableCheck : Findings {
     if (by_alpha_.size() < kFewestAlphas || rows < kFewestRows)
       add(Severity::kError, "rows", 0,
           std::to_string(rows) + " usable rows with " + std::to_string(by_alpha_.size()) +
-              " different alpha1; expected at least " + std::to_string(kFewestRows) + " and " +
-              std::to_string(kFewestAlphas));
+              " different alpha1 (at least " + std::to_string(kFewestRows) + " and " +
+              std::to_string(kFewestAlphas) + " are needed)");
   }
 
   void check_repeats() {
@@ -165,7 +165,7 @@ class TableCheck : Findings {
             (mean < previous ? "alpha2 falls from " + number_text(previous)
                              : "alpha2 stays at " + number_text(previous)) +
                 " between alpha1 " + number_text(previous_alpha) + " and " + number_text(alpha) +
-                (mean < previous ? ", to " + number_text(mean) : "") + "; expected a rising curve");
+                (mean < previous ? ", to " + number_text(mean) : "") + ", but must rise");
       previous = mean;
       previous_alpha = alpha;
     }
@@ -245,7 +245,7 @@ class MaterialCheck : Findings {
       for (std::size_t i = 0; i < columns.size(); ++i)
         if (!std::isfinite(values[i]))
           add(Severity::kError, "range", row.line,
-              columns[i] + " is " + number_text(values[i]) + "; expected a finite number");
+              columns[i] + " is " + number_text(values[i]) + " (must be finite)");
     };
     for (const NamedRow& row : table_.rows) {
       check(row, table_.source_columns, row.source);
@@ -260,7 +260,7 @@ class MaterialCheck : Findings {
     if (usable < fewest)
       add(Severity::kError, "rows", 0,
           std::to_string(usable) + " usable rows for " + std::to_string(table_.source_columns.size()) +
-              " source columns; expected at least " + std::to_string(fewest));
+              " source columns (at least " + std::to_string(fewest) + " are needed)");
     if (usable != table_.rows.size())
       add(Severity::kNote, "saturation", 0,
           std::to_string(table_.rows.size() - usable) + " of " + std::to_string(table_.rows.size()) +

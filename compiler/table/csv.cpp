@@ -105,7 +105,7 @@ double Csv::number(const CsvLine& line, const CsvCell& cell, const std::string& 
   if (!value)
     fail(line.number, cell.column,
          remap::plain(column_name, kShownText) + " is \"" + remap::plain(cell.text, kShownText) +
-             "\"; expected a number");
+             "\" (must be a number)");
   return *value;
 }
 

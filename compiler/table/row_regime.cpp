@@ -17,7 +17,7 @@ std::optional<double> limit_in(const Table& table, const std::string& key) {
     const auto limit = remap::parse_number(value);
     if (!limit || !(*limit > 0.0))
       throw input_error(table.name + ": the comment " + key + " is \"" + value +
-                        "\"; expected a number above 0");
+                        "\" (must be a number above 0)");
     return limit;
   }
   return std::nullopt;

@@ -123,7 +123,7 @@ RowStatus read_status(const Csv& csv, const CsvLine& line, const CsvCell& cell) 
   for (std::size_t i = 0; i < kStatusNames.size(); ++i)
     if (kStatusNames[i] == cell.text) return static_cast<RowStatus>(i);
   csv.fail(line.number, cell.column,
-           "status is \"" + std::string(cell.text) + "\"; expected ok, clamped, flat or unstable");
+           "status is \"" + std::string(cell.text) + "\" (must be ok, clamped, flat or unstable)");
 }
 
 ColumnMap column_map(const std::string& text) {

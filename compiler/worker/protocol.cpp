@@ -82,8 +82,8 @@ void require_once(const ModelDescription& model, ParameterRole role, bool needed
   const auto count = std::ranges::count(model.parameters, role, &ParameterDescription::role);
   if (count > 1 || (needed && count == 0))
     throw Error(ErrorKind::kInput, place + ": " + std::to_string(count) + " parameters have the role " +
-                                       std::string(role_word(role)) + "; expected " +
-                                       (needed ? "one" : "at most one"));
+                                       std::string(role_word(role)) + " (declare " +
+                                       (needed ? "one" : "at most one") + ")");
 }
 
 ModelDescription read_model(const Field& field, const std::string& prefix) {
@@ -92,8 +92,8 @@ ModelDescription read_model(const Field& field, const std::string& prefix) {
   const std::size_t slash = model.name.find('/');
   const bool named = slash != std::string::npos && slash != 0 && slash + 1 < model.name.size();
   if (!named || (!prefix.empty() && model.name.substr(0, slash) != prefix))
-    field["name"].fail("is \"" + model.name + "\"; expected " + (prefix.empty() ? "PREFIX" : prefix) +
-                       "/MODEL");
+    field["name"].fail("is \"" + model.name + "\" (must be " + (prefix.empty() ? "PREFIX" : prefix) +
+                       "/MODEL)");
   const Field parameters = field["parameters"];
   model.parameters = parameters.list(
       1, [&](const Field& parameter) { return read_parameter(parameter, &model.roughness); },
@@ -187,8 +187,8 @@ WorkerDescription read_description(const std::string& line, std::int64_t id, con
     throw Error(ErrorKind::kInput, place + ": " + *complaint);
   const Field field(answer, place);
   if (field["protocol"].count() != kWorkerProtocol)
-    field["protocol"].fail("is version " + field["protocol"].json().dump() + "; expected " +
-                           std::to_string(kWorkerProtocol));
+    field["protocol"].fail("is version " + field["protocol"].json().dump() + " (must be " +
+                           std::to_string(kWorkerProtocol) + ")");
   WorkerDescription description;
   description.renderer = field["renderer"].text();
   field["renderer"].require(!description.renderer.empty(), "a name and a version");

@@ -136,8 +136,8 @@ Image Worker::read_picture(const PictureRequest& request) {
   const auto size = std::filesystem::file_size(picture_file_, failure);
   if (failure) fail(request.shown, "the picture was not written: " + failure.message());
   if (size != expected)
-    fail(request.shown, "the picture has " + std::to_string(size) + " bytes; expected " +
-                            std::to_string(expected) + " (" + std::to_string(side) + " x " +
+    fail(request.shown, "the picture has " + std::to_string(size) + " bytes (must have " +
+                            std::to_string(expected) + ": " + std::to_string(side) + " x " +
                             std::to_string(side) + " pixels of " + std::to_string(channels) + " floats)");
   Image image{request.resolution, request.resolution, request.channels,
               std::vector<float>(expected / sizeof(float))};

@@ -91,13 +91,11 @@ std::string refused_value_text(const CLI::App& command, const std::string& what)
          "' (allowed: " + allowed + ")";
 }
 
-// The message for a command line that `app` refused with `error`: what is wrong and what to do, as `unknown
-// option
-// --form (did you mean --from?)` or `--output is required (see texremap convert --help)`.
+// The message for a command line that `app` refused with `error`: what is wrong and what to do, as
+// `unknown option --form (did you mean --from?)` or `--output is required (see texremap convert --help)`.
 std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(app);
-  // Whatever CLI11 complained of, a mistyped option is the likelier reason: with `--form a`, --from is
-  // missing.
+  // A mistyped option is the likelier reason than what CLI11 reports: with `--form a`, --from is missing.
   if (const std::vector<std::string> extras = app.remaining(true); !extras.empty())
     return extra_text(command, extras);
   std::string what = error.what();
@@ -109,6 +107,11 @@ std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) 
     const std::string name = what.substr(0, colon), count = what.substr(colon + 2, end - colon - 2);
     if (count == "1") return name + ": value missing" + see_help(command);
     return name + ": expects " + count + " values, " + what.substr(end + std::string(" required ").size());
+  }
+  const std::string at_most = ": At Most 1 required but received ";
+  if (const std::size_t at = what.find(at_most); at != std::string::npos) {
+    const std::string count = what.substr(at + at_most.size());
+    return what.substr(0, at) + ": given " + (count == "2" ? "twice" : count + " times") + " (give it once)";
   }
   const std::string conversion = "Could not convert: ", excludes = " excludes ";
   if (const std::size_t equals = what.find(" = ");

@@ -31,7 +31,7 @@ std::string range_text(const Range& range) {
 }
 
 void require_links(const std::vector<Fit>& steps) {
-  if (steps.size() < 2) throw Error(ErrorKind::kUsage, "chain: expected at least 2 fits");
+  if (steps.size() < 2) throw Error(ErrorKind::kUsage, "chain: only one fit (give at least 2)");
   std::set<std::string> visited = {steps.front().source.model};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (i > 0 && steps[i - 1].target != steps[i].source)

@@ -145,6 +145,14 @@ fs::path unfinished_name(const fs::path& path) {
   return path.parent_path() / name;
 }
 
+std::string with_final_name(std::string message, const fs::path& unfinished, const fs::path& path) {
+  const std::string name = unfinished.filename().string(), final_name = path.filename().string();
+  for (std::size_t at = message.find(name); at != std::string::npos;
+       at = message.find(name, at + final_name.size()))
+    message.replace(at, name.size(), final_name);
+  return message;
+}
+
 void commit_file(const fs::path& unfinished, const fs::path& path, Flush flush) {
   const std::string reason = replace(unfinished, path, flush);
   if (reason.empty()) return;

@@ -27,6 +27,10 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t largest 
 // those that were killed could not.
 std::filesystem::path unfinished_name(const std::filesystem::path& path);
 
+// A library's message about the file `unfinished`, with the name of `path` in its place.
+std::string with_final_name(std::string message, const std::filesystem::path& unfinished,
+                            const std::filesystem::path& path);
+
 // Whether a result waits until the disk has it, so that a power cut leaves the old file or the new one. Only
 // what its reader can verify and make again does without.
 enum class Flush { kYes, kNo };

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array kColors = {Parameter::kSpecular, Parameter::kDiffuse, Parameter::kBaseColor};
 
 // The color space of each of `colors`, as far as `words` say one. Throws kUsage for a word that applies to
-// none of them; `reason` is why another color is not among them.
+// none of them; `reason`, as "is a result", is what no other color does.
 std::map<Parameter, Transfer> color_spaces(const std::string& option,
                                            const std::vector<ColorSpaceWord>& words,
                                            const std::vector<Parameter>& colors, const std::string& reason) {
@@ -28,8 +28,8 @@ std::map<Parameter, Transfer> color_spaces(const std::string& option,
     }
     if (!applies)
       throw Error(ErrorKind::kUsage,
-                  option + ": applies to nothing, because " +
-                      (word.parameter ? std::string(parameter_name(*word.parameter)) : "no color") + " " +
+                  option + ": applies to nothing, because no " +
+                      (word.parameter ? std::string(parameter_name(*word.parameter)) : "color") + " " +
                       reason);
   }
   return chosen;

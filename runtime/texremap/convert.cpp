@@ -171,17 +171,17 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
   Outcome outcome{chosen, list, {}, options.dry_run, options.histograms, 0.0, {}};
   // What a run says of a set, it says as soon as the set is finished: a killed run has told what it did.
   const bool as_lines = options.json && list.is_tree;
-  if (!options.quiet) print_left_out(kProgram, list);
+  print_left_out(kProgram, list, options.quiet);
   if (as_lines) print_json_start(outcome);
   outcome.reports = run_jobs(list, chosen, options, [&](const JobReport& report) {
-    if (list.is_tree && !options.quiet) print_job(kProgram, outcome, report);
+    if (list.is_tree) print_job(kProgram, outcome, report, options.quiet);
     if (as_lines) print_json_set(outcome, report);
   });
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.used = resource_use();
   if (!list.is_tree) outcome.reports.front().seconds = outcome.seconds;
   if (!options.quiet) {
-    if (!list.is_tree) print_job(kProgram, outcome, outcome.reports.front());
+    if (!list.is_tree) print_job(kProgram, outcome, outcome.reports.front(), false);
     print_colors(kProgram, outcome);
     print_summary(kProgram, outcome);
   }

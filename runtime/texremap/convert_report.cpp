@@ -170,10 +170,13 @@ void print_confidence(const std::string& program, const std::string& place, cons
 
 }  // namespace
 
-void print_job(const std::string& program, const Outcome& outcome, const JobReport& report) {
+void print_job(const std::string& program, const Outcome& outcome, const JobReport& report,
+               bool failures_only) {
+  if (failures_only && !report.failure) return;
   std::string place = report.name.empty() ? "" : report.name + ": ";
   if (!report.tiles.empty()) place += counted(report.tiles.size(), outcome.list.tile_noun) + ": ";
-  for (const std::string& warning : report.warnings) print_message(program, "warning: " + warning);
+  if (!failures_only)
+    for (const std::string& warning : report.warnings) print_message(program, "warning: " + warning);
   if (report.failure) {
     print_message(program, place + "failed: " + *report.failure);
     return;
@@ -217,9 +220,10 @@ void print_colors(const std::string& program, const Outcome& outcome) {
   print_message(program, "color: " + text + "; --color-space and --output-color-space change this");
 }
 
-void print_left_out(const std::string& program, const JobList& list) {
+void print_left_out(const std::string& program, const JobList& list, bool failures_only) {
   for (const LeftOut& entry : list.left_out)
-    print_message(program, (entry.is_failure ? "failed: " : "skipped: ") + entry.message);
+    if (entry.is_failure || !failures_only)
+      print_message(program, (entry.is_failure ? "failed: " : "skipped: ") + entry.message);
 }
 
 void print_summary(const std::string& program, const Outcome& outcome) {

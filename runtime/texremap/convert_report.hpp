@@ -92,10 +92,12 @@ struct Outcome {
   std::size_t failed_count() const;  // failed sets and the failures among `list.left_out`
 };
 
-// Prints a line about each set that is not converted.
-void print_left_out(const std::string& program, const JobList& list);
+// Prints a line about each set that is not converted. With `failures_only`, as for --quiet, this and
+// print_job print what failed and nothing else.
+void print_left_out(const std::string& program, const JobList& list, bool failures_only);
 // Prints the lines about one set to standard error.
-void print_job(const std::string& program, const Outcome& outcome, const JobReport& report);
+void print_job(const std::string& program, const Outcome& outcome, const JobReport& report,
+               bool failures_only);
 // Prints one line about the color spaces of the run: `color: specular read as srgb, base_color written as
 // srgb`; nothing where all colors are floating-point numbers that nobody spoke of.
 void print_colors(const std::string& program, const Outcome& outcome);

@@ -88,6 +88,16 @@ void require_replaceable(const std::vector<std::filesystem::path>& files, const 
                   file.string() + ": already exists, and is not of this conversion (--force overwrites)");
 }
 
+// Refuses to replace any file, and names --resume where this conversion wrote it.
+void require_free(const std::vector<std::filesystem::path>& files, const Journal& journal) {
+  std::error_code ignored;
+  for (const std::filesystem::path& file : files)
+    if (std::filesystem::exists(std::filesystem::symlink_status(file, ignored)))
+      throw Error(ErrorKind::kOutput, file.string() + ": already exists (" +
+                                          (journal.is_own(file) ? "--resume skips finished sets, " : "") +
+                                          "--force overwrites)");
+}
+
 FinishedFile finished_file(const std::filesystem::path& path, const std::filesystem::path& content) {
   flush_to_disk(content, path);
   return {path, std::filesystem::file_size(content), hash_of_file(content)};
@@ -277,7 +287,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   choice.folder = job.folder;
   choice.names = job.names;
   choice.metadata = metadata_of(chosen_);
-  choice.force = options_.force || options_.resume;  // existing files are checked below
+  choice.force = options_.force || options_.resume || is_tree_;  // existing files are checked below
   choice.copies = job.copies;
   const RoughnessConvention width = written_width(options_, choice, width_source(set), usual_width(set));
   choice.width_name = width == RoughnessConvention::kGlossiness ? "glossiness" : "roughness";
@@ -293,6 +303,8 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
       return;
     }
     if (!options_.force) require_replaceable(files, journal_);
+  } else if (is_tree_ && !options_.force) {
+    require_free(results_of(plan), journal_);
   }
   if (options_.dry_run) return;
 

@@ -159,7 +159,8 @@ void ImageWriter::State::open_plane() {
 void ImageWriter::State::check(bool done) const {
   const std::string message = output ? output->geterror() : "";
   if (!file->failure().empty()) fail("cannot be written: " + file->failure());
-  if (!done) fail("cannot be written: " + first_line(message, "unknown reason"));
+  if (!done)
+    fail("cannot be written: " + with_final_name(first_line(message, "unknown reason"), unfinished, path));
 }
 
 // Reads the header of the closed file and, for TIFF, its last rows.
@@ -176,7 +177,7 @@ void ImageWriter::State::check_finished() const {
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kOutput) throw;
     const std::string reason = std::string(error.what()).substr(unfinished.string().size());
-    fail("cannot be written completely" + reason);
+    fail("cannot be written completely" + with_final_name(reason, unfinished, path));
   }
 }
 

@@ -123,40 +123,40 @@ std::size_t entry_bytes(const CopiedNodes& entries) noexcept {
 
 void require_entries(const BlendedNodes& entries, std::size_t count, const std::string& place) {
   require(entries.codes.size() == count * kWarpParameters, place,
-          "another size of the table; expected seven codes a node");
+          "the table has the wrong size (seven codes per node)");
   for (std::size_t p = 0; p < kWarpParameters; ++p)
     require(std::isfinite(entries.least[p]) && std::isfinite(entries.largest[p]) &&
                 entries.least[p] <= entries.largest[p] && entries.least[p] >= 0.0f,
-            place, "an empty range of a parameter; expected finite numbers from 0");
+            place, "the range of a parameter is empty (both ends must be finite and 0 or more)");
 }
 
 void require_entries(const CopiedNodes& entries, std::size_t count, const std::string& place) {
-  require(entries.indices.size() == count, place, "another size of the table; expected an index a node");
+  require(entries.indices.size() == count, place, "the table has the wrong size (one index per node)");
   require(!entries.palette.empty() && entries.palette.size() <= kLargestPalette, place,
-          "another size of the palette; expected 1 to 65536 texels");
+          "the palette has the wrong size (1 to 65536 texels)");
   for (const WarpTexel& texel : entries.palette)
     for (const float value : texel)
       require(std::isfinite(value) && value >= 0.0f, place,
-              "another value in the palette; expected finite numbers from 0");
+              "the palette holds an invalid value (all must be finite and 0 or more)");
   for (const std::uint16_t index : entries.indices)
-    require(index < entries.palette.size(), place, "an index beyond the palette; expected one of its texels");
+    require(index < entries.palette.size(), place, "an index is beyond the end of the palette");
 }
 
 void require_terms(const AppearanceCoordinates& space, const SeparableTerms& terms,
                    const std::string& place) {
   const std::size_t n = space.dimension, nodes = width_node_count(space, terms);
   require(terms.diffuse.size() == 3 * n && all_finite(terms.diffuse), place,
-          "other weights of diffuse; expected three finite numbers a dimension");
+          "the weights of diffuse are invalid (three finite numbers per dimension)");
   require(nodes >= 2 && terms.offset.size() == n * nodes && all_finite(terms.offset), place,
-          "other offsets; expected a finite number a node and dimension, for two nodes or more");
+          "the offsets are invalid (a finite number per node and dimension, two nodes or more)");
   require(terms.specular.size() == 3 * terms.offset.size() && all_finite(terms.specular), place,
-          "other weights of specular; expected three finite numbers a node and dimension");
+          "the weights of specular are invalid (three finite numbers per node and dimension)");
 }
 
 void require_terms(const AppearanceCoordinates& space, const QuadraticTerms& terms,
                    const std::string& place) {
   require(terms.weights.size() == space.dimension * kQuadraticTerms && all_finite(terms.weights), place,
-          "other weights of quadratic terms; expected 36 finite numbers a dimension");
+          "the weights of quadratic terms are invalid (36 finite numbers per dimension)");
 }
 
 }  // namespace
@@ -234,16 +234,16 @@ void require_valid(const CompiledWarp& warp, const std::string& place) {
   const AppearanceCoordinates& space = warp.coordinates;
   const ParameterTable& table = warp.table;
   const std::size_t n = space.dimension;
-  require(n >= 1 && n <= kLargestWarpDimension, place, "another number of dimensions; expected 1 to 3");
+  require(n >= 1 && n <= kLargestWarpDimension, place, "the number of dimensions is invalid (1 to 3)");
   require(space.least_alpha > 0.0f && space.largest_alpha > space.least_alpha && space.largest_alpha <= 1.0f,
-          place, "an empty range of alpha; expected one within 0 and 1");
+          place, "the range of alpha is invalid (it must lie within 0 and 1, and not be empty)");
   std::visit([&](const auto& terms) { require_terms(space, terms, place); }, space.terms);
   require(table.low.size() == n && table.high.size() == n && all_finite(table.low) && all_finite(table.high),
-          place, "another box of coordinates; expected two finite corners");
+          place, "the box of coordinates is invalid (two finite corners)");
   for (std::size_t k = 0; k < n; ++k)
-    require(table.low[k] < table.high[k], place, "an empty box of coordinates; expected low below high");
+    require(table.low[k] < table.high[k], place, "the box of coordinates is empty (low must be below high)");
   require(table.nodes >= 2 && table.nodes <= 4096 && power(table.nodes, n) <= kMostNodes, place,
-          "another number of nodes; expected 2 to 4096 a dimension and at most 2^24 in all");
+          "the number of nodes is invalid (2 to 4096 per dimension, at most 2^24 in all)");
   std::visit([&](const auto& entries) { require_entries(entries, power(table.nodes, n), place); },
              table.entries);
 }

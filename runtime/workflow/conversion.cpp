@@ -18,7 +18,7 @@ template <std::size_t Count, typename Pointer>
 std::array<Pointer, Count> rows(std::span<const Pointer> given, const char* what) {
   if (given.size() != Count)
     throw Error(ErrorKind::kUsage, std::string("workflow conversion: ") + std::to_string(given.size()) +
-                                       " rows of " + what + "; expected " + std::to_string(Count));
+                                       " rows of " + what + " (give " + std::to_string(Count) + ")");
   std::array<Pointer, Count> all{};
   std::copy(given.begin(), given.end(), all.begin());
   return all;
@@ -69,7 +69,7 @@ void require_direction(const WorkflowConversion& conversion, bool to_metallic) {
   throw Error(ErrorKind::kUsage, std::string("workflow conversion: ") +
                                      std::string(formula_name(conversion.formula)) + " leads from " +
                                      conversion.source_model() + " to " + conversion.target_model() +
-                                     "; expected the other direction");
+                                     ", not the other way (call the other function)");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // What is built once for each set of flags that a user might take: passes of headers, kernels of networks,
-// and those rivals that are source code too. CMake lists the builds in builds.inc.
+// and Eigen's products. CMake lists the builds in builds.inc.
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-// A path of three headers as texremap runs it, block by block, against the same headers one after another
-// over whole maps and a memcpy of the four channels.
+// A path of three headers as texremap runs it, block by block, against a memcpy of the four channels.
 #include <memory>
 
 #include "bench/bench.hpp"
@@ -58,19 +57,14 @@ struct Chain {
   std::unique_ptr<remap::Converter> chained;
 };
 
-void convert(const remap::Converter& converter, const std::array<std::vector<float>, 4>& in, Maps& maps) {
-  const std::array<const float*, 3> specular = {in[1].data(), in[2].data(), in[3].data()};
+void convert(const remap::Converter& converter, Maps& maps) {
+  const std::array<const float*, 3> specular = {maps.in[1].data(), maps.in[2].data(), maps.in[3].data()};
   const std::array<float*, 3> specular_out = {maps.out[1].data(), maps.out[2].data(), maps.out[3].data()};
   benchmark::DoNotOptimize(
-      converter.convert(maps.texels, in[0].data(), specular, maps.out[0].data(), specular_out));
-}
-
-void convert_in_turn(const Chain& chain, Maps& maps) {
-  for (const auto& step : chain.steps) convert(*step, step == chain.steps.front() ? maps.in : maps.out, maps);
+      converter.convert(maps.texels, maps.in[0].data(), specular, maps.out[0].data(), specular_out));
 }
 
 std::string chain_name(const std::string& flags) { return "chain_" + flags; }
-std::string in_turn_name(const std::string& flags) { return "in_turn_" + flags; }
 
 }  // namespace
 
@@ -78,13 +72,11 @@ void add_chains() {
   for (const Build<Pass>& build : pass_builds()) {
     if (build.code != kCode || build.flags == "o2") continue;
     const auto chain = std::make_shared<const Chain>(build.function);
-    const std::string chained = chain_name(build.flags), in_turn = in_turn_name(build.flags);
+    const std::string chained = chain_name(build.flags);
     add_benchmark(chained + "/large", large_maps().texels, 15,
-                  [chain] { convert(*chain->chained, large_maps().in, large_maps()); });
-    add_benchmark(in_turn + "/large", large_maps().texels, 15,
-                  [chain] { convert_in_turn(*chain, large_maps()); });
+                  [chain] { convert(*chain->chained, large_maps()); });
     add_benchmark(chained + "/small", small_maps().texels, 7,
-                  [chain] { convert(*chain->chained, small_maps().in, small_maps()); });
+                  [chain] { convert(*chain->chained, small_maps()); });
   }
 }
 
@@ -95,8 +87,6 @@ Section chain_section(const Medians& medians) {
     const std::string flags = flags_text(build.flags);
     section.rows.push_back(
         pass_row(medians, "chained at " + flags + ", 4096 x 4096", chain_name(build.flags), "large"));
-    section.rows.push_back(pass_row(medians, "one after another at " + flags + ", 4096 x 4096",
-                                    in_turn_name(build.flags), "large"));
     section.rows.push_back(
         pass_row(medians, "chained at " + flags + ", 64 x 64, in cache", chain_name(build.flags), "small"));
   }

@@ -10,7 +10,6 @@
 #include "bench/sweep_table.hpp"
 #include "emit/emit.hpp"
 #include "emit/mapping_code.hpp"
-#include "emit/text_template.hpp"
 #include "fit/fit_table.hpp"
 #include "model/chain.hpp"
 #include "remap/fit_file.hpp"
@@ -40,8 +39,8 @@ Table bench_table() {
 }
 
 // `<name>.json`, and its header `<name>.hpp`.
-remap::Fit write_fit(const std::filesystem::path& folder, const Table& table, const std::string& name,
-                     remapc::Regressor regressor) {
+void write_fit(const std::filesystem::path& folder, const Table& table, const std::string& name,
+               remapc::Regressor regressor) {
   remapc::FitOptions options;
   options.id = name;
   options.regressor = regressor;
@@ -49,67 +48,6 @@ remap::Fit write_fit(const std::filesystem::path& folder, const Table& table, co
   const remap::Fit fit = remapc::fit_table(table, remapc::table_text(table), options).fit;
   remap::write_file(folder / (name + ".json"), fit_to_json(fit));
   remap::write_file(folder / (name + ".hpp"), remapc::emit_header(fit));
-  return fit;
-}
-
-std::string number(double value) { return remapc::double_literal(value); }
-
-std::string normalised_text(const remap::Scaling& scaling, const std::string& name) {
-  const std::string t =
-      scaling.pole == 0.0 ? name : name + " / (" + name + " + Number(" + number(scaling.pole) + "))";
-  return "(" + t + " - Number(" + number(scaling.offset) + ")) * Number(" + number(scaling.scale) + ")";
-}
-
-// One expansion as exporters of support vectors write it: a loop with std::exp.
-std::string plain_loop(const std::string& name, const remap::KernelExpansion& expansion) {
-  const std::size_t width = expansion.inputs.size();
-  std::string vectors, weights, inputs;
-  for (std::size_t i = 0; i < expansion.count(); ++i) {
-    vectors += "{";
-    for (std::size_t k = 0; k < width; ++k)
-      vectors += (k == 0 ? "Number(" : ", Number(") + number(expansion.vectors[i * width + k]) + ")";
-    vectors += "},\n";
-    weights += "Number(" + number(expansion.weights[i]) + "),\n";
-  }
-  for (std::size_t k = 0; k < width; ++k)
-    inputs += (k == 0 ? "" : ", ") + normalised_text(expansion.inputs[k], k == 0 ? "alpha" : "specular");
-  const std::string counts = std::to_string(expansion.count());
-  return "inline constexpr Number k_" + name + "_vectors[" + counts + "][" + std::to_string(width) +
-         "] = {\n" + vectors + "};\ninline constexpr Number k_" + name + "_weights[" + counts + "] = {\n" +
-         weights + "};\ninline Number " + name +
-         "(Number alpha, [[maybe_unused]] Number specular) {\n"
-         "  const Number inputs[] = {" +
-         inputs + "};\n  Number sum = Number(" + number(expansion.bias) + ");\n  for (int i = 0; i < " +
-         counts +
-         "; ++i) {\n"
-         "    Number square = 0;\n"
-         "    for (int k = 0; k < " +
-         std::to_string(width) + "; ++k) {\n      const Number difference = inputs[k] - k_" + name +
-         "_vectors[i][k];\n      square += difference * difference;\n    }\n    sum += k_" + name +
-         "_weights[i] * std::exp(Number(" + number(-expansion.gamma) +
-         ") * square);\n"
-         "  }\n  return sum * Number(" +
-         number(1.0 / expansion.output.scale) + ") + Number(" + number(expansion.output.offset) + ");\n}\n";
-}
-
-// The rival `svr_<number>.hpp`, called as a header is.
-void write_plain_loop(const std::filesystem::path& folder, const remap::Svr& svr, const std::string& type) {
-  const std::string name = "svr_" + type;
-  remap::write_file(folder / (name + ".hpp"),
-                    "#include <array>\n#include <cmath>\n#include <cstddef>\n\nnamespace remap::" + name +
-                        " {\nusing Number = " + type + ";\n" + plain_loop("alpha", svr.alpha) +
-                        plain_loop("specular", svr.specular) +
-                        "template <std::size_t Channels>\n"
-                        "inline std::size_t evaluate_batch(std::size_t count, const float* width,\n"
-                        "    const std::array<const float*, Channels>& in, float* width_out,\n"
-                        "    const std::array<float*, Channels>& out) {\n"
-                        "  for (std::size_t i = 0; i < count; ++i) {\n"
-                        "    const Number a = Number(width[i]);\n"
-                        "    width_out[i] = static_cast<float>(alpha(a, Number(in[0][i])));\n"
-                        "    for (std::size_t c = 0; c < Channels; ++c)\n"
-                        "      out[c][i] = static_cast<float>(specular(a, Number(in[c][i])));\n"
-                        "  }\n  return 0;\n}\n}  // namespace remap::" +
-                        name + "\n");
 }
 
 // Inputs and outputs in [0, 1], weights as a network starts with (Glorot and Bengio 2010): speed does not
@@ -121,7 +59,7 @@ remap::Network random_network(remap::Activation activation) {
   network.inputs.assign(6, {0.5, 2.0, 0.0});
   network.outputs.assign(4, {0.5, 2.0, 0.0});
   std::size_t inputs = 6;
-  for (const std::size_t units : {300, 4}) {
+  for (const std::size_t units : {std::size_t{300}, std::size_t{4}}) {
     remap::Layer layer;
     layer.input_count = inputs;
     const double range = std::sqrt(6.0 / static_cast<double>(inputs + units));
@@ -172,9 +110,7 @@ int main(int, char** argv) {
     const std::filesystem::path folder = argv[1];
     const Table table = bench_table();
     remap::write_file(folder / "table.csv", remapc::table_text(table));
-    const remap::Fit svr = write_fit(folder, table, "svr", remapc::Regressor::kSvr);
-    for (const char* type : {"double", "float"})
-      write_plain_loop(folder, std::get<remap::Svr>(svr.mapping), type);
+    write_fit(folder, table, "svr", remapc::Regressor::kSvr);
     write_fit(folder, table, "parametric", remapc::Regressor::kParametric);
     write_fit(folder, table, "mlp", remapc::Regressor::kMlp);
     write_chain(folder);

@@ -151,12 +151,9 @@ Section workflow_error_section(const Medians& medians) {
   const auto gltf = [](const WorkflowFormula& formula) { return workflow_test::gltf(formula); };
   const auto there = plain(Equation2{}), there_gltf = gltf(Equation2{});
   add_errors(&section, "projection", family_error(there, plain(Projection{kCleanPrior})), true);
-  add_errors(&section, "equation (3), mean", family_error(there, plain(Equation3{MetallicMean::kPlain})),
-             false);
   add_errors(&section, "equation (3), weighted", family_error(there, plain(Equation3{MetallicMean::kAlbedo})),
              false);
   add_errors(&section, "glTF, projection", family_error(there_gltf, gltf(Projection{kCleanPrior})), false);
-  add_errors(&section, "glTF, Khronos", family_error(there_gltf, gltf(KhronosSolver{})), false);
   return section;
 }
 

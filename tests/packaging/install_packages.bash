@@ -54,4 +54,4 @@ stub apt-get 'exit 100'
 expect_exit 0 install_packages
 [[ ! -s $work/output ]] || fail "it speaks though nothing is missing: $(cat "$work/output")"
 expect_exit 2 "$source_folder/scripts/install-packages" bild
-expect_output "bild: is no set of packages"
+expect_output "unknown set bild"

@@ -31,10 +31,10 @@ second_row() {
 own_fit() { expected_row "$project/$id.json" 0.2 0.7 0.5 0; }
 
 expect_exit 1 configure
-expect_output "$id.json: there is no such file"
+expect_output "$id.json: file not found"
 echo '{"name": "no fit"}' >"$project/$id.json"
 expect_exit 1 configure
-expect_output "$id.json: is no fit"
+expect_output "$id.json: not a fit"
 
 cp "$source_folder/fits/$id.json" "$project"
 shipped=$(own_fit)

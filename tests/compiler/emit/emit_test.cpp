@@ -106,7 +106,7 @@ TEST_CASE("emit: warps are headers of whole materials") {
   for (const std::string part : {"QuadraticView", "CopiedView", "Conventions"})
     CHECK(header.find(part) == std::string::npos);
   fit.warp.table.nodes = 31;
-  CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("leaf: another size of the table"));
+  CHECK_THROWS_WITH(emit_header(fit), Catch::Contains("leaf: the table has the wrong size"));
 }
 
 TEST_CASE("emit: no text of a fit leaves its comment") {

@@ -139,7 +139,7 @@ TEST_CASE("check: diffuse out of range is reported") {
   table.rows[4].diffuse2 = 1.2;
   const auto findings = of_kind(table, "range");
   REQUIRE(findings.size() == 2);
-  CHECK(findings[0].message.find("diffuse2 is -0.1; expected a number from 0") != std::string::npos);
+  CHECK(findings[0].message.find("diffuse2 is -0.1 (must be 0 or more)") != std::string::npos);
   CHECK(findings[1].severity == Severity::kWarning);
 }
 

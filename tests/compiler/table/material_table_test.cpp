@@ -53,7 +53,7 @@ TEST_CASE("material table: errors name the place") {
   CHECK_THROWS_WITH(parse_material_table("# source_columns: a1\n# target_columns: b2\na1,b2,error,status\n"
                                          "0.5,x,0,ok\n",
                                          "n.csv"),
-                    "n.csv:4:5: b2 is \"x\"; expected a number");
+                    "n.csv:4:5: b2 is \"x\" (must be a number)");
   CHECK_THROWS_WITH(parse_material_table(
                         "# source_columns: a1,c1\n# target_columns: b2\na1,b2,error,status\n1,2,0,ok\n", "n"),
                     "n:3:1: has no column c1, which the comments name");

@@ -100,7 +100,7 @@ TEST_CASE("table: the published table loads by its preset and by a column map", 
 
 TEST_CASE("table: a bad number is reported with line and column") {
   CHECK_THROWS_WITH(parse("# c: d\n" + kHeader + "0.1,0.2,0.3,0.4,0,ok\n0.1,0.2,0.3x,0.4,0,ok\n"),
-                    "t.csv:4:9: alpha2 is \"0.3x\"; expected a number");
+                    "t.csv:4:9: alpha2 is \"0.3x\" (must be a number)");
   CHECK_THROWS_WITH(parse(kHeader + "0.1,,0.3,0.4,0,ok\n"), Catch::Contains("t.csv:2:5: specular1 is \"\""));
   CHECK_THROWS_WITH(parse(kHeader + "0.1,0.2,0.3,0.4,0,fine\n"),
                     Catch::Contains("t.csv:2:19: status is \"fine\""));
@@ -162,5 +162,5 @@ TEST_CASE("csv: control characters of comments and cells are shown as escapes") 
   const Table table = parse_table("# source: a\tb\x1b[2J\xe2\x80\xae\n" + header + "1,1,1,1\n", "t.csv");
   CHECK(table.comments.front().second == "a\\x09b\\x1b[2J\\u202e");
   CHECK_THROWS_WITH(parse_table(header + std::string("1,\0,1,1\n", 8), "t.csv"),
-                    Catch::Contains("specular1 is \"\\x00\"; expected a number"));
+                    Catch::Contains("specular1 is \"\\x00\" (must be a number)"));
 }

@@ -322,9 +322,9 @@ TEST_CASE("warp fits: files preserve every bit, and damaged files are refused", 
         copy.replace(copy.find(found), found.size(), other);
         CHECK_THROWS_WITH(remap::any_fit_from_json(copy, "x"), Catch::Contains(message));
       };
-      refused("\"nodes\": 128", "\"nodes\": 127", "another size of the table");
-      refused("\"nodes\": 128", "\"nodes\": 1", "another number of nodes; expected 2 to 4096");
-      refused("\"dimension\": 2", "\"dimension\": 3", "other weights of");
+      refused("\"nodes\": 128", "\"nodes\": 127", "the table has the wrong size");
+      refused("\"nodes\": 128", "\"nodes\": 1", "the number of nodes is invalid (2 to 4096");
+      refused("\"dimension\": 2", "\"dimension\": 3", "the weights of");
       refused("\"copy_rms_error\": 0.0123", "\"copy_rms_error\": -2", "-1 where it is not known");
       if (copied) {
         refused("\"indices\": \"", "\"indices\": \"//8", "base64 in whole groups");

@@ -72,10 +72,10 @@ TEST_CASE("worker: answers that violate the protocol are reported") {
   CHECK_THAT(render_error(session, "flood"), Contains("wrote a line of more than 16 MB"));
   CHECK_THAT(render_error(session, "no-file"), Contains("the picture was not written"));
   CHECK_THAT(render_error(session, "short"),
-             Contains("the picture has 4092 bytes; expected 4096 (32 x 32 pixels of 1 floats)"));
+             Contains("the picture has 4092 bytes (must have 4096: 32 x 32 pixels of 1 floats)"));
   CHECK_THAT(render_error(session, "nan"), Contains("the picture is nan in row 16, column 16"));
-  CHECK_THAT(render_error(session, "protocol"), Contains("protocol: is version 2; expected 1"));
-  CHECK_THAT(render_error(session, "prefix"), Contains("is \"other/ggx\"; expected fake/MODEL"));
+  CHECK_THAT(render_error(session, "protocol"), Contains("protocol: is version 2 (must be 1)"));
+  CHECK_THAT(render_error(session, "prefix"), Contains("is \"other/ggx\" (must be fake/MODEL)"));
   CHECK_THAT(render_error(session, "convention"), Contains("expected alpha, roughness, exponent"));
   CHECK(session.nobody_is_left());
 }

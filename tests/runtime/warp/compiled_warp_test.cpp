@@ -18,15 +18,15 @@ TEST_CASE("compiled warp: invalid tables are refused") {
   refused(warp, "an index beyond the palette");
   entries.indices[5] = 0;
   entries.palette[1][3] = std::numeric_limits<float>::quiet_NaN();
-  refused(warp, "another value in the palette");
+  refused(warp, "the palette holds an invalid value");
   entries.palette[1][3] = -0.5f;
-  refused(warp, "another value in the palette");
+  refused(warp, "the palette holds an invalid value");
   entries.palette.clear();
-  refused(warp, "another size of the palette; expected 1 to 65536 texels");
+  refused(warp, "the palette has the wrong size (1 to 65536 texels)");
   warp = remap::random_warp({3, true, false}, 3);
   std::get<remap::QuadraticTerms>(warp.coordinates.terms).weights.pop_back();
-  refused(warp, "other weights of quadratic terms; expected 36");
+  refused(warp, "the weights of quadratic terms are invalid (36");
   warp = remap::random_warp({3, false, false}, 3);
   warp.table.nodes = 300;
-  refused(warp, "another number of nodes; expected 2 to 4096 a dimension and at most 2^24");
+  refused(warp, "the number of nodes is invalid (2 to 4096 per dimension, at most 2^24");
 }
