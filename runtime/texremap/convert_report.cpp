@@ -204,18 +204,28 @@ void print_job(const std::string& program, const Outcome& outcome, const JobRepo
 }
 
 void print_colors(const std::string& program, const Outcome& outcome) {
-  std::string text;
+  std::vector<std::pair<std::string, std::size_t>> phrases;  // reasons that read the same are one phrase
   for (const bool is_written : {false, true})
     for (const auto& [note, count] : outcome.colors()) {
       if (note.is_written != is_written) continue;
-      const std::string option = is_written ? "--output-color-space" : "--color-space";
-      const std::string file = is_written ? "as the map that it follows" : "tagged so by the file";
-      text += (text.empty() ? "" : ", ") + std::string(parameter_name(note.color)) +
-              (is_written ? " written as " : " read as ") + std::string(name_of(kTransfers, note.transfer));
-      if (note.reason == TransferReason::kUser) text += " (" + option + ")";
-      if (note.reason == TransferReason::kFile && note.transfer != Transfer::kSrgb) text += " (" + file + ")";
-      if (outcome.list.is_tree) text += " in " + counted(count, "map");
+      std::string phrase = std::string(parameter_name(note.color)) +
+                           (is_written ? " written as " : " read as ") +
+                           std::string(name_of(kTransfers, note.transfer));
+      if (note.reason == TransferReason::kUser)
+        phrase += is_written ? " (--output-color-space)" : " (--color-space)";
+      if (note.reason == TransferReason::kFile && note.transfer != Transfer::kSrgb)
+        phrase += is_written ? " (as the map that it follows)" : " (tagged so by the file)";
+      const auto known = std::find_if(phrases.begin(), phrases.end(),
+                                      [&](const auto& entry) { return entry.first == phrase; });
+      if (known == phrases.end())
+        phrases.emplace_back(phrase, count);
+      else
+        known->second += count;
     }
+  std::string text;
+  for (const auto& [phrase, count] : phrases)
+    text +=
+        (text.empty() ? "" : ", ") + phrase + (outcome.list.is_tree ? " in " + counted(count, "map") : "");
   if (text.empty()) return;
   print_message(program, "color: " + text + "; --color-space and --output-color-space change this");
 }

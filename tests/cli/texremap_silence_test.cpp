@@ -97,6 +97,19 @@ TEST_CASE("texremap silence: specular from a number beside an 8-bit roughness is
   CHECK(texel(tree, "out/specular.png") == std::vector<int>{56, 56, 56});
 }
 
+TEST_CASE(
+    "texremap silence: the line on colors counts the maps of a folder, for whatever reason they are sRGB") {
+  const Tree tree;
+  for (const std::string set : {"in/a", "in/b"}) tree.map(set + "_roughness.png", {"Y"});
+  tree.map("in/a_specular.png", {"R", "G", "B"});
+  tree.map("in/b_specular.exr", {"R", "G", "B"}, OIIO::TypeHalf);
+  const ProcessResult result =
+      require_success(convert(tree, {tree.path("in"), "--from", "mitsuba/ward", "--to", "mitsuba/as",
+                                     "--format", "png", "--type", "uint8", "-o", tree.path("out")}));
+  CHECK_THAT(result.errors,
+             Contains("color: specular read as srgb in 1 map, specular written as srgb in 2 maps;"));
+}
+
 TEST_CASE("texremap silence: whole numbers are read as sRGB in every format, and floats as linear") {
   const Tree tree;
   const auto [extension, type] = GENERATE(table<std::string, OIIO::TypeDesc>({{"png", OIIO::TypeUInt8},
