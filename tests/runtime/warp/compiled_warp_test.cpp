@@ -15,7 +15,7 @@ TEST_CASE("compiled warp: invalid tables are refused") {
   remap::CompiledWarp warp = remap::random_warp({2, true, true}, 3);
   auto& entries = std::get<remap::CopiedNodes>(warp.table.entries);
   entries.indices[5] = static_cast<std::uint16_t>(entries.palette.size());
-  refused(warp, "an index beyond the palette");
+  refused(warp, "an index is beyond the end of the palette");
   entries.indices[5] = 0;
   entries.palette[1][3] = std::numeric_limits<float>::quiet_NaN();
   refused(warp, "the palette holds an invalid value");
