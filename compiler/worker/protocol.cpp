@@ -132,9 +132,7 @@ Json parse_answer(const std::string& line, std::int64_t id, const std::string& p
 // The complaint of an answer, for a message: its line breaks are spaces, and it is cut.
 std::optional<std::string> complaint_of(const Json& answer, const std::string& place) {
   if (!answer.contains("error")) return std::nullopt;
-  const Field error = Field(answer, place)["error"];
-  error.require(error.json().text() != nullptr, "a text");
-  std::string complaint = *error.json().text();
+  std::string complaint = Field(answer, place)["error"].any_text();
   std::ranges::replace(complaint, '\n', ' ');
   return remap::plain(complaint);
 }

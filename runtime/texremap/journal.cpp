@@ -58,7 +58,8 @@ struct Content {
 
 ConversionNote note_of(const Field& field) {
   ConversionNote note;
-  for (const auto& [name, text] : field.text_dictionary()) {
+  for (const auto& [name, text] :
+       field.dictionary<std::string>([](const Field& entry) { return entry.any_text(); })) {
     if (name == "source")
       note.source = text;
     else if (name == "target")
@@ -79,18 +80,18 @@ void Content::add(const std::string& line) {
       owner = note_of(field["conversion"]);
     if (field.contains("begun"))
       for (const std::string& name :
-           field["begun"].list(0, [](const Field& entry) { return entry.text(); })) {
+           field["begun"].list(0, [](const Field& entry) { return entry.any_text(); })) {
         files[name] = {};
         files[name].conversion = field["conversion"].text();
       }
     if (field.contains("files")) {
       const auto read = [&](const Field& file) {
-        files[file["name"].text()] = {field["conversion"].text(),
-                                      field["inputs"].text(),
-                                      field["target"].text(),
-                                      true,
-                                      static_cast<std::uintmax_t>(file["bytes"].count()),
-                                      file["hash"].text()};
+        files[file["name"].any_text()] = {field["conversion"].text(),
+                                          field["inputs"].text(),
+                                          field["target"].text(),
+                                          true,
+                                          static_cast<std::uintmax_t>(file["bytes"].count()),
+                                          file["hash"].text()};
         return true;
       };
       field["files"].list(0, read);

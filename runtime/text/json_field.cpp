@@ -82,10 +82,13 @@ std::string Field::line() const {
 }
 
 std::string Field::text() const {
-  const std::string* text = value_.text();
-  require(text != nullptr, "a text");
-  require(is_plain_text(*text), kPlainText);
-  return *text;
+  require(is_plain_text(any_text()), kPlainText);
+  return any_text();
+}
+
+const std::string& Field::any_text() const {
+  require(value_.text() != nullptr, "a text");
+  return *value_.text();
 }
 
 double Field::number() const {

@@ -52,6 +52,8 @@ class Field {
   const Json& json() const { return value_; }
   const std::string& place() const { return place_; }
   std::string text() const;
+  // A text of any characters: a name of a file, or what plain() makes fit to be shown.
+  const std::string& any_text() const;
   // The value of the enumeration that the text names; `expected` lists the names.
   template <typename Value, std::size_t Count>
   Value named(const NamedValues<Value, Count>& table, const std::string& expected) const {

@@ -79,6 +79,14 @@ TEST_CASE("texremap nights: every format is resumed, and a result that was cut i
   CHECK(read_file(result) == before);
 }
 
+TEST_CASE("texremap nights: sets whose names hold control characters are resumed") {
+  const Tree tree;
+  tree.map("in/a\tb_rough.png", kGrey);
+  tree.map("in/a\tb_spec.png", kColor);
+  CHECK(states(tree, {}) == "c");
+  CHECK(states(tree, {}) == "d");
+}
+
 TEST_CASE("texremap nights: --resume makes anew what changed, without --force", "[slow]") {
   const Tree tree;
   write_sets(tree, 2, "tga");
