@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT-0 (free of conditions: copy this file into any project).
 //
 // blender-internal-2.7/ward to mitsuba/ward: which parameters of the second give the same picture as those of the first.
-// Table blender_internal_2_7_ward_to_mitsuba_ward.csv, sha256 6fd911dff05a2dcefcaa553c968e783fbf103e8ea6ec773caf629a54e8789084;
+// Table blender_internal_2_7_ward_to_mitsuba_ward.csv, sha256 2cd0c6527d8eb266f34dc8e9abbc2e5468cc1a4f9c2e51abeb1139dc9154baec;
 // Fit: mlp, seed 1, 384 rows trained, 96 held out.
 // Error on the rows held out: alpha rms 2.2e-06, 99 % 5.5e-06, max 5.5e-06;
 // specular rms 7.9e-06, 99 % 3.5e-05, max 3.5e-05.

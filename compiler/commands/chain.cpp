@@ -9,8 +9,8 @@
 #include "lower/lower.hpp"
 #include "manifest/build.hpp"
 #include "manifest/fit_folder.hpp"
+#include "model/fit_file.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 #include "system/files.hpp"
 #include "text/json.hpp"
 
@@ -34,9 +34,9 @@ std::filesystem::path write_fit(const ChainCommand& command, const remap::Fit& f
 void run_chain(const ChainCommand& command) {
   std::vector<remap::Fit> steps;
   for (const std::string& name : command.steps) steps.push_back(find_fit(name, command.fit_folder));
-  const remap::Fit chain = composed_fit(steps, command.id);
-  // A chain exists for its single-pass header, so one that cannot be emitted is an error here.
-  const remap::Lowered lowered = remap::lower(chain);
+  remap::Fit chain = composed_fit(steps, command.id);
+  add_converter(&chain);
+  const remap::Lowered& lowered = chain.converter->lowered;
   const std::filesystem::path path = write_fit(command, chain);
   const std::string& steps_text = chain.method.at("against its steps one after another");
   if (command.json) {
@@ -66,7 +66,8 @@ void run_invert(const ChainCommand& command) {
   FitOptions options;
   options.id = command.id;
   const Table table = inverse_table(fit, bytes);
-  const remap::Fit inverse = fit_table(table, table_text(table), options).fit;
+  remap::Fit inverse = fit_table(table, table_text(table), options).fit;
+  add_converter(&inverse);
   const std::filesystem::path path = write_fit(command, inverse);
   if (command.json) {
     const remap::Json json = {{"fit", path.string()},

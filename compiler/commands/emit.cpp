@@ -21,7 +21,6 @@ struct EmitCommand {
   std::filesystem::path fit_folder = "fits";
   std::filesystem::path output = "generated";
   bool all = false, check = false;
-  double tolerance = 1e-5;
 };
 
 struct GeneratedFile {
@@ -39,19 +38,13 @@ FitFolder chosen_fits(const EmitCommand& options) {
 std::vector<GeneratedFile> generate(const EmitCommand& options) {
   const FitFolder chosen = chosen_fits(options);
   std::vector<GeneratedFile> files;
-  std::vector<remap::ConverterData> converters;
   const auto add_header = [&](const auto& fit, std::string text) {
     files.push_back({options.output / (fit.id + ".hpp"), std::move(text)});
   };
-  for (const remap::Fit& fit : chosen.fits) {
-    const remap::Lowered lowered = remap::lower(fit, {options.tolerance, 10.0 * options.tolerance});
-    add_header(fit, emit_lowered_header(fit, lowered));
-    converters.push_back(remap::converter_data(fit, lowered));
-  }
+  for (const remap::Fit& fit : chosen.fits) add_header(fit, emit_header(fit));
   for (const remap::WorkflowFit& fit : chosen.analytic) add_header(fit, emit_header(fit));
   for (const remap::WarpMapFit& fit : chosen.warps) add_header(fit, emit_header(fit));
-  if (options.all)
-    files.push_back({options.output / kConverterListName, emit_converter_list(std::move(converters))});
+  if (options.all) files.push_back({options.output / kConverterListName, emit_converter_list(chosen.fits)});
   return files;
 }
 
@@ -113,14 +106,7 @@ void add_emit_command(remap::Command& app) {
       "--check", options.check,
       "Write nothing; exit code 1 if a header, or with --all converters.json, is missing or differs "
       "from what the fits give");
-  command->option_group(remap::kRareOptions);
-  command
-      ->add_option("--lower", options.tolerance,
-                   "Largest proven deviation of the header's polynomials from the fit: absolute for target "
-                   "alpha, and ten times it relative to the largest target specular")
-      ->positive();
   command->footer(
-      "--lower does not affect fits of kind analytic or warp.\n\n"
       "Example:\n"
       "  remapc emit fits/mitsuba_ward_to_mitsuba_as.json -o generated\n"
       "  remapc emit --all --check");

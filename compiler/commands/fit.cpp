@@ -5,6 +5,7 @@
 #include <limits>
 #include <unistd.h>
 
+#include "command_line/run_app.hpp"
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "commands/share_progress.hpp"
@@ -13,8 +14,9 @@
 #include "fit/network/material_network.hpp"
 #include "fit/parametric/parametric_form.hpp"
 #include "fit/rows/split.hpp"
+#include "lower/lower.hpp"
+#include "model/fit_file.hpp"
 #include "model/limits.hpp"
-#include "remap/fit_file.hpp"
 #include "report/fit_plot.hpp"
 #include "system/files.hpp"
 #include "table/domain.hpp"
@@ -43,6 +45,7 @@ struct FitCommand {
   std::optional<Regressor> model;
   std::filesystem::path folder = "fits";
   std::filesystem::path plot;
+  double tolerance = 1e-5;  // of lowering
   bool swap = false;
   bool json = false;
 };
@@ -174,15 +177,29 @@ void run_on(const MaterialTable& table, const std::string& bytes, const FitComma
   report(command, path, fit);
 }
 
+// A fit that cannot be lowered is kept for remapc: only texremap and headers need its converter.
+void lower_if_possible(const FitCommand& command, remap::Fit* fit) {
+  try {
+    add_converter(fit, {command.tolerance, 10.0 * command.tolerance});
+  } catch (const remap::Error& error) {
+    if (error.kind() != remap::ErrorKind::kNumeric) throw;
+    remap::print_message(
+        "remapc", "warning: " + fit->id +
+                      ": neither texremap nor emit can use this fit: it cannot be lowered (" + error.what() +
+                      ")");
+  }
+}
+
 void run_on(const Table& given, const std::string& bytes, const FitCommand& command, const remap::Command&) {
   const Table table = command.swap ? swapped(given) : given;
   require_layers(command.options.regression.mlp.hidden, 2, 1);
   require_output_folder(command.folder);
   if (!command.plot.empty()) require_plot(command.plot);
-  const FittedTable fitted = [&] {
+  FittedTable fitted = [&] {
     ShareProgress progress("fit", table.source.model + " -> " + table.target.model);
     return fit_table(table, bytes, fit_options(command), std::ref(progress));
   }();
+  lower_if_possible(command, &fitted.fit);
   const std::filesystem::path path = command.folder / (fitted.fit.id + ".json");
   remap::write_file(path, fit_to_json(fitted.fit));
   if (!command.plot.empty())
@@ -225,6 +242,10 @@ void add_regression_options(remap::Command& app, FitCommand& command) {
       ->range(1, kMostStarts);
   app.add_option("--held-out", command.options.held_out_fraction,
                  "Fraction of the rows held out to measure errors");
+  app.add_option("--lower TOLERANCE", command.tolerance,
+                 "Largest proven deviation of the fit's converter, the polynomials that texremap and headers "
+                 "run: absolute for target alpha, and ten times it relative to the largest target specular")
+      ->positive();
   app.add_option("--seed", regression.seed, "Seed of the split, the folds and all other random choices")
       ->range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
   app.add_option("--jobs", regression.jobs, "Threads, 0: one per core; the fit does not depend on it");

@@ -8,12 +8,11 @@
 #include "commands/candidate_table.hpp"
 #include "commands/commands.hpp"
 #include "fit/rows/split.hpp"
-#include "lower/lower.hpp"
 #include "manifest/fit_folder.hpp"
+#include "model/fit_file.hpp"
 #include "model/interpreter.hpp"
 #include "model/inverse.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 #include "table/domain.hpp"
 #include "table/light.hpp"
 #include "text/number_text.hpp"
@@ -182,16 +181,14 @@ std::string rows_text(const remap::Fit& fit) {
 }
 
 void print_lowering(const remap::Fit& fit) {
-  try {
-    const remap::Lowered lowered = remap::lower(fit);
-    std::cout << "Deviation of its header from the fit: alpha within " << error_text(lowered.alpha_bound())
-              << ", " << fit.target.specular << " within " << error_text(lowered.specular_bound())
-              << (lowered.wide || lowered.bright ? " (proven; at joints of regimes sampled)\n"
-                                                 : " (proven)\n");
-  } catch (const remap::Error& error) {
-    if (error.kind() != remap::ErrorKind::kNumeric) throw;
-    std::cout << "No header with the default tolerances: " << error.what() << "\n";
+  if (!fit.converter) {
+    std::cout << "No header: the fit could not be lowered (remapc fit --lower)\n";
+    return;
   }
+  const remap::Lowered& lowered = fit.converter->lowered;
+  std::cout << "Deviation of its header from the fit: alpha within " << error_text(lowered.alpha_bound())
+            << ", " << fit.target.specular << " within " << error_text(lowered.specular_bound())
+            << (lowered.wide || lowered.bright ? " (proven; at joints of regimes sampled)\n" : " (proven)\n");
 }
 
 // Prints the round trip through the inverse converter in `folder`, if there is one.

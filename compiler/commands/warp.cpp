@@ -7,7 +7,7 @@
 
 #include "command_line/run_app.hpp"
 #include "commands/commands.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 #include "remap/version.hpp"
 #include "report/warp_report.hpp"
 #include "system/files.hpp"

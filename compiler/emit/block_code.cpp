@@ -96,8 +96,12 @@ struct RuleParts {
   std::string functions, loops;
 };
 
-RuleParts parts_of(const ConverterHeader& header, const MappingCode& code) {
-  const std::string by_specular = header.alpha_by_specular ? "true" : "false";
+bool alpha_depends_on_specular(const remap::Lowered& lowered) {
+  return lowered.alpha.polynomial.degrees.size() > 1 || lowered.bright.has_value();
+}
+
+RuleParts parts_of(const remap::ConverterData& converter, const MappingCode& code) {
+  const std::string by_specular = alpha_depends_on_specular(converter.lowered) ? "true" : "false";
   switch (code.form) {
     case CodeForm::kProportional:
       return {fill_template(kProportionalFunctions,
@@ -110,23 +114,24 @@ RuleParts parts_of(const ConverterHeader& header, const MappingCode& code) {
     case CodeForm::kRegimes:
       break;
   }
-  return {
-      fill_template(kTermsFunctions, {{"alpha_by_specular", by_specular}}) + regime_functions(header.mapping),
-      code_files({"scale", "texels", "regimes"})};
+  return {fill_template(kTermsFunctions, {{"alpha_by_specular", by_specular}}) +
+              regime_functions(converter.lowered),
+          code_files({"scale", "texels", "regimes"})};
 }
 
 }  // namespace
 
-std::string block_code(const ConverterHeader& header, const std::string& specular_name,
+std::string block_code(const remap::ConverterData& converter, const std::string& specular_name,
                        const MappingCode& code) {
-  const RuleParts parts = parts_of(header, code);
+  const RuleParts parts = parts_of(converter, code);
   return code_files({"lanes", "domain"}) + (code.form == CodeForm::kRegimes ? code_files({"limits"}) : "") +
-         fill_template(kMapping, {{"in_roughness", std::string(convention_name(header.source))},
-                                  {"in_specular", specular_name},
-                                  {"inverse_edge", literal(1.0 / header.specular.max)},
-                                  {"to_alpha", convention_text(header.source).to_alpha},
-                                  {"from_alpha", convention_text(header.target).from_alpha},
-                                  {"functions", parts.functions}}) +
+         fill_template(kMapping,
+                       {{"in_roughness", std::string(convention_name(converter.info.source.roughness))},
+                        {"in_specular", specular_name},
+                        {"inverse_edge", literal(1.0 / converter.info.specular.max)},
+                        {"to_alpha", convention_text(converter.info.source.roughness).to_alpha},
+                        {"from_alpha", convention_text(converter.info.target.roughness).from_alpha},
+                        {"functions", parts.functions}}) +
          code_files({"count_outside"}) + parts.loops;
 }
 

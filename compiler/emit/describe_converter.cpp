@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <array>
 
-#include "converter_data/converter_data.hpp"
 #include "emit/convention_text.hpp"
+#include "emit/emit.hpp"
 #include "emit/header_data.hpp"
-#include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
 
@@ -73,31 +72,19 @@ HeaderEnd end_of(const remap::ModelSide& side) {
 
 }  // namespace
 
-HeaderData describe(const Fit& fit, const remap::Lowered& lowered) {
+HeaderData describe(const Fit& fit) {
+  const remap::ConverterData& converter = require_converter(fit);
   HeaderData data;
   data.id = fit.id;
   data.title = fit.source.model + " to " + fit.target.model +
                ": which parameters of the second give the same picture as those of the first.";
-  data.provenance = provenance(fit, mapping_text(lowered));
+  data.provenance = provenance(fit, mapping_text(converter.lowered));
   data.source = end_of(fit.source);
   data.target = end_of(fit.target);
-  for (const remap::GoldenTexel& g : golden_texels(fit, lowered.alpha_bound(), lowered.specular_bound()))
+  for (const remap::GoldenTexel& g : converter.golden)
     data.golden.push_back(
         {{g.width, g.specular}, {g.width_out, g.specular_out}, {g.width_within, g.specular_within}});
-  ConverterHeader header;
-  header.mapping = lowered;
-  header.source = fit.source.roughness;
-  header.target = fit.target.roughness;
-  header.width = own_roughness_range(fit);
-  header.specular = specular_range(fit);
-  header.alpha_by_specular = alpha_depends_on_specular(fit.mapping) || fit.regimes.bright.has_value();
-  if (fit.has_errors()) {
-    header.alpha_rms_error = remap::rounded_up(fit.alpha_error.rms, 2);
-    header.specular_rms_error = remap::rounded_up(fit.specular_error.rms, 2);
-  }
-  if (fit.image_similarity)
-    header.image_rms_error = remap::rounded_up(fit.image_similarity->image_error.rms, 2);
-  data.code = std::move(header);
+  data.code = converter;
   return data;
 }
 

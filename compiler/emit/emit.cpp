@@ -1,27 +1,30 @@
-// The three steps from a fit to its header: lower() (lower/lower.hpp) gives polynomials with proven bounds,
-// describe() the data of the header (header_data.hpp), fill() its text.
+// The two steps from a fit to its header: describe() gives the data of the header (header_data.hpp), fill()
+// its text.
 #include "emit/emit.hpp"
 
 #include <algorithm>
 
 #include "emit/header_data.hpp"
+#include "remap/error.hpp"
 
 namespace remapc {
 
-std::string emit_header(const remap::Fit& fit, const remap::LoweringOptions& options) {
-  return emit_lowered_header(fit, remap::lower(fit, options));
+const remap::ConverterData& require_converter(const remap::Fit& fit) {
+  if (fit.converter) return *fit.converter;
+  throw remap::Error(remap::ErrorKind::kNumeric,
+                     fit.id + ": has no converter, because it could not be lowered (remapc fit --lower)");
 }
 
-std::string emit_lowered_header(const remap::Fit& fit, const remap::Lowered& lowered) {
-  return fill(describe(fit, lowered));
-}
+std::string emit_header(const remap::Fit& fit) { return fill(describe(fit)); }
 
 std::string emit_header(const remap::WorkflowFit& fit) { return fill(describe(fit)); }
 
 std::string emit_header(const remap::WarpMapFit& fit) { return fill(describe(fit)); }
 
-std::string emit_converter_list(std::vector<remap::ConverterData> converters) {
-  std::sort(converters.begin(), converters.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+std::string emit_converter_list(const std::vector<remap::Fit>& fits) {
+  std::vector<remap::ConverterData> converters;
+  for (const remap::Fit& fit : fits) converters.push_back(require_converter(fit));
+  std::ranges::sort(converters, {}, [](const remap::ConverterData& data) { return data.info.id; });
   return remap::converters_to_json(converters);
 }
 

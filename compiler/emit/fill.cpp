@@ -60,12 +60,12 @@ std::string golden_rows(const std::vector<GoldenValues>& golden, std::vector<flo
   return text;
 }
 
-bool takes_roots(const ConverterHeader& header) {
+bool takes_roots(const remap::ConverterData& converter) {
   const auto has_root = [](std::string_view expression) {
     return expression.find("std::sqrt") != std::string_view::npos;
   };
-  return has_root(convention_text(header.source).to_alpha) ||
-         has_root(convention_text(header.target).from_alpha);
+  return has_root(convention_text(converter.info.source.roughness).to_alpha) ||
+         has_root(convention_text(converter.info.target.roughness).from_alpha);
 }
 
 // What a header has of its own within the frame.
@@ -74,34 +74,36 @@ struct Body {
   std::string text;
 };
 
-Body body_of(const HeaderData& data, const ConverterHeader& header) {
+Body body_of(const HeaderData& data, const remap::ConverterData& converter) {
   const Parameters &in = data.source.parameters, &out = data.target.parameters;
-  const MappingCode code = mapping_code(header.mapping);
+  const remap::ConverterInfo& info = converter.info;
+  const MappingCode code = mapping_code(converter.lowered);
   const auto golden = [](const GoldenValues& texel) {
     return "{" + numbers(texel.in) + ", " + numbers(texel.out) + ", " + numbers(texel.within) + "},\n";
   };
   Body body;
   body.includes = {"array", "cstddef", "cstdint", "cstring", "type_traits", "utility"};
-  if (takes_roots(header)) body.includes.insert(body.includes.begin(), "cmath");
-  body.text = fill_template(code_file("converter"), {{"source", data.source.model},
-                                                     {"target", data.target.model},
-                                                     {"in_roughness", in[0].name},
-                                                     {"in_specular", in[1].name},
-                                                     {"out_roughness", out[0].name},
-                                                     {"out_specular", out[1].name},
-                                                     {"input_members", members(in)},
-                                                     {"output_members", members(out)},
-                                                     {"alpha_rms", literal(header.alpha_rms_error)},
-                                                     {"specular_rms", literal(header.specular_rms_error)},
-                                                     {"image_rms", literal(header.image_rms_error)},
-                                                     {"roughness_min", literal(header.width.min)},
-                                                     {"roughness_max", literal(header.width.max)},
-                                                     {"specular_min", literal(header.specular.min)},
-                                                     {"specular_max", literal(header.specular.max)},
-                                                     {"mapping", code.functions},
-                                                     {"block", block_code(header, in[1].name, code)},
-                                                     {"golden_count", std::to_string(data.golden.size())},
-                                                     {"golden", joined(data.golden, "", golden)}});
+  if (takes_roots(converter)) body.includes.insert(body.includes.begin(), "cmath");
+  body.text = fill_template(code_file("converter"),
+                            {{"source", data.source.model},
+                             {"target", data.target.model},
+                             {"in_roughness", in[0].name},
+                             {"in_specular", in[1].name},
+                             {"out_roughness", out[0].name},
+                             {"out_specular", out[1].name},
+                             {"input_members", members(in)},
+                             {"output_members", members(out)},
+                             {"alpha_rms", literal(info.roughness_rms_error.value_or(-1.0))},
+                             {"specular_rms", literal(info.specular_rms_error.value_or(-1.0))},
+                             {"image_rms", literal(info.image_rms_error.value_or(-1.0))},
+                             {"roughness_min", literal(info.roughness.min)},
+                             {"roughness_max", literal(info.roughness.max)},
+                             {"specular_min", literal(info.specular.min)},
+                             {"specular_max", literal(info.specular.max)},
+                             {"mapping", code.functions},
+                             {"block", block_code(converter, in[1].name, code)},
+                             {"golden_count", std::to_string(data.golden.size())},
+                             {"golden", joined(data.golden, "", golden)}});
   return body;
 }
 

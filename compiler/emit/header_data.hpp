@@ -6,22 +6,11 @@
 #include <variant>
 #include <vector>
 
-#include "lower/lowered.hpp"
-#include "remap/any_fit.hpp"
+#include "converter/converter_data.hpp"
+#include "model/any_fit.hpp"
 #include "warp/packed_warp.hpp"
 
 namespace remapc {
-
-// A converter of width and specular.
-struct ConverterHeader {
-  remap::Lowered mapping;
-  remap::RoughnessConvention source = remap::RoughnessConvention::kAlpha;
-  remap::RoughnessConvention target = remap::RoughnessConvention::kAlpha;
-  remap::Range width, specular;    // covered, in the source's own parameters
-  bool alpha_by_specular = false;  // whether target alpha depends on specular
-  // Two digits, rounded up; -1 where they are not known.
-  double alpha_rms_error = -1.0, specular_rms_error = -1.0, image_rms_error = -1.0;
-};
 
 struct WarpHeader {
   remap::PackedWarp warp;
@@ -50,12 +39,12 @@ struct HeaderData {
   std::string provenance;  // sentences on several lines
   HeaderEnd source, target;
   std::vector<GoldenValues> golden;
-  std::variant<ConverterHeader, remap::WorkflowConversion, WarpHeader> code;  // a network is folded()
+  std::variant<remap::ConverterData, remap::WorkflowConversion, WarpHeader> code;  // a network is folded()
 };
 
-// The header of a fit that was lowered. Throws kInput where a specular parameter has a name that the
-// header uses itself.
-HeaderData describe(const remap::Fit& fit, const remap::Lowered& lowered);
+// Throws kNumeric for a fit without a converter, kInput where a specular parameter has a name that the header
+// uses itself.
+HeaderData describe(const remap::Fit& fit);
 // Throw kInput for what require_valid() refuses.
 HeaderData describe(const remap::WorkflowFit& fit);
 HeaderData describe(const remap::WarpMapFit& fit);

@@ -1,9 +1,9 @@
 // Polynomials on few pieces as C++.
 #include <algorithm>
 
+#include "converter/emitted_order.hpp"
 #include "emit/mapping_code.hpp"
 #include "emit/text_template.hpp"
-#include "lower/emitted_order.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -70,7 +70,7 @@ std::string variable(const PiecewisePolynomial& polynomial, const std::string& t
          "[cell];\n" + square;
 }
 
-// A polynomial of u in the order of in_emitted_order() (lower/emitted_order.hpp).
+// A polynomial of u in the order of in_emitted_order() (converter/emitted_order.hpp).
 std::string factor_code(const std::vector<std::string>& coefficients, const std::string& name) {
   if (coefficients.empty()) return "const float " + name + " = 0.0f;\n";
   if (coefficients.size() == 1) return "const float " + name + " = " + coefficients[0] + ";\n";

@@ -17,7 +17,7 @@ enum class CodeForm {
   // them, from which `void specular_terms(Count, Terms&)` computes the others, for any type of count; `float
   // target_specular(const Terms&, std::size_t i, float specular)`.
   kTerms,
-  // The same, with limits and regimes (lower/lowered.hpp): `float wide_specular(float alpha, float
+  // The same, with limits and regimes (converter/lowered.hpp): `float wide_specular(float alpha, float
   // specular)`, `float
   // bright_alpha(float alpha, float specular)`, if there are any.
   kRegimes,
@@ -33,7 +33,7 @@ MappingCode mapping_code(const remap::Lowered& lowered);
 
 // Functions of namespace detail: held_width(), channel_outside(), and convert_block(), which converts up to
 // kBlock texels by the functions of `code`; also its parameter types Mapping and Block.
-std::string block_code(const ConverterHeader& header, const std::string& specular_name,
+std::string block_code(const remap::ConverterData& converter, const std::string& specular_name,
                        const MappingCode& code);
 
 // What whole materials contribute.

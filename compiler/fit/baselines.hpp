@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "model/fit.hpp"
 #include "model/interpreter.hpp"
-#include "remap/fit.hpp"
 
 namespace remapc {
 

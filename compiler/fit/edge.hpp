@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 #include "table/table.hpp"
 
 namespace remapc {

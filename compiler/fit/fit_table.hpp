@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fit/regressors.hpp"
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 #include "table/table.hpp"
 
 namespace remapc {

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 #include "table/table.hpp"
 
 namespace remapc {

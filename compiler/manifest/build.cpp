@@ -17,8 +17,8 @@
 #include "manifest/lock.hpp"
 #include "manifest/report.hpp"
 #include "model/chain.hpp"
+#include "model/fit_file.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 #include "sweep/material_sample.hpp"
 #include "system/files.hpp"
 #include "system/parallel.hpp"
@@ -32,9 +32,12 @@ namespace fs = std::filesystem;
 using remap::Error;
 using remap::ErrorKind;
 
-// Whether the file of converters is as the last build left it, and so are the fits that it is made from.
-bool has_converters(const BuildFolders& folders, const Lock& lock) {
-  return !lock.converters.empty() && lock.converters == converters_hash(folders, lock);
+bool holds(const fs::path& path, const std::string& text) {
+  return fs::exists(path) && remap::read_file(path) == text;
+}
+
+void write_changed(const fs::path& path, const std::string& text) {
+  if (!holds(path, text)) remap::write_file(path, text);
 }
 
 class Builder {
@@ -49,7 +52,6 @@ class Builder {
         lock_(execution.force ? Lock{} : last_lock_) {}
 
   BuildResult run() {
-    load_converters();
     forget_vanished();
     std::vector<const ManifestItem*> waiting;
     for (const ManifestItem& item : manifest_.items) waiting.push_back(&item);
@@ -135,7 +137,6 @@ class Builder {
     const std::lock_guard lock(mutex_);
     lock_.items[item.id] = record;
     if (!fresh.header) {
-      lock_.converters.clear();  // an interrupted build leaves a file without this item
       save_lock(folders_.fits, lock_);
       built_.push_back({item.id, !fresh.table && has_table(item), !fresh.fit, true,
                         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
@@ -184,31 +185,18 @@ class Builder {
       record->table = sha256(text);
     }
     if (!fresh.fit) {
-      const std::string text =
-          std::visit([](const auto& fit) { return fit_to_json(fit); }, fit_of(item, paths));
+      remap::AnyFit made = fit_of(item, paths);
+      if (auto* fit = std::get_if<remap::Fit>(&made)) add_converter(fit);
+      const std::string text = std::visit([](const auto& fit) { return fit_to_json(fit); }, made);
       remap::write_file(paths.fit, text);
       record->fit = sha256(text);
     }
     if (fresh.header) return;
     const std::string text =
-        std::visit([&](const auto& fit) { return header_of(fit, record); }, remap::load_any_fit(paths.fit));
+        std::visit([](const auto& fit) { return emit_header(fit); }, remap::load_any_fit(paths.fit));
     remap::write_file(paths.header, text);
     record->header = sha256(text);
   }
-
-  std::string header_of(const remap::Fit& fit, LockedItem* record) {
-    const remap::Lowered lowered = remap::lower(fit);
-    record->alpha_bound = lowered.alpha_bound();
-    record->specular_bound = lowered.specular_bound();
-    remap::ConverterData data = remap::converter_data(fit, lowered);
-    {
-      const std::lock_guard lock(mutex_);
-      converters_[fit.id] = std::move(data);
-    }
-    return emit_lowered_header(fit, lowered);
-  }
-  static std::string header_of(const remap::WorkflowFit& fit, LockedItem*) { return emit_header(fit); }
-  static std::string header_of(const remap::WarpMapFit& fit, LockedItem*) { return emit_header(fit); }
 
   Table table_of(const ManifestItem& item) const {
     if (const auto* inverse = std::get_if<InverseItem>(&item.kind)) {
@@ -298,39 +286,18 @@ class Builder {
     return composed_fit(steps, id);
   }
 
-  // Converters of the last build, so that only fits that are made anew have to be lowered.
-  void load_converters() {
-    if (!has_converters(folders_, lock_)) return;
-    const fs::path path = folders_.generated / kConverterListName;
-    for (remap::ConverterData& data : remap::converters_from_json(remap::read_file(path), path.string()))
-      converters_[data.id] = std::move(data);
-  }
-
   void write_converters(const FitFolder& folder) {
     // Warps are made from textures and strokes, so no item of a manifest is one.
     for (const remap::WarpMapFit& fit : folder.warps)
       write_changed(paths_of(folders_, fit.id).header, emit_header(fit));
-    if (built_.empty() && has_converters(folders_, lock_)) return;
-    std::vector<remap::ConverterData> converters(folder.fits.size());
-    remap::run_parallel(folder.fits.size(), execution_.jobs, [&](std::size_t i) {
-      const remap::Fit& fit = folder.fits[i];
-      const auto known = converters_.find(fit.id);
-      converters[i] =
-          known != converters_.end() ? known->second : remap::converter_data(fit, remap::lower(fit));
-    });
-    write_changed(folders_.generated / kConverterListName, emit_converter_list(std::move(converters)));
-    lock_.converters = converters_hash(folders_, lock_);
+    write_changed(folders_.generated / kConverterListName, emit_converter_list(folder.fits));
   }
 
   // The report takes a second to compute, so it is written only if it changed.
   void write_report(const FitFolder& folder) {
     if (has_report(folders_, lock_)) return;
-    for (const ReportFile& file : report(folder, lock_)) write_changed(folders_.fits / file.name, file.text);
-    lock_.report = report_hash(folders_, lock_);
-  }
-
-  static void write_changed(const fs::path& path, const std::string& text) {
-    if (!fs::exists(path) || remap::read_file(path) != text) remap::write_file(path, text);
+    for (const ReportFile& file : report(folder)) write_changed(folders_.fits / file.name, file.text);
+    lock_.report = report_hash(folders_);
   }
 
   const Renderer& renderer_;
@@ -341,7 +308,6 @@ class Builder {
   Lock lock_;
   std::mutex mutex_;
   std::size_t done_ = 0;
-  std::map<std::string, remap::ConverterData> converters_;  // those known to be current, by id
   std::vector<BuiltItem> built_;
   std::map<std::string, std::string> failures_;  // by id
   std::optional<ErrorKind> first_kind_;          // of a failure
@@ -379,12 +345,11 @@ std::vector<std::string> stale(const Manifest& manifest, const BuildFolders& fol
   if (!has_report(folders, lock))
     reasons.push_back((folders.fits / kReportName).string() + ": out of date with the fits of the folder");
   const FitFolder folder = load_fit_folder(folders.fits);
-  if (!has_converters(folders, lock))
-    reasons.push_back((folders.generated / kConverterListName).string() +
-                      ": was removed or changed after the last build, or its fits were");
+  if (!holds(folders.generated / kConverterListName, emit_converter_list(folder.fits)))
+    reasons.push_back((folders.generated / kConverterListName).string() + ": is out of date with the fits");
   for (const remap::WarpMapFit& fit : folder.warps) {
     const fs::path header = paths_of(folders, fit.id).header;
-    if (!fs::exists(header) || remap::read_file(header) != emit_header(fit))
+    if (!holds(header, emit_header(fit)))
       reasons.push_back(fit.id + ": " + header.string() + " is out of date with its fit");
   }
   for (const remap::Fit& fit : folder.fits) {

@@ -9,7 +9,7 @@
 
 #include "manifest/freshness.hpp"
 #include "manifest/manifest.hpp"
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remapc {

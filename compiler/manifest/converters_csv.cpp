@@ -84,7 +84,7 @@ std::string origin(const Fit& fit) {
   return text;
 }
 
-Row row_of(const Fit& fit, const Pairs& pairs, const Lock& lock) {
+Row row_of(const Fit& fit, const Pairs& pairs) {
   Row row = {{"converter", fit.id},
              {"kind", kind_name(fit.mapping)},
              {"source", fit.source.model},
@@ -100,9 +100,9 @@ Row row_of(const Fit& fit, const Pairs& pairs, const Lock& lock) {
     row["alpha_error"] = figure(fit.alpha_error.rms);
     row["specular_error"] = figure(fit.specular_error.rms);
   }
-  if (const auto locked = lock.items.find(fit.id); locked != lock.items.end()) {
-    row["alpha_bound"] = figure(locked->second.alpha_bound);
-    row["specular_bound"] = figure(locked->second.specular_bound);
+  if (fit.converter) {
+    row["alpha_bound"] = figure(fit.converter->lowered.alpha_bound());
+    row["specular_bound"] = figure(fit.converter->lowered.specular_bound());
   }
   return row;
 }
@@ -131,14 +131,14 @@ Row row_of(const remap::WarpMapFit& fit) {
 
 }  // namespace
 
-std::string converters_csv(const FitFolder& folder, const Lock& lock) {
+std::string converters_csv(const FitFolder& folder) {
   Row head;
   for (const std::string& column : kColumns) head[column] = column;
   Pairs pairs;
   for (const Fit& fit : folder.fits)
     if (is_measured(fit)) pairs[{fit.source.model, fit.target.model}] = &fit;
   std::string text = line(head);
-  for (const Fit* fit : by_trust(folder.fits)) text += line(row_of(*fit, pairs, lock));
+  for (const Fit* fit : by_trust(folder.fits)) text += line(row_of(*fit, pairs));
   for (const remap::WorkflowFit& fit : folder.analytic) text += line(row_of(fit));
   for (const remap::WarpMapFit& fit : folder.warps) text += line(row_of(fit));
   return text;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "manifest/manifest.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 #include "text/errors.hpp"
 #include "text/nearest_name.hpp"
 

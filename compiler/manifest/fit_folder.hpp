@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "remap/any_fit.hpp"
+#include "model/any_fit.hpp"
 
 namespace remapc {
 

@@ -2,12 +2,11 @@
 
 #include <set>
 
-#include "emit/emit.hpp"
+#include "converter/converter_fields.hpp"
 #include "manifest/report.hpp"
 #include "remap/version.hpp"
 #include "system/files.hpp"
 #include "table/table.hpp"
-#include "text/number_text.hpp"
 
 namespace remapc {
 
@@ -56,27 +55,19 @@ Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const
   return {true, true, true, ""};
 }
 
-std::string report_hash(const BuildFolders& folders, const Lock& lock) {
+std::string report_hash(const BuildFolders& folders) {
   std::set<fs::path> paths;
   for (const auto& entry : fs::directory_iterator(folders.fits))
     if (entry.path().extension() == ".json" && entry.path().filename() != kManifestName)
       paths.insert(entry.path());
   std::string text = remap::kVersion;
   for (const fs::path& path : paths) text += "\n" + path.filename().string() + " " + file_sha256(path);
-  for (const auto& [id, item] : lock.items)
-    text += "\n" + id + " " + remap::number_text(item.alpha_bound) + " " +
-            remap::number_text(item.specular_bound);
   return sha256(text);
 }
 
 bool has_report(const BuildFolders& folders, const Lock& lock) {
-  return lock.report == report_hash(folders, lock) && fs::exists(folders.fits / kReportName) &&
+  return lock.report == report_hash(folders) && fs::exists(folders.fits / kReportName) &&
          fs::exists(folders.fits / kFiguresName);
-}
-
-std::string converters_hash(const BuildFolders& folders, const Lock& lock) {
-  const std::string file = file_sha256(folders.generated / kConverterListName);
-  return file.empty() ? file : sha256(report_hash(folders, lock) + "\n" + file);
 }
 
 std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders,

@@ -37,14 +37,11 @@ struct Freshness {
 };
 Freshness freshness(const ManifestItem& item, const BuildFolders& folders, const Lock& lock);
 
-// Hashes what the report of a folder is made from: its fits, and the bounds in the lock.
-std::string report_hash(const BuildFolders& folders, const Lock& lock);
+// Hashes what the report of a folder is made from: its fits.
+std::string report_hash(const BuildFolders& folders);
 
 // Whether the files of the report exist and belong to the fits of the folder.
 bool has_report(const BuildFolders& folders, const Lock& lock);
-
-// Hashes what the file of converters is made from, and the file itself; empty for a missing one.
-std::string converters_hash(const BuildFolders& folders, const Lock& lock);
 
 // Returns the items of `lock` that are no longer in the manifest and whose fits still exist, by id.
 std::vector<std::string> vanished_items(const Manifest& manifest, const BuildFolders& folders,

@@ -10,8 +10,7 @@ namespace {
 constexpr int kLockVersion = 1;
 
 LockedItem read_item(const remap::Field& field) {
-  return {field["recipe"].text(), field["table"].text(),         field["fit"].text(),
-          field["header"].text(), field["alpha_bound"].number(), field["specular_bound"].number()};
+  return {field["recipe"].text(), field["table"].text(), field["fit"].text(), field["header"].text()};
 }
 
 }  // namespace
@@ -26,7 +25,6 @@ Lock load_lock(const std::filesystem::path& fit_folder) {
     Lock lock;
     lock.items = root["items"].dictionary<LockedItem>(read_item);
     if (root.contains("report")) lock.report = root["report"].text();
-    if (root.contains("converters")) lock.converters = root["converters"].text();
     return lock;
   } catch (const remap::Error& error) {
     if (error.kind() != remap::ErrorKind::kInput) throw;
@@ -37,17 +35,9 @@ Lock load_lock(const std::filesystem::path& fit_folder) {
 void save_lock(const std::filesystem::path& fit_folder, const Lock& lock) {
   remap::Json items = remap::Json::object();
   for (const auto& [id, item] : lock.items)
-    items[id] = {{"recipe", item.recipe},
-                 {"table", item.table},
-                 {"fit", item.fit},
-                 {"header", item.header},
-                 {"alpha_bound", item.alpha_bound},
-                 {"specular_bound", item.specular_bound}};
-  const remap::Json json = {{"format", "remap-lock"},
-                            {"version", kLockVersion},
-                            {"report", lock.report},
-                            {"converters", lock.converters},
-                            {"items", items}};
+    items[id] = {{"recipe", item.recipe}, {"table", item.table}, {"fit", item.fit}, {"header", item.header}};
+  const remap::Json json = {
+      {"format", "remap-lock"}, {"version", kLockVersion}, {"report", lock.report}, {"items", items}};
   remap::write_file(fit_folder / kLockName, json.dump(1) + "\n");
 }
 

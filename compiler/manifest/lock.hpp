@@ -9,22 +9,18 @@ namespace remapc {
 
 inline constexpr const char* kLockName = "manifest.lock";
 
-// The SHA-256 of an item's inputs and results; empty if there are none. The bounds of lowering
-// (lower/lowered.hpp) are kept for the report.
+// The SHA-256 of an item's inputs and results; empty if there are none.
 struct LockedItem {
   std::string recipe;  // of its recipe, the tool's version and the fits that it is made from
   std::string table;
   std::string fit;
   std::string header;
-  double alpha_bound = 0.0;
-  double specular_bound = 0.0;
   bool operator==(const LockedItem&) const = default;
 };
 
 struct Lock {
   std::map<std::string, LockedItem> items;  // by id
   std::string report;                       // of the inputs of the report: every fit of the folder
-  std::string converters;                   // of the same inputs and of the file of converters
   bool operator==(const Lock&) const = default;
 };
 

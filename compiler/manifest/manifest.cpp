@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "fit_file/fit_fields.hpp"
+#include "model/fit_fields.hpp"
 #include "remap/version.hpp"
 #include "system/files.hpp"
 #include "text/errors.hpp"

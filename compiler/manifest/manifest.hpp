@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "remap/any_fit.hpp"
+#include "model/any_fit.hpp"
 
 namespace remapc {
 

@@ -129,12 +129,11 @@ std::string mark_text(const FitFolder& folder) {
 }
 
 // The errors that the table of pairs leaves out.
-std::string small_errors_text(const std::vector<Fit>& fits, const Lock& lock) {
+std::string small_errors_text(const std::vector<Fit>& fits) {
   double fit_error = 0.0, bound = 0.0;
   for (const Fit& fit : fits) {
     fit_error = std::max(fit_error, fit.alpha_error.rms);
-    if (const auto locked = lock.items.find(fit.id); locked != lock.items.end())
-      bound = std::max(bound, locked->second.alpha_bound);
+    if (fit.converter) bound = std::max(bound, fit.converter->lowered.alpha_bound());
   }
   if (fit_error == 0.0) return "";
   return "The other errors are small: converters follow the measured target alpha to " +
@@ -164,12 +163,12 @@ std::string warp_lines(const std::vector<remap::WarpMapFit>& fits) {
   return text;
 }
 
-std::string page(const FitFolder& folder, const Lock& lock) {
+std::string page(const FitFolder& folder) {
   std::string text =
       std::string("# Converters: which to trust\n\nBest first. All figures of every converter: [") +
       kFiguresName + "](" + kFiguresName +
       "); the card of one: `remapc show ID`.\n`remapc build` writes this page.\n";
-  text += mark_text(folder) + kFigures + small_errors_text(folder.fits, lock);
+  text += mark_text(folder) + kFigures + small_errors_text(folder.fits);
   text += pair_lines(folder.fits) + uncompared_lines(folder.fits);
   if (!folder.analytic.empty()) text += kWorkflowIntroduction + workflow_lines(folder.analytic);
   if (!folder.warps.empty()) text += kWarpIntroduction + warp_lines(folder.warps);
@@ -178,8 +177,8 @@ std::string page(const FitFolder& folder, const Lock& lock) {
 
 }  // namespace
 
-std::vector<ReportFile> report(const FitFolder& folder, const Lock& lock) {
-  return {{kReportName, page(folder, lock)}, {kFiguresName, converters_csv(folder, lock)}};
+std::vector<ReportFile> report(const FitFolder& folder) {
+  return {{kReportName, page(folder)}, {kFiguresName, converters_csv(folder)}};
 }
 
 }  // namespace remapc

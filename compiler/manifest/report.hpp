@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "manifest/fit_folder.hpp"
-#include "manifest/lock.hpp"
 
 namespace remapc {
 
@@ -17,14 +16,14 @@ struct ReportFile {
   std::string text;
 };
 
-// Returns the page in Markdown and the table of all figures. `lock` holds the bounds of lowering.
+// Returns the page in Markdown and the table of all figures.
 // The same fits give the same bytes on every machine.
-std::vector<ReportFile> report(const FitFolder& folder, const Lock& lock);
+std::vector<ReportFile> report(const FitFolder& folder);
 
 // Returns all figures for spreadsheets and scripts, as CSV (RFC 4180): a header row, then one row for each
 // converter. Converters of width and specular come first, by rising image error, then those between
 // workflows, then warps. Errors are shares, lengths of the domain are alpha and specular; unknown figures are
-// empty. `lock` holds the bounds of lowering.
-std::string converters_csv(const FitFolder& folder, const Lock& lock);
+// empty.
+std::string converters_csv(const FitFolder& folder);
 
 }  // namespace remapc

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 
 namespace remapc {
 

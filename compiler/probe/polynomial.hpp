@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 
 namespace remapc {
 

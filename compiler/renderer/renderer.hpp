@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "model/fit.hpp"
 #include "remap/convention.hpp"
-#include "remap/fit.hpp"
 #include "renderer/image.hpp"
 #include "renderer/scene.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 #include "renderer/renderer.hpp"
 #include "report/environment.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "lower/lower.hpp"
+#include "emit/emit.hpp"
 #include "renderer/image_similarity.hpp"
 #include "study/golden_section.hpp"
 #include "sweep/sweep.hpp"
@@ -43,7 +43,7 @@ Parameters matched(const EnvironmentsOptions& options, const Renderer& renderer,
 // Evaluates the fit as generated headers and texremap do: as polynomials in floats, after the domain rule
 // (model/interpreter.hpp).
 Parameters shipped(const EnvironmentsOptions& options, const remap::Fit& fit) {
-  const remap::Lowered lowered = remap::lower(fit);
+  const remap::Lowered& lowered = require_converter(fit).lowered;
   const double held_specular = std::min(options.specular, fit.domain.specular.max);
   const double scale = held_specular > 0.0 ? options.specular / held_specular : 1.0;
   Parameters parameters;

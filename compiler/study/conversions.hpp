@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 #include "report/environment.hpp"
 #include "report/lit_sphere.hpp"
 #include "report/radiance_pyramid.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 #include "renderer/renderer.hpp"
 
 namespace remapc {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 #include "table/csv.hpp"
 
 namespace remapc {

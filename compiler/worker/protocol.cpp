@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fit_file/fit_fields.hpp"
+#include "model/fit_fields.hpp"
 #include "remap/error.hpp"
 #include "renderer/scene.hpp"
 #include "text/json_field.hpp"

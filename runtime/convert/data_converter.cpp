@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "convert/lowered_kernel.hpp"
-#include "lower/lower.hpp"
-#include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
 
@@ -18,16 +16,17 @@ namespace {
 
 void require_evaluable(const ConverterData& data) {
   const auto refuse = [&](const std::string& what) {
-    throw Error(ErrorKind::kNumeric, data.id + ": " + what);
+    throw Error(ErrorKind::kNumeric, data.info.id + ": " + what);
   };
-  std::vector<const PiecewisePolynomial*> polynomials = {&data.alpha_polynomial, &data.specular_polynomial};
-  if (data.wide) polynomials.push_back(&data.wide->polynomial);
-  if (data.bright) polynomials.push_back(&data.bright->polynomial);
+  std::vector<const PiecewisePolynomial*> polynomials = {&data.lowered.alpha.polynomial,
+                                                         &data.lowered.specular.polynomial};
+  if (data.lowered.wide) polynomials.push_back(&data.lowered.wide->specular.function.polynomial);
+  if (data.lowered.bright) polynomials.push_back(&data.lowered.bright->function.polynomial);
   for (const PiecewisePolynomial* polynomial : polynomials)
     if (polynomial->degrees.size() > kMostPowers)
       refuse("the degree in specular is " + std::to_string(polynomial->degrees.size() - 1) + " (at most " +
              std::to_string(kMostPowers - 1) + " is supported)");
-  if (!(data.specular.min >= 0.0 && data.specular.max > 0.0 && data.roughness.min >= 0.0))
+  if (!(data.info.specular.min >= 0.0 && data.info.specular.max > 0.0 && data.info.roughness.min >= 0.0))
     refuse("the domain is empty or negative (specular must reach above 0, roughness must not be negative)");
 }
 
@@ -36,25 +35,24 @@ Range decimal(const Range& range) {
 }
 
 ConverterInfo info_of(const ConverterData& data, InstructionSet set) {
-  return {data.id,
-          data.source,
-          data.target,
-          decimal(data.roughness),
-          decimal(data.specular),
-          data.roughness_rms_error,
-          data.specular_rms_error,
-          data.image_rms_error,
-          data.ssim,
-          set,
-          {}};
+  ConverterInfo info = data.info;
+  info.roughness = decimal(info.roughness);
+  info.specular = decimal(info.specular);
+  info.instructions = set;
+  return info;
 }
 
-LoweredForm form_of(const ConverterData& data) {
-  if (data.alpha_limit || data.specular_limit) return LoweredForm::kRegimes;
-  const std::vector<int>& degrees = data.specular_polynomial.degrees;
+LoweredForm form_of(const Lowered& lowered) {
+  if (lowered.has_limits()) return LoweredForm::kRegimes;
+  const std::vector<int>& degrees = lowered.specular.polynomial.degrees;
   const bool is_factor = degrees.size() == 2 && degrees[0] < 0;
-  return is_factor && data.alpha_polynomial.degrees.size() == 1 ? LoweredForm::kProportional
-                                                                : LoweredForm::kTerms;
+  return is_factor && lowered.alpha.polynomial.degrees.size() == 1 ? LoweredForm::kProportional
+                                                                   : LoweredForm::kTerms;
+}
+
+// Where the rows of `owned` begin a regime.
+RegimeRows rows_of(const LoweredSeries& series, std::optional<OwnedPolynomialRows>* owned) {
+  return {series.alpha_from, series.specular_from, owned->emplace(series.function.polynomial).rows()};
 }
 
 bool is_close(float value, float expected, float within) { return std::fabs(value - expected) <= within; }
@@ -63,30 +61,27 @@ class DataConverter final : public Converter {
  public:
   DataConverter(const ConverterData& data, InstructionSet set)
       : Converter(info_of(data, set)),
-        alpha_(data.alpha_polynomial),
-        specular_(data.specular_polynomial),
+        alpha_(data.lowered.alpha.polynomial),
+        specular_(data.lowered.specular.polynomial),
         golden_(data.golden),
         kernel_(lowered_kernel(set)) {
     constexpr float kNone = std::numeric_limits<float>::max();  // larger than any number that a mapping gives
-    pass_.source = data.source.roughness;
-    pass_.target = data.target.roughness;
-    pass_.roughness_min = static_cast<float>(data.roughness.min);
-    pass_.roughness_max = static_cast<float>(data.roughness.max);
-    pass_.specular_min = static_cast<float>(data.specular.min);
-    pass_.specular_max = static_cast<float>(data.specular.max);
-    pass_.inverse_specular_max = static_cast<float>(1.0 / data.specular.max);
-    pass_.form = form_of(data);
+    pass_.source = data.info.source.roughness;
+    pass_.target = data.info.target.roughness;
+    pass_.roughness_min = static_cast<float>(data.info.roughness.min);
+    pass_.roughness_max = static_cast<float>(data.info.roughness.max);
+    pass_.specular_min = static_cast<float>(data.info.specular.min);
+    pass_.specular_max = static_cast<float>(data.info.specular.max);
+    pass_.inverse_specular_max = static_cast<float>(1.0 / data.info.specular.max);
+    const Lowered& lowered = data.lowered;
+    pass_.form = form_of(lowered);
     pass_.alpha = alpha_.rows();
     pass_.specular = specular_.rows();
-    pass_.alpha_limit = data.alpha_limit.value_or(kNone);
-    pass_.specular_limit = data.specular_limit.value_or(kNone);
-    pass_.mapping_to = data.wide ? data.mapping_to : kNone;
-    if (data.wide)
-      pass_.wide = {data.wide->alpha_from, data.wide->specular_from,
-                    wide_.emplace(data.wide->polynomial).rows()};
-    if (data.bright)
-      pass_.bright = {data.bright->alpha_from, data.bright->specular_from,
-                      bright_.emplace(data.bright->polynomial).rows()};
+    pass_.alpha_limit = lowered.alpha_limit.value_or(kNone);
+    pass_.specular_limit = lowered.specular_limit.value_or(kNone);
+    pass_.mapping_to = lowered.wide ? lowered.wide->mapping_to : kNone;
+    if (lowered.wide) pass_.wide = rows_of(lowered.wide->specular, &wide_);
+    if (lowered.bright) pass_.bright = rows_of(*lowered.bright, &bright_);
   }
 
   std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
@@ -155,15 +150,6 @@ class DataConverter final : public Converter {
 std::unique_ptr<Converter> make_converter(const ConverterData& data, InstructionSet set) {
   require_evaluable(data);
   return std::make_unique<DataConverter>(data, set);
-}
-
-std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, InstructionSet set) {
-  return make_lowered_converter(fit, lower(fit), set);
-}
-
-std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, const Lowered& lowered,
-                                                  InstructionSet set) {
-  return make_converter(converter_data(fit, lowered), set);
 }
 
 }  // namespace remap

@@ -1,10 +1,9 @@
-// Converters made from lowered fits.
+// Converters that run the data of lowered fits.
 #pragma once
 
 #include <memory>
 
-#include "converter_data/converter_data.hpp"
-#include "lower/lowered.hpp"
+#include "converter/converter_data.hpp"
 #include "remap/converter.hpp"
 
 namespace remap {
@@ -12,8 +11,5 @@ namespace remap {
 // Runs `data` as it is. Throws kNumeric for a domain that is empty or negative.
 std::unique_ptr<Converter> make_converter(const ConverterData& data,
                                           InstructionSet set = best_instruction_set());
-
-// As make_lowered_converter(fit, set); `lowered` is the result of lower() for the fit.
-std::unique_ptr<Converter> make_lowered_converter(const Fit& fit, const Lowered& lowered, InstructionSet set);
 
 }  // namespace remap

@@ -2,7 +2,7 @@
 #include "convert/lowered_kernel.hpp"
 
 #include "convert/instruction_target.hpp"
-#include "lower/emitted_order.hpp"
+#include "converter/emitted_order.hpp"
 
 namespace remap {
 

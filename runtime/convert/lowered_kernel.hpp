@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lower/lowered.hpp"
+#include "converter/lowered.hpp"
 #include "remap/convention.hpp"
 #include "remap/instruction_set.hpp"
 
@@ -45,7 +45,7 @@ struct LoweredPass {
   PolynomialRows alpha;
   PolynomialRows specular;
   // Of kRegimes: the largest float where there is no limit, without degrees where there is no regime
-  // (lower/lowered.hpp).
+  // (converter/lowered.hpp).
   float alpha_limit = 0.0f, specular_limit = 0.0f, mapping_to = 0.0f;
   RegimeRows wide, bright;
 };

@@ -1,14 +1,13 @@
 #include "remap/shipped_converters.hpp"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 #include <variant>
 
+#include "convert/converter_file.hpp"
 #include "convert/data_converter.hpp"
 #include "convert/shipped_text.hpp"
-#include "lower/lower.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 #include "system/files.hpp"
 
 namespace remap {
@@ -16,13 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ConverterData data_of(const Fit& fit) { return converter_data(fit, lower(fit)); }
-
 // Fits of whole materials and warps have files of their own on the command line.
-void add_fit(const fs::path& path, std::vector<ConverterData>* converters) {
-  const AnyFit fit = load_any_fit(path);
-  if (const auto* of_width_and_specular = std::get_if<Fit>(&fit))
-    converters->push_back(data_of(*of_width_and_specular));
+void add_fit(FittedConverter fit, std::vector<ConverterData>* converters) {
+  if (auto* data = std::get_if<ConverterData>(&fit)) converters->push_back(std::move(*data));
 }
 
 // Files of a folder that are no fits of a folder of remapc: its manifest and its lock.
@@ -35,17 +30,17 @@ std::vector<ConverterData> read_data(const fs::path& path) {
   std::vector<ConverterData> converters;
   if (fs::is_directory(path)) {
     for (const auto& entry : fs::directory_iterator(path))
-      if (may_be_fit(entry.path())) add_fit(entry.path(), &converters);
+      if (may_be_fit(entry.path())) add_fit(load_fitted_converter(entry.path()), &converters);
     return converters;
   }
   const std::string text = read_file(path);
   if (text.find("\"remap-converters\"") < 64) return converters_from_json(text, path.string());
-  add_fit(path, &converters);
+  add_fit(fitted_converter_from_json(text, path.string()), &converters);
   return converters;
 }
 
 ConverterList make_converters(std::vector<ConverterData> all, InstructionSet set) {
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.info.id < b.info.id; });
   ConverterList made;
   for (const ConverterData& data : all) made.push_back(make_converter(data, set));
   return made;

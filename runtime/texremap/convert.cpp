@@ -10,9 +10,10 @@
 
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
+#include "convert/converter_file.hpp"
+#include "convert/data_converter.hpp"
 #include "remap/chained_converter.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 #include "remap/warp_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/conversion_request.hpp"
@@ -41,23 +42,20 @@ void print_notes(const ConvertOptions& options, const ChosenConverter& chosen) {
   note(closeness_text(chosen.path, chosen.closeness));
 }
 
-// The interpreter runs a fit that cannot be lowered, slowly.
 std::unique_ptr<Converter> converter_of_fit(const ConvertOptions& options, const WorkflowChoice& workflow,
-                                            Fit fit, InstructionSet set) {
+                                            const FittedConverter& fit, InstructionSet set) {
+  const auto* data = std::get_if<ConverterData>(&fit);
+  if (data == nullptr)
+    throw Error(ErrorKind::kInput, options.fit +
+                                       ": converts whole materials between workflows, which --from and --to "
+                                       "name without a fit (remove --fit)");
   require_models_of_fit(options.fit, {workflow.source_brdf, workflow.target_brdf},
-                        {fit.source.model, fit.target.model});
-  try {
-    return make_lowered_converter(fit, set);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kNumeric) throw;
-    warn(options,
-         options.fit + ": runs in the slow interpreter, because it cannot be lowered (" + error.what() + ")");
-  }
-  return make_interpreted_converter(std::move(fit));
+                        {data->info.source.model, data->info.target.model});
+  return make_converter(*data, set);
 }
 
 // The fit that --fit names; none without that option.
-using GivenFit = std::optional<AnyFit>;
+using GivenFit = std::optional<FittedConverter>;
 
 const WarpMapFit* warp_in(const GivenFit& fit) { return fit ? std::get_if<WarpMapFit>(&*fit) : nullptr; }
 
@@ -66,8 +64,7 @@ void choose_brdf(const ConvertOptions& options, const GivenFit& fit, Instruction
                  ChosenConverter& chosen) {
   const WorkflowChoice& workflow = chosen.workflow;
   if (fit) {
-    chosen.owned_brdf = converter_of_fit(
-        options, workflow, require_width_and_specular(*fit, ErrorKind::kInput, options.fit), set);
+    chosen.owned_brdf = converter_of_fit(options, workflow, *fit, set);
     chosen.path = {{chosen.owned_brdf.get()}, expected_error(chosen.owned_brdf->info())};
     chosen.closeness = closeness_of(chosen.path, {});
   } else {
@@ -201,7 +198,7 @@ void convert_maps_of(const ConvertOptions& options, const ChosenConverter& chose
 }
 
 void convert(const ConvertOptions& options) {
-  const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_any_fit(options.fit));
+  const GivenFit fit = options.fit.empty() ? std::nullopt : GivenFit(load_fitted_converter(options.fit));
   const WarpMapFit* warp = warp_in(fit);
   WorkflowChoice workflow = warp != nullptr ? workflow_of_warp(options, *warp) : workflow_choice(options);
   (void)target_choice(options, workflow);  // refuses what cannot be written before any file is read

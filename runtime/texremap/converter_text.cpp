@@ -67,26 +67,6 @@ std::string closest_text(const std::string& model, double error) {
          expected_text(error) + ")";
 }
 
-Json side_json(const ModelSide& side) {
-  return {{"model", side.model},
-          {"roughness", std::string(convention_name(side.roughness))},
-          {"specular", side.specular}};
-}
-
-Json domain_json(const ConverterInfo& info) {
-  return {{"roughness", {info.roughness.min, info.roughness.max}},
-          {"specular", {info.specular.min, info.specular.max}}};
-}
-
-Json errors_json(const ConverterInfo& info) {
-  const auto json = [](const std::optional<double>& error) { return error ? Json(*error) : Json(); };
-  return {{"roughness", json(info.roughness_rms_error)},
-          {"specular", json(info.specular_rms_error)},
-          {"image", json(info.image_rms_error)}};
-}
-
-Json ssim_json(const ConverterInfo& info) { return info.ssim ? Json(*info.ssim) : Json(); }
-
 Json path_json(const ConverterPath& path) {
   Json ids = Json::list();
   for (const Converter* step : path.steps) ids.push_back(step->info().id);

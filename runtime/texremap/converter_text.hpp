@@ -37,12 +37,6 @@ std::string closeness_text(const ConverterPath& path, const Closeness& closeness
 // `cycles-5/beckmann is the closest model of cycles-5 (expected error 0.0545)`: what `--to cycles-5` chose.
 std::string closest_text(const std::string& model, double error);
 
-Json side_json(const ModelSide& side);
-Json domain_json(const ConverterInfo& info);
-// The errors of the fit; null for an unknown error.
-Json errors_json(const ConverterInfo& info);
-// The SSIM of its spheres; null for an unknown one.
-Json ssim_json(const ConverterInfo& info);
 // The ids of the steps.
 Json path_json(const ConverterPath& path);
 // `looks_different`, `worst_step_ssim` and `closer_model` (null, or the model with its path and expected

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command_line/command.hpp"
+#include "converter/converter_fields.hpp"
 #include "remap/closeness.hpp"
 #include "remap/error.hpp"
 #include "remap/workflow_models.hpp"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command_line/command.hpp"
+#include "converter/converter_fields.hpp"
 #include "remap/chained_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"

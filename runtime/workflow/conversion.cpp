@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "model/evaluate.hpp"
 #include "remap/error.hpp"
 #include "workflow/conversion_constants.hpp"
+#include "workflow/network_outputs.hpp"
 
 namespace remap {
 namespace {

@@ -2,7 +2,7 @@
 #include "bench/bench.hpp"
 #include "bench/sweep_table.hpp"
 #include "fit/fit_table.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 
 namespace remap_bench {
 namespace {

@@ -11,8 +11,9 @@
 #include "emit/emit.hpp"
 #include "emit/mapping_code.hpp"
 #include "fit/fit_table.hpp"
+#include "lower/lower.hpp"
 #include "model/chain.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 #include "support/shared_data.hpp"
 #include "system/files.hpp"
 
@@ -45,7 +46,8 @@ void write_fit(const std::filesystem::path& folder, const Table& table, const st
   options.id = name;
   options.regressor = regressor;
   options.regression.form = "paper";
-  const remap::Fit fit = remapc::fit_table(table, remapc::table_text(table), options).fit;
+  remap::Fit fit = remapc::fit_table(table, remapc::table_text(table), options).fit;
+  add_converter(&fit);
   remap::write_file(folder / (name + ".json"), fit_to_json(fit));
   remap::write_file(folder / (name + ".hpp"), remapc::emit_header(fit));
 }
@@ -100,7 +102,9 @@ void write_chain(const std::filesystem::path& folder) {
   for (const char* id : {"mitsuba_ward_to_mitsuba_ward_balanced", "mitsuba_ward_balanced_to_mitsuba_beckmann",
                          "mitsuba_beckmann_to_mitsuba_as"})
     steps.push_back(remap::load_fit(fits / (std::string(id) + ".json")));
-  remap::write_file(folder / "fused.hpp", remapc::emit_header(remap::compose(steps, "fused")));
+  remap::Fit fused = remap::compose(steps, "fused");
+  add_converter(&fused);
+  remap::write_file(folder / "fused.hpp", remapc::emit_header(fused));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/remapc_session.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;
@@ -54,6 +54,28 @@ TEST_CASE("remapc fit: each kind of regression can be asked for, and a form", "[
   CHECK(fit({"--model", "parametric", "--form", "quartic/affine"}).errors.find("parametric quartic/affine") !=
         std::string::npos);
   CHECK(kind() == "parametric");
+}
+
+TEST_CASE("remapc fit: a fit that cannot be lowered is kept with a warning, and has no header", "[slow]") {
+  const Session session;
+  require_success(session.remapc(session.sweep("t.csv")));
+  const std::string path = session.path("fits/mitsuba_ward_to_mitsuba_as.json");
+  const auto fit = [&](const std::string& tolerance) {
+    return require_success(session.remapc({"fit", session.path("t.csv"), "--model", "parametric", "--form",
+                                           "paper", "--lower", tolerance, "-o", session.path("fits")}));
+  };
+  CHECK(fit("1e-12").errors.find("warning: mitsuba_ward_to_mitsuba_as: neither texremap nor emit") !=
+        std::string::npos);
+  CHECK_FALSE(load_fit(path).converter.has_value());
+  CHECK(session.remapc({"show", path}).output.find("No header: ") != std::string::npos);
+  CHECK(session.remapc({"emit", path, "-o", session.path("headers")}).exit_code == 1);
+  CHECK_FALSE(fs::exists(session.path("headers")));
+  CHECK(fit("1e-3").errors.find("warning") == std::string::npos);
+  const remap::Lowered loose = load_fit(path).converter->lowered;
+  fit("1e-5");
+  const remap::Lowered close = load_fit(path).converter->lowered;
+  CHECK(close.alpha_bound() <= 1e-5);
+  CHECK(loose.alpha.polynomial.coefficients.size() < close.alpha.polynomial.coefficients.size());
 }
 
 TEST_CASE("remapc fit: a fit that leaves nothing, and one of black, can be plotted", "[slow]") {

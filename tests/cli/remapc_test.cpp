@@ -8,8 +8,8 @@
 #include <catch2/catch.hpp>
 
 #include "cli/remapc_session.hpp"
+#include "model/fit_file.hpp"
 #include "model/interpreter.hpp"
-#include "remap/fit_file.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;

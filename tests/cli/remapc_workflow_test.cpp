@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/remapc_session.hpp"
-#include "converter_data/converter_data.hpp"
+#include "converter/converter_data.hpp"
 
 using namespace remap;
 

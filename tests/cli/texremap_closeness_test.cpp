@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
+#include "model/fit_file.hpp"
 #include "remap/closeness.hpp"
-#include "remap/fit_file.hpp"
 #include "text/number_text.hpp"
 
 using namespace remap;

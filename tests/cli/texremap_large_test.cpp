@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 #include "support/campaign.hpp"
 #include "support/random_warp.hpp"
 

@@ -13,11 +13,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_tree.hpp"
+#include "model/fit_file.hpp"
 #include "remap/convert_maps.hpp"
-#include "remap/fit_file.hpp"
 #include "remap/workflow_converter.hpp"
 #include "remap/workflow_models.hpp"
 #include "support/campaign.hpp"
+#include "support/fitted_converter.hpp"
 
 using namespace remap;
 namespace fs = std::filesystem;
@@ -583,8 +584,7 @@ WorkflowEnd end_of(const Batch& batch, const Model& model) {
 
 // The library, on floats in memory.
 void check_library(const Batch& batch, const Set& set) {
-  static const std::unique_ptr<Converter> paper =
-      make_lowered_converter(std::get<Fit>(load_any_fit(kPaperFit)));
+  static const std::unique_ptr<Converter> paper = make_lowered_converter(load_fit(kPaperFit));
   std::unique_ptr<Converter> workflow;
   if (batch.from.kind != Kind::kBrdf)
     workflow = make_workflow_converter({end_of(batch, batch.from), end_of(batch, batch.to)});

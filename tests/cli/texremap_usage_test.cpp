@@ -5,9 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 #include "remap/shipped_converters.hpp"
 #include "support/example_fit.hpp"
+#include "support/fitted_converter.hpp"
 
 using namespace remap;
 using Catch::Matchers::Contains;
@@ -69,7 +70,7 @@ TEST_CASE("texremap: --quiet prints nothing") {
 TEST_CASE("texremap: --fit evaluates that fit") {
   const Session session;
   session.write_pair("exr");
-  const Fit fit = example_fit();
+  const Fit fit = lowered_fit(example_fit());
   write_file(session.path("fit.json"), fit_to_json(fit));
   require_success(
       session.texremap({"convert", "--fit", session.path("fit.json"), "--roughness", session.path("r.exr"),
@@ -90,7 +91,7 @@ TEST_CASE("texremap: --fit evaluates that fit") {
 TEST_CASE("texremap: --converters replaces the shipped converters by those of a fit, a folder or a list",
           "[slow]") {
   const Session session;
-  const Fit fit = example_fit();
+  const Fit fit = lowered_fit(example_fit());
   std::filesystem::create_directory(session.path("fits"));
   write_file(session.path("fits/fit.json"), fit_to_json(fit));
   write_file(session.path("fits/manifest.json"), "{}");  // is not a fit, as in a folder of remapc
@@ -116,19 +117,20 @@ TEST_CASE("texremap: --converters replaces the shipped converters by those of a 
   CHECK(session.texremap(words).output == converted.output);
 }
 
-TEST_CASE("texremap: --fit that cannot be lowered is interpreted, with a warning") {
+TEST_CASE("texremap: a fit without a converter is refused with what to run") {
   const Session session;
-  session.write_pair("exr", 16);
-  Fit fit = example_fit();
-  const KernelExpansion spikes{{{0.0, 1.0, 0.0}}, {0.0, 1.0, 0.0}, 1e6, 0.5, {0.2, 0.7}, {0.1, -0.1}};
-  fit.mapping = Svr{spikes, spikes};
-  write_file(session.path("fit.json"), fit_to_json(fit));
-  const ProcessResult result =
-      session.texremap({"convert", "--fit", session.path("fit.json"), "--roughness", session.path("r.exr"),
-                        "--specular", session.path("s.exr"), "-o", session.path("out")});
-  CHECK(result.exit_code == 0);
-  CHECK_THAT(result.errors, Contains("warning: ") && Contains("fit.json: runs in the slow interpreter"));
-  CHECK(session.result_count() == 2);
+  const auto refused = [&](const std::string& json) {
+    write_file(session.path("fit.json"), json);
+    const ProcessResult result = session.texremap(
+        {"convert", "--fit", session.path("fit.json"), "--roughness", "0.25", "--specular", "0.3"});
+    CHECK(result.exit_code == 1);
+    return result.errors;
+  };
+  std::string json = fit_to_json(example_fit());
+  CHECK_THAT(refused(json), Contains("could not be lowered") && Contains("remapc fit --lower"));
+  const std::string section = ",\n  \"converter\": null";
+  json.erase(json.find(section), section.size());
+  CHECK_THAT(refused(json), Contains("holds no converter") && Contains("run remapc fit again"));
 }
 
 TEST_CASE("texremap: every instruction set writes the same files", "[slow]") {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "cli/remapc_session.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 #include "support/test_image.hpp"
 
 namespace remap::warp_cli {

@@ -1,8 +1,11 @@
-// Fits as JSON, of every kind. What is read can be written, and is then read as the same.
+// Fits as JSON, of every kind, as remapc and texremap read them. What is read can be written, and is then
+// read as the same.
+#include "convert/converter_file.hpp"
 #include "fuzz/fuzz.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  remap::read_or_refuse([&] { remap::fitted_converter_from_json(remap::text_of(data, size), "fit.json"); });
   return remap::read_or_refuse([&] {
     const remap::AnyFit any = remap::any_fit_from_json(remap::text_of(data, size), "fit.json");
     std::visit(

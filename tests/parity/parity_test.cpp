@@ -12,8 +12,9 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
+#include "lower/lower.hpp"
+#include "model/fit_file.hpp"
 #include "model/interpreter.hpp"
-#include "remap/fit_file.hpp"
 #include "support/campaign.hpp"
 #include "support/made_regimes.hpp"
 #include "support/skip.hpp"
@@ -67,8 +68,9 @@ struct MadeModel {
   double alpha_within = 2e-6, specular_within = 2e-6;
 };
 
-MadeModel lowered(const Fit& fit) {
-  const Lowered result = lower(fit);
+MadeModel lowered(Fit fit) {
+  add_converter(&fit);
+  const Lowered& result = fit.converter->lowered;
   return {fit, result.alpha_bound(), result.specular_bound()};
 }
 

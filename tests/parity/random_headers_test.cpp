@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
+#include "lower/lower.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
 #include "support/build_speed.hpp"
@@ -67,11 +68,12 @@ std::vector<Header> lowered_headers(const std::string& kind, int models) {
   std::vector<Header> headers;
   const LoweringOptions options{1e-3, 1e-3};
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(models); ++seed) {
-    const Fit fit = random_fit(kind, seed);
+    Fit fit = random_fit(kind, seed);
     try {
-      const Lowered lowered = lower(fit.mapping, fit.domain, options);
+      add_converter(&fit, options);
+      const Lowered& lowered = fit.converter->lowered;
       headers.push_back(
-          {fit, remapc::emit_header(fit, options), lowered.alpha.bound, lowered.specular.bound, lowered});
+          {fit, remapc::emit_header(fit), lowered.alpha.bound, lowered.specular.bound, lowered});
     } catch (const Error& error) {
       REQUIRE(error.kind() == ErrorKind::kNumeric);
     }

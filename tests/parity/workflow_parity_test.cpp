@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "emit/emit.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 #include "runtime/workflow/materials.hpp"
 #include "support/campaign.hpp"
 #include "support/skip.hpp"

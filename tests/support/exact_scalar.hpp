@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "remap/mapping.hpp"
+#include "model/mapping.hpp"
 
 namespace remap {
 

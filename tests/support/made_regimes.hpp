@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 
 namespace made_regimes {
 

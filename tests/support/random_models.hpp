@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 
 namespace remap {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fit/network/network_training.hpp"
-#include "remap/workflow_fit.hpp"
+#include "model/workflow_fit.hpp"
 #include "table/material_table.hpp"
 
 namespace remapc {

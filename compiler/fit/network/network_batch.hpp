@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "remap/mapping.hpp"
+#include "model/mapping.hpp"
 
 namespace remapc {
 

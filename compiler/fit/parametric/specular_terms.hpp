@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fit/parametric/parametric_form.hpp"
-#include "remap/mapping.hpp"
+#include "model/mapping.hpp"
 #include "table/table.hpp"
 
 namespace remapc {

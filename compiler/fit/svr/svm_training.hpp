@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "remap/mapping.hpp"
+#include "model/mapping.hpp"
 
 namespace remapc {
 

@@ -1,5 +1,5 @@
 // Converters: rows of planar floats in, rows of planar floats out. Behind the interface are the polynomials
-// that a fit was lowered to, the interpreter, a chain of converters, a workflow or a warp.
+// that a fit was lowered to, a chain of converters, a workflow or a warp.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "remap/fit.hpp"
 #include "remap/instruction_set.hpp"
 #include "remap/material_rows.hpp"
+#include "remap/model_side.hpp"
+#include "remap/range.hpp"
 
 namespace remap {
 
@@ -33,6 +34,7 @@ struct ConverterInfo {
   std::optional<double> ssim;
   InstructionSet instructions = InstructionSet::kBaseline;  // that it runs on; changes no bit of the results
   std::vector<std::string> steps;  // ids of what a chained converter runs; otherwise empty
+  bool operator==(const ConverterInfo&) const = default;
 };
 
 // Converts rows of texels: the parameters of one material model to those of another.
@@ -58,9 +60,12 @@ class Converter {
   // Converts `count` texels. `in` has rows of all sources(), colors in one or three rows; of `out` those with
   // rows are written, and width and specular of a BRDF must have them, as many as the source. An output row
   // may be exactly the input row of the same parameter and channel. Widths are the parameters that info()
-  // names. Domain rule as in interpreter.hpp. `outside`: if not null, a row that receives 1 for each texel
-  // outside the domain and 0 for each other. Returns the number of texels outside. Can be called from many
-  // threads. Throws kUsage for a number of specular rows that is neither 1 nor 3.
+  // names. The domain rule: a width is
+  // clamped to the covered range, and specular below 0 to 0; where a channel exceeds the covered specular,
+  // all are scaled so that the largest lies on the edge, converted and scaled back. `outside`: if not null, a
+  // row that receives 1 for each texel outside the domain and 0 for each other. Returns the number of texels
+  // outside. Can be called from many threads. Throws kUsage for a number of specular rows that is neither 1
+  // nor 3.
   std::size_t convert(std::size_t count, const MaterialRows<const float>& in, const MaterialRows<float>& out,
                       std::uint8_t* outside = nullptr) const;
   // The same for width and specular alone.
@@ -88,15 +93,5 @@ class Converter {
   ConverterInfo info_;
   std::vector<Parameter> sources_, targets_;
 };
-
-// Evaluates `fit` with the interpreter, in double precision. The reference for all others, a hundred times
-// slower.
-std::unique_ptr<Converter> make_interpreted_converter(Fit fit);
-
-// Evaluates the polynomials that `fit` is lowered to (lower/lower.hpp, tolerances of LoweringOptions), at
-// about the speed of its generated header and with the same bits. Takes up to a second to make. Throws
-// kNumeric if the mapping cannot be lowered, or for a domain that is empty or negative.
-std::unique_ptr<Converter> make_lowered_converter(const Fit& fit,
-                                                  InstructionSet set = best_instruction_set());
 
 }  // namespace remap

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "remap/convention.hpp"
-#include "remap/mapping.hpp"
 #include "remap/named_values.hpp"
+#include "remap/network.hpp"
 
 namespace remap {
 

@@ -7,9 +7,9 @@
 
 #include "emit/header_data.hpp"
 #include "emit/text_template.hpp"
+#include "model/fit_file.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 #include "support/random_warp.hpp"
 #include "system/files.hpp"
 
@@ -42,8 +42,7 @@ TEST_CASE("template: a file of code that does not exist is a bug") {
 TEST_CASE("emit: the description of a header has the values of the fit and no code") {
   const remap::Fit fit =
       remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_phong_to_mitsuba_ggx.json");
-  const remap::Lowered lowered = remap::lower(fit.mapping, fit.domain);
-  const HeaderData data = describe(fit, lowered);
+  const HeaderData data = describe(fit);
   CHECK(data.source.parameters[0].name == "exponent");
   CHECK(data.target.parameters[1].name == fit.target.specular);
   REQUIRE(data.golden.size() > 8);
@@ -54,9 +53,9 @@ TEST_CASE("emit: the description of a header has the values of the fit and no co
     CHECK(texel.out[0] == static_cast<float>(width));
     CHECK(texel.out[1] == static_cast<float>(out));
   }
-  const auto& header = std::get<ConverterHeader>(data.code);
-  CHECK(header.mapping == lowered);
-  CHECK(header.alpha_rms_error >= fit.alpha_error.rms);
+  const auto& converter = std::get<remap::ConverterData>(data.code);
+  CHECK(converter == fit.converter);
+  CHECK(converter.info.roughness_rms_error >= fit.alpha_error.rms);
 }
 
 TEST_CASE("emit: the committed header is what its fit gives, read again or not") {

@@ -8,8 +8,8 @@
 #include "fit/baselines.hpp"
 #include "fit/edge.hpp"
 #include "fit/fit_table.hpp"
+#include "model/fit_file.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 
 using namespace remapc;
 using remap::Candidate;

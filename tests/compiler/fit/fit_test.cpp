@@ -6,7 +6,7 @@
 #include "compiler/fit/made_table.hpp"
 #include "fit/fit_table.hpp"
 #include "fit/rows/split.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 #include "table/domain.hpp"
 
 using namespace remapc;

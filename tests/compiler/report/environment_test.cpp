@@ -9,8 +9,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "model/fit_file.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 #include "renderer/image_file.hpp"
 #include "renderer/scene.hpp"
 #include "report/lit_sphere.hpp"

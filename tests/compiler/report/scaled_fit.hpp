@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "remap/fit.hpp"
+#include "model/fit.hpp"
 
 namespace remapc {
 

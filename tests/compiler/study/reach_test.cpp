@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/report/scaled_fit.hpp"
-#include "remap/fit_file.hpp"
+#include "model/fit_file.hpp"
 #include "study/reach_report.hpp"
 #include "support/campaign.hpp"
 #include "sweep/sweep.hpp"

@@ -8,8 +8,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "model/fit_file.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 #include "support/random_warp.hpp"
 #include "support/warp_sets.hpp"
 #include "warp/space/quadrature.hpp"

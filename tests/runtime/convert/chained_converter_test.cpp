@@ -11,6 +11,7 @@
 #include "remap/error.hpp"
 #include "runtime/convert/texel_rows.hpp"
 #include "support/example_fit.hpp"
+#include "support/fitted_converter.hpp"
 
 using namespace remap;
 
@@ -88,15 +89,14 @@ std::vector<Fit> three_fits() {
 
 struct SteppedFits {
   std::vector<Fit> fits;
-  std::vector<Lowered> lowered;
   std::vector<std::unique_ptr<Converter>> owned;
   Steps steps;
 
   explicit SteppedFits(std::vector<Fit> made, InstructionSet set = best_instruction_set())
       : fits(std::move(made)) {
-    for (const Fit& fit : fits) {
-      lowered.push_back(lower(fit.mapping, fit.domain));
-      owned.push_back(make_lowered_converter(fit, lowered.back(), set));
+    for (Fit& fit : fits) {
+      add_converter(&fit);
+      owned.push_back(make_lowered_converter(fit, set));
       steps.push_back(owned.back().get());
     }
   }
@@ -167,8 +167,8 @@ TEST_CASE("chained converter: stays within the proven bounds of the interpreted 
             next_reflectance = {std::min(next_reflectance.low, mapped.specular),
                                 std::max(next_reflectance.high, mapped.specular)};
           }
-        const double a = chain.lowered[k].alpha.bound + kRounding;
-        const double s = chain.lowered[k].specular.bound + kRounding;
+        const double a = chain.fits[k].converter->lowered.alpha.bound + kRounding;
+        const double s = chain.fits[k].converter->lowered.specular.bound + kRounding;
         alpha = {next_alpha.low - a, next_alpha.high + a};
         reflectance = {next_reflectance.low - s, next_reflectance.high + s};
       }

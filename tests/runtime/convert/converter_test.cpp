@@ -12,6 +12,7 @@
 #include "remap/shipped_converters.hpp"
 #include "runtime/convert/texel_rows.hpp"
 #include "support/example_fit.hpp"
+#include "support/fitted_converter.hpp"
 
 using namespace remap;
 

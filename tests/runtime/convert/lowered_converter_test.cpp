@@ -9,6 +9,7 @@
 #include "remap/error.hpp"
 #include "runtime/convert/texel_rows.hpp"
 #include "support/example_fit.hpp"
+#include "support/fitted_converter.hpp"
 
 using namespace remap;
 
@@ -23,22 +24,17 @@ Svr curved(double gamma) {
   return {alpha, specular};
 }
 
-struct LoweredFit {
-  Fit fit;
-  Lowered lowered;
-};
-
 // Every convention on either side, one piece and many.
-const std::vector<LoweredFit>& fits() {
-  static const std::vector<LoweredFit> all = [] {
-    std::vector<LoweredFit> made;
+const std::vector<Fit>& fits() {
+  static const std::vector<Fit> all = [] {
+    std::vector<Fit> made;
     for (const std::string& name : convention_names()) {
       Fit fit = example_fit();
       fit.source.roughness = convention_from_name(name).value();
-      made.push_back({fit, lower(fit.mapping, fit.domain)});
+      made.push_back(lowered_fit(fit));
       fit.target.roughness = fit.source.roughness;
       fit.mapping = curved(name == "alpha" ? 9.0 : 1.0);
-      made.push_back({fit, lower(fit.mapping, fit.domain)});
+      made.push_back(lowered_fit(fit));
     }
     return made;
   }();
@@ -48,8 +44,8 @@ const std::vector<LoweredFit>& fits() {
 // Four units in the last place, twice: of the parameters as floats, and of the scale of a texel.
 constexpr double kRounding = 1e-6;
 
-void check_texel(const Fit& fit, const Lowered& lowered, const TexelRows& in, const TexelRows& out,
-                 std::size_t i) {
+void check_texel(const Fit& fit, const TexelRows& in, const TexelRows& out, std::size_t i) {
+  const Lowered& lowered = fit.converter->lowered;
   std::array<double, 3> specular{}, expected{};
   double largest = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -78,16 +74,16 @@ void check_texel(const Fit& fit, const Lowered& lowered, const TexelRows& in, co
 }  // namespace
 
 TEST_CASE("lowered converter: stays within its proven bound of the interpreter, whatever the convention") {
-  for (const auto& [fit, lowered] : fits()) {
+  for (const Fit& fit : fits()) {
     INFO(kind_name(fit.mapping) << " of " << convention_name(fit.source.roughness));
-    const auto converter = make_lowered_converter(fit, lowered, best_instruction_set());
+    const auto converter = make_lowered_converter(fit);
     TexelRows in = odd_and_random_texels(converter->info(), 2000);
     // Beyond 1e30 a channel is left as it is, by converters in floats alone.
     for (auto& row : in.specular)
       for (float& value : row)
         if (value > 1e30f && std::isfinite(value)) value = 1e3f;
     const Converted out = converted(*converter, in, 0, in.roughness.size(), 3, false);
-    for (std::size_t i = 0; i < in.roughness.size(); ++i) check_texel(fit, lowered, in, out.rows, i);
+    for (std::size_t i = 0; i < in.roughness.size(); ++i) check_texel(fit, in, out.rows, i);
     const Converted expected =
         converted(*make_interpreted_converter(fit), in, 0, in.roughness.size(), 3, false);
     CHECK(out.out_of_domain == expected.out_of_domain);
@@ -96,13 +92,13 @@ TEST_CASE("lowered converter: stays within its proven bound of the interpreter, 
 }
 
 TEST_CASE("lowered converter: every instruction set computes the same bits") {
-  for (const auto& [fit, lowered] : fits()) {
+  for (const Fit& fit : fits()) {
     INFO(kind_name(fit.mapping) << " of " << convention_name(fit.source.roughness));
-    const auto baseline = make_lowered_converter(fit, lowered, InstructionSet::kBaseline);
+    const auto baseline = make_lowered_converter(fit, InstructionSet::kBaseline);
     const TexelRows texels = odd_and_random_texels(baseline->info(), 1000);
     for (const InstructionSet set : instruction_sets()) {
       INFO(instruction_set_name(set));
-      const auto converter = make_lowered_converter(fit, lowered, set);
+      const auto converter = make_lowered_converter(fit, set);
       CHECK(converter->info().instructions == set);
       CHECK(same_bits(*converter, *baseline, texels));
     }

@@ -9,6 +9,7 @@
 
 #include "remap/error.hpp"
 #include "support/example_fit.hpp"
+#include "support/fitted_converter.hpp"
 #include "support/test_image.hpp"
 
 using namespace remap;

@@ -4,6 +4,7 @@
 
 #include "remap/error.hpp"
 #include "support/example_fit.hpp"
+#include "support/fitted_converter.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
 #include "texture/target_plan.hpp"

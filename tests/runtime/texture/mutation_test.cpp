@@ -9,6 +9,7 @@
 #include "remap/error.hpp"
 #include "support/campaign.hpp"
 #include "support/example_fit.hpp"
+#include "support/fitted_converter.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
 #include "system/files.hpp"

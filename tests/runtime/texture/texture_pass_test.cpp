@@ -11,6 +11,7 @@
 #include "remap/shipped_converters.hpp"
 #include "remap/workflow_converter.hpp"
 #include "support/example_fit.hpp"
+#include "support/fitted_converter.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_image.hpp"
 #include "texture/target_plan.hpp"

@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "model/fit_file.hpp"
 #include "remap/error.hpp"
-#include "remap/fit_file.hpp"
 #include "runtime/workflow/materials.hpp"
 
 using namespace remapc;

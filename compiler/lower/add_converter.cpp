@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+
+#include "lower/lower.hpp"
+#include "model/interpreter.hpp"
+#include "text/number_text.hpp"
+
+namespace remap {
+namespace {
+
+// Four units in the last place of a float: what conversions of parameters and the scale of a texel add.
+double rounding_of(double value) { return 4.8e-7 * std::fabs(value) + 1e-30; }
+
+// How far the target's own parameter moves where alpha moves by `error`.
+double own_error(RoughnessConvention convention, double own, double error) {
+  const double alpha = to_alpha(convention, own);
+  const double low = from_alpha(convention, std::max(alpha - error, 0.5 * alpha));
+  const double high = from_alpha(convention, alpha + error);
+  return std::max(std::fabs(low - own), std::fabs(high - own)) + rounding_of(std::fabs(own) + 1.0);
+}
+
+// As a short decimal.
+float bound(double value) { return static_cast<float>(rounded_up(rounded_to_float(value), 2)); }
+
+std::optional<double> two_digits(bool is_known, double error) {
+  return is_known ? std::optional<double>(rounded_up(error, 2)) : std::nullopt;
+}
+
+std::optional<double> three_digits(const std::optional<double>& value) {
+  return value ? std::optional<double>(rounded(*value, 3)) : std::nullopt;
+}
+
+// The errors are bounds of target alpha and, within the domain, of target specular.
+std::vector<GoldenTexel> golden_texels(const Fit& fit, double alpha_error, double specular_error) {
+  const Range own = own_roughness_range(fit), specular = specular_range(fit);
+  std::vector<GoldenTexel> texels;
+  const auto add = [&](double roughness, double reflectance) {
+    const float r = static_cast<float>(roughness), s = static_cast<float>(reflectance);
+    const double in = static_cast<double>(s);
+    double out = 0.0;
+    const double width = evaluate_texel(fit, static_cast<double>(r), {&in, 1}, {&out, 1});
+    const double scale = std::max(1.0, in / specular.max);
+    texels.push_back({r, s, static_cast<float>(width), static_cast<float>(out),
+                      bound(own_error(fit.target.roughness, width, alpha_error)),
+                      bound(scale * specular_error + rounding_of(out))});
+  };
+  constexpr int kWidths = 9;
+  for (int i = 0; i < kWidths; ++i) {
+    const double share = static_cast<double>(i) / (kWidths - 1);
+    add(own.min + share * (own.max - own.min), specular.max * (1.0 - 0.5 * share));
+  }
+  add(0.5 * own.min, 0.5 * specular.max);
+  add(1.5 * own.max, 0.25 * specular.max);
+  add(0.5 * (own.min + own.max), 0.0);
+  add(0.5 * (own.min + own.max), 2.0 * specular.max);
+  return texels;
+}
+
+ConverterData converter_data(const Fit& fit, const Lowered& lowered) {
+  const bool has_pictures = fit.image_similarity.has_value();
+  ConverterData data;
+  data.info = {fit.id,
+               fit.source,
+               fit.target,
+               own_roughness_range(fit),
+               specular_range(fit),
+               two_digits(fit.has_errors(), fit.alpha_error.rms),
+               two_digits(fit.has_errors(), fit.specular_error.rms),
+               two_digits(has_pictures, has_pictures ? fit.image_similarity->image_error.rms : 0.0),
+               three_digits(mean_ssim(fit)),
+               InstructionSet::kBaseline,
+               {}};
+  data.lowered = lowered;
+  data.golden = golden_texels(fit, lowered.alpha_bound(), lowered.specular_bound());
+  return data;
+}
+
+}  // namespace
+
+void add_converter(Fit* fit, const LoweringOptions& options) {
+  fit->converter = converter_data(*fit, lower(*fit, options));
+}
+
+}  // namespace remap

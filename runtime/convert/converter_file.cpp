@@ -1,0 +1,28 @@
+#include "convert/converter_file.hpp"
+
+#include "converter/converter_fields.hpp"
+#include "system/files.hpp"
+#include "warp/warp_json.hpp"
+
+namespace remap {
+
+FittedConverter fitted_converter_from_json(std::string_view text, const std::string& place) {
+  const Json json = parse_json(text, place);
+  const Field root(json, place);
+  require_fit_file(root);
+  const std::string id = read_id(root["id"]);
+  if (is_of_materials(root)) {
+    if (root["mapping"]["kind"].text() == kWarpKind) return read_warp_fit(root);
+    return UnusedFit{id};
+  }
+  const std::optional<ConverterData> converter = read_fitted_converter(root);
+  if (!converter)
+    root["converter"].fail("missing, because the fit could not be lowered (remapc fit --lower)");
+  return *converter;
+}
+
+FittedConverter load_fitted_converter(const std::filesystem::path& path) {
+  return fitted_converter_from_json(read_file(path), path.string());
+}
+
+}  // namespace remap

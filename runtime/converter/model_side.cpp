@@ -1,0 +1,79 @@
+#include "remap/model_side.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace remap {
+namespace {
+
+bool is_identifier_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+// The keywords of C++20, [lex.key], which cannot name a namespace.
+constexpr std::array<std::string_view, 92> kKeywords = {
+    "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
+    "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
+    "char32_t",    "char8_t",  "class",      "co_await",  "co_return", "co_yield",     "compl",
+    "concept",     "const",    "const_cast", "consteval", "constexpr", "constinit",    "continue",
+    "decltype",    "default",  "delete",     "do",        "double",    "dynamic_cast", "else",
+    "enum",        "explicit", "export",     "extern",    "false",     "float",        "for",
+    "friend",      "goto",     "if",         "inline",    "int",       "long",         "mutable",
+    "namespace",   "new",      "noexcept",   "not",       "not_eq",    "nullptr",      "operator",
+    "or",          "or_eq",    "private",    "protected", "public",    "register",     "reinterpret_cast",
+    "requires",    "return",   "short",      "signed",    "sizeof",    "static",       "static_assert",
+    "static_cast", "struct",   "switch",     "template",  "this",      "thread_local", "throw",
+    "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
+    "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
+    "xor_eq"};
+
+// Namespaces that the standard keeps for itself ([namespace.future]: std and std1, posix), that of every
+// header, and macros of systems and of the headers that a header includes.
+constexpr std::array<std::string_view, 9> kTakenNames = {"posix", "remap", "linux",    "unix", "i386",
+                                                         "NULL",  "NAN",   "INFINITY", "EOF"};
+
+bool is_taken(std::string_view id) {
+  const bool is_std =
+      id.starts_with("std") && id.find_first_not_of("0123456789", 3) == std::string_view::npos;
+  return is_std || std::find(kTakenNames.begin(), kTakenNames.end(), id) != kTakenNames.end() ||
+         std::find(kKeywords.begin(), kKeywords.end(), id) != kKeywords.end();
+}
+
+std::string identifier(const std::string& model) {
+  std::string text;
+  for (const char c : model) {
+    if (is_identifier_character(c))
+      text += c;
+    else if (!text.empty() && text.back() != '_')
+      text += '_';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string converter_id(const std::string& source_model, const std::string& target_model) {
+  return identifier(source_model) + "_to_" + identifier(target_model);
+}
+
+bool is_valid_id(const std::string& id) {
+  if (id.empty() || id.size() > kLongestName || id.find("__") != std::string::npos || is_taken(id))
+    return false;
+  const char first = id.front();
+  if (first == '_' || (first >= '0' && first <= '9')) return false;
+  return std::all_of(id.begin(), id.end(), [](char c) { return is_identifier_character(c) || c == '_'; });
+}
+
+bool is_valid_model(const std::string& name) {
+  const auto allowed = [](char c) {
+    return is_identifier_character(c) || c == '_' || c == '-' || c == '.' || c == '/';
+  };
+  return !name.empty() && name.size() <= kLongestName && std::all_of(name.begin(), name.end(), allowed);
+}
+
+bool is_valid_specular(const std::string& name) {
+  return is_valid_id(name) && !convention_from_name(name).has_value();
+}
+
+}  // namespace remap

@@ -1,0 +1,60 @@
+// The data of lowered fits that texremap reads, as the emitter writes it.
+#include "converter/converter_data.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "emit/emit.hpp"
+#include "lower/lower.hpp"
+#include "model/fit_file.hpp"
+#include "remap/error.hpp"
+
+using namespace remapc;
+
+namespace {
+
+remap::Fit shipped_fit() {
+  return remap::load_fit(std::string(REMAP_SOURCE_DIR) + "/fits/mitsuba_ward_duer_to_mitsuba_phong.json");
+}
+
+}  // namespace
+
+TEST_CASE("converter data: reads back exactly, in the order of their ids") {
+  const remap::Fit fit = shipped_fit();
+  remap::Fit other = fit;
+  other.converter->info.id = "a_to_b";
+  other.converter->info.image_rms_error = std::nullopt;
+  other.converter->info.ssim = std::nullopt;
+  const std::string text = emit_converter_list({fit, other});
+  CHECK(text == emit_converter_list({other, fit}));
+  CHECK(remap::converters_from_json(text, "list") ==
+        std::vector<remap::ConverterData>{*other.converter, *fit.converter});
+}
+
+TEST_CASE("converter data: the SSIM is the mean of the fit's spheres, in three digits") {
+  remap::Fit fit = shipped_fit();
+  const auto ssim = [&] {
+    add_converter(&fit);
+    return fit.converter->info.ssim;
+  };
+  fit.image_similarity->ssim = {{0.1, 0.5}, {0.5, 0.75}, {0.9, 0.751}};
+  CHECK(ssim() == 0.667);
+  fit.image_similarity->ssim.clear();
+  CHECK_FALSE(ssim().has_value());
+  fit.image_similarity.reset();
+  CHECK_FALSE(ssim().has_value());
+}
+
+TEST_CASE("converter data: a damaged file is refused with the place") {
+  const std::string text = emit_converter_list({shipped_fit()});
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& place) {
+    std::string damaged = text;
+    REQUIRE(damaged.find(from) != std::string::npos);
+    damaged.replace(damaged.find(from), from.size(), to);
+    CHECK_THROWS_WITH(remap::converters_from_json(damaged, "list"), Catch::StartsWith("list" + place));
+  };
+  refused("\"version\": 1", "\"version\": 2", ".version");
+  refused("\"ssim\": 0", "\"ssim\": \"0\", \"of\": 0", ".converters[0].ssim");
+  refused("\"cell_count\":16", "\"cell_count\":31", ".converters[0].alpha.coefficients");
+  refused("\"cell_count\":16", "\"cell_count\":0", ".converters[0].alpha.cell_count");
+  refused("\"roughness\":\"exponent\"", "\"roughness\":\"width\"", ".converters[0].target.roughness");
+}
