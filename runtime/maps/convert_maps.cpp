@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 
+#include "maps/linear_values.hpp"
 #include "remap/error.hpp"
 #include "remap/map_statistics.hpp"
 #include "text/number_text.hpp"
@@ -163,8 +164,9 @@ void Conversion::load_channel(const SourceParameter& parameter, std::size_t chan
   if (parameter.channels.empty()) {
     std::fill_n(values, segment.count, parameter.constants[channel]);
   } else {
-    load(parameter.channels[channel], segment, values);
-    to_linear(parameter.transfer, {values, segment.count});
+    const ConstChannelView& view = parameter.channels[channel];
+    load_linear(parameter.transfer, view.type, at(view, segment.x, segment.y),
+                static_cast<std::size_t>(view.texel_stride), segment.count, values);
   }
   const float factor = parameter.factor(channel);
   if (factor == 1.0f) return;
@@ -296,15 +298,14 @@ void Conversion::write_mask(const Segment& segment, Scratch& scratch) const {
 std::size_t Conversion::store_parameter(const TargetParameter& parameter, std::size_t channel,
                                         const Segment& segment, const float* values, FloatRow& stored) const {
   const ChannelView& view = parameter.channels[channel];
-  const bool dithered = maps_.dither && byte_count(view.type) == 1;
-  if (parameter.transfer == Transfer::kLinear && !dithered) return store(view, segment, values);
+  if (!maps_.dither || byte_count(view.type) != 1)
+    return store_linear(parameter.transfer, view.type, values, segment.count, at(view, segment.x, segment.y),
+                        static_cast<std::size_t>(view.texel_stride));
   std::copy_n(values, segment.count, stored.data());
   from_linear(parameter.transfer, {stored.data(), segment.count});
-  if (dithered) {
-    for (std::size_t i = 0; i < segment.count; ++i)
-      stored[i] = std::clamp(stored[i], 0.0f, 1.0f) +
-                  dither_noise(segment.x + i, maps_.first_row + segment.y, channel) / 255.0f;
-  }
+  for (std::size_t i = 0; i < segment.count; ++i)
+    stored[i] = std::clamp(stored[i], 0.0f, 1.0f) +
+                dither_noise(segment.x + i, maps_.first_row + segment.y, channel) / 255.0f;
   return store(view, segment, stored.data());
 }
 

@@ -226,31 +226,3 @@ TEST_CASE("copy_channel: equal types keep bits, other types keep values") {
   CHECK(bytes == std::vector<std::uint8_t>{128, 255, 0, 64});
   CHECK(clipped == 2);
 }
-
-TEST_CASE("transfer: sRGB is invertible and continuous") {
-  for (float value = -0.5f; value < 2.0f; value += 0.00711f) {
-    float changed = value;
-    to_linear(Transfer::kSrgb, {&changed, 1});
-    from_linear(Transfer::kSrgb, {&changed, 1});
-    CHECK(changed == Approx(value).margin(1e-6));
-  }
-  // Stokes et al. 1996, and the table of IEC 61966-2-1: 188 of 255 is about half.
-  float half = 188.0f / 255.0f;
-  to_linear(Transfer::kSrgb, {&half, 1});
-  CHECK(half == Approx(0.5029).margin(1e-4));
-}
-
-TEST_CASE("transfer: invalid roughness is clamped") {
-  float width = -0.5f;
-  change_convention(RoughnessConvention::kRoughness, RoughnessConvention::kAlpha, {&width, 1});
-  CHECK(width == 0.0f);
-  width = 3.0f;
-  change_convention(RoughnessConvention::kGlossiness, RoughnessConvention::kAlpha, {&width, 1});
-  CHECK(width == 0.0f);
-  width = NAN;
-  change_convention(RoughnessConvention::kGlossiness, RoughnessConvention::kAlpha, {&width, 1});
-  CHECK(std::isnan(width));
-  width = 0.0f;
-  change_convention(RoughnessConvention::kAlpha, RoughnessConvention::kExponent, {&width, 1});
-  CHECK(std::isinf(width));
-}
