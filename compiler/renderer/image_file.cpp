@@ -1,14 +1,11 @@
 #include "renderer/image_file.hpp"
 
+#include <algorithm>
 #include <array>
-#include <functional>
 #include <vector>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
+#include "images/image_library.hpp"
 #include "remap/error.hpp"
-#include "system/files.hpp"
 
 namespace remapc {
 namespace {
@@ -17,11 +14,15 @@ using remap::Error;
 using remap::ErrorKind;
 
 // Finds red, green and blue: by name, else the first three channels; a single channel serves as all three.
-std::array<int, 3> color_channels(const OIIO::ImageSpec& spec, const std::filesystem::path& path) {
-  if (spec.nchannels == 1) return {0, 0, 0};
-  const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
-  if (named[0] >= 0 && named[1] >= 0 && named[2] >= 0) return named;
-  if (spec.nchannels >= 3) return {0, 1, 2};
+std::array<std::size_t, 3> color_channels(const std::vector<std::string>& names,
+                                          const std::filesystem::path& path) {
+  if (names.size() == 1) return {0, 0, 0};
+  std::array<std::size_t, 3> named{};
+  for (std::size_t c = 0; c < named.size(); ++c)
+    named[c] = static_cast<std::size_t>(std::find(names.begin(), names.end(), std::string(1, "RGB"[c])) -
+                                        names.begin());
+  if (std::find(named.begin(), named.end(), names.size()) == named.end()) return named;
+  if (names.size() >= 3) return {0, 1, 2};
   throw Error(ErrorKind::kInput, path.string() + ": 2 channels found (provide R, G, B or one channel)");
 }
 
@@ -32,46 +33,24 @@ void require_extension(const std::filesystem::path& path, const std::string& ext
                 path.string() + ": the extension must be " + extension + " (" + expected + ")");
 }
 
-// Writes to a temporary name, lets `is_whole` check that file, then renames it.
-void write_picture(const std::filesystem::path& path, const Image& image, const OIIO::ImageSpec& spec,
-                   const std::function<bool(const std::filesystem::path&)>& is_whole) {
-  remap::create_parent(path);
-  const std::filesystem::path unfinished = remap::unfinished_name(path);
-  const auto output = OIIO::ImageOutput::create(unfinished.string());
-  const bool written = output && output->open(unfinished.string(), spec) &&
-                       output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) && output->close();
-  if (!written || !is_whole(unfinished)) {
-    std::string reason = output ? output->geterror() : OIIO::geterror();
-    if (reason.empty()) reason = "the file is incomplete";
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw Error(ErrorKind::kOutput,
-                path.string() + ": cannot be written: " + remap::with_final_name(reason, unfinished, path));
-  }
-  remap::commit_file(unfinished, path);
+// `channels` are names; without them one channel is Y and three are R, G, B.
+remap::Picture picture_of(const Image& image, const std::vector<std::string>& channels = {}) {
+  const std::vector<std::string> usual =
+      image.channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+  return {image.width, image.height, channels.empty() ? usual : channels, image.values};
 }
 
 }  // namespace
 
 Image read_rgb(const std::filesystem::path& path) {
-  const auto refuse = [&](const std::string& reason) {
-    throw Error(ErrorKind::kInput, path.string() + ": cannot be read: " + reason);
-  };
   remap::require_regular_file(path);
-  const auto input = OIIO::ImageInput::open(path.string());
-  if (!input) refuse(OIIO::geterror());
-  const OIIO::ImageSpec& spec = input->spec();
-  const std::array<int, 3> channels = color_channels(spec, path);
-  const auto count = static_cast<std::size_t>(spec.nchannels);
-  std::vector<float> values(spec.image_pixels() * count);
-  // OpenImageIO may read a truncated file without failing; only the pending error message shows it.
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()) || input->has_error())
-    refuse(input->geterror());
-  Image image{spec.width, spec.height, 3, {}};
-  image.values.reserve(3 * spec.image_pixels());
-  for (std::size_t start = 0; start < values.size(); start += count)
-    for (const int channel : channels)
-      image.values.push_back(values[start + static_cast<std::size_t>(channel)]);
+  const remap::Picture picture = remap::image_library().read_picture(path);
+  const std::array<std::size_t, 3> channels = color_channels(picture.channels, path);
+  Image image{picture.width, picture.height, 3, {}};
+  const std::size_t count = picture.channels.size();
+  image.values.reserve(picture.values.size() / count * 3);
+  for (std::size_t start = 0; start < picture.values.size(); start += count)
+    for (const std::size_t channel : channels) image.values.push_back(picture.values[start + channel]);
   return image;
 }
 
@@ -79,38 +58,14 @@ void write_exr(const std::filesystem::path& path, const Image& image,
                const std::map<std::string, std::string>& attributes,
                const std::vector<std::string>& channels) {
   require_extension(path, ".exr", "an OpenEXR file");
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
-  if (image.channels == 1) spec.channelnames = {"Y"};
-  if (!channels.empty()) spec.channelnames = channels;
-  spec.attribute("compression", "zip");
-  spec.attribute("oiio:ColorSpace", "Linear");
-  for (const auto& [key, value] : attributes) spec.attribute(key, value);
-  write_picture(path, image, spec, [](const std::filesystem::path&) { return true; });
+  remap::image_library().write_exr(path, picture_of(image, channels), attributes);
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {
   require_extension(path, ".png", "a PNG file");
-  const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
-  // OpenImageIO's PNG writer does not report a full disk, so the file is read back before it is renamed.
-  write_picture(path, image, spec, [&](const std::filesystem::path& unfinished) {
-    const auto input = OIIO::ImageInput::open(unfinished.string());
-    std::vector<unsigned char> bytes(image.values.size());
-    return input && input->spec().image_bytes() == bytes.size() &&
-           input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, bytes.data()) &&
-           !input->has_error();
-  });
+  remap::image_library().write_png(path, picture_of(image));
 }
 
-std::string png_bytes(const Image& image) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
-  const auto output = OIIO::ImageOutput::create("memory.png", &memory);
-  if (!output || !output->open("memory.png", spec) ||
-      !output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) || !output->close())
-    throw Error(ErrorKind::kOutput,
-                "PNG image: cannot be encoded: " + (output ? output->geterror() : OIIO::geterror()));
-  return {bytes.begin(), bytes.end()};
-}
+std::string png_bytes(const Image& image) { return remap::image_library().png_bytes(picture_of(image)); }
 
 }  // namespace remapc

@@ -1,4 +1,4 @@
-// Reads and writes the compiler's pictures. Only these two files of the compiler include OpenImageIO.
+// Reads and writes the compiler's pictures.
 #pragma once
 
 #include <filesystem>

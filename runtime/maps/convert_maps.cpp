@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <future>
 #include <limits>
 #include <memory>
 #include <span>
 
+#include "maps/linear_values.hpp"
 #include "remap/error.hpp"
 #include "remap/map_statistics.hpp"
 #include "text/number_text.hpp"
@@ -21,7 +23,11 @@ constexpr std::size_t kMaxChannels = 3;
 constexpr std::size_t kSegment = 2048;
 using FloatRow = std::array<float, kSegment>;
 
-bool is_ordinary(float value, float highest) { return value >= 0.0f && value <= highest; }
+// Without a branch, so that loops over it become vectors.
+bool is_ordinary(float value, float highest) {
+  const bool is_high_enough = value >= 0.0f, is_low_enough = value <= highest;
+  return is_high_enough & is_low_enough;
+}
 constexpr float kLargest = std::numeric_limits<float>::max();
 
 // Uniform noise in [-1/2, 1/2), a function of the position alone (finalizer of MurmurHash3, A. Appleby,
@@ -34,43 +40,51 @@ float dither_noise(std::size_t x, std::size_t y, std::size_t channel) {
   return static_cast<float>(bits >> 40) * 0x1p-24f - 0.5f;
 }
 
-// The rows of a segment: a row for each channel of each parameter.
+// The rows of a segment: a row for each channel of each parameter, of its own or in a map.
+template <typename Float>
 class SegmentRows {
  public:
-  // Makes the rows of a parameter and keeps existing rows.
+  // Makes own rows of a parameter, and keeps existing ones.
   void make(Parameter parameter, std::size_t count) {
-    std::vector<FloatRow>& rows = rows_[static_cast<std::size_t>(parameter)];
-    if (rows.size() < count) rows.resize(count);
-    counts_[static_cast<std::size_t>(parameter)] = count;
+    std::vector<FloatRow>& own = own_[static_cast<std::size_t>(parameter)];
+    if (own.size() < count) own.resize(count);
+    ParameterRows<Float>& rows = rows_[parameter];
+    rows.count = count;
+    for (std::size_t c = 0; c < count; ++c) rows.row[c] = own[c].data();
   }
-  std::size_t count(Parameter parameter) const { return counts_[static_cast<std::size_t>(parameter)]; }
-  float* row(Parameter parameter, std::size_t channel) {
-    return rows_[static_cast<std::size_t>(parameter)][channel].data();
+  // Takes a row of a map in place of an own one.
+  void refer(Parameter parameter, std::size_t channel, Float* row) { rows_[parameter].row[channel] = row; }
+
+  std::size_t count(Parameter parameter) const { return rows_[parameter].count; }
+  Float* row(Parameter parameter, std::size_t channel) const { return rows_[parameter].row[channel]; }
+  float* own_row(Parameter parameter, std::size_t channel) {
+    return own_[static_cast<std::size_t>(parameter)][channel].data();
   }
-  // All rows, from texel `begin` on.
-  template <typename Float>
-  MaterialRows<Float> all(std::size_t begin = 0) {
-    MaterialRows<Float> material;
-    for (std::size_t p = 0; p < kParameterCount; ++p) {
-      ParameterRows<Float>& rows = material[static_cast<Parameter>(p)];
-      rows.count = counts_[p];
-      for (std::size_t c = 0; c < rows.count; ++c) rows.row[c] = rows_[p][c].data() + begin;
-    }
-    return material;
-  }
+  const MaterialRows<Float>& all() const { return rows_; }
 
  private:
-  std::array<std::vector<FloatRow>, kParameterCount> rows_;
-  std::array<std::size_t, kParameterCount> counts_{};
+  std::array<std::vector<FloatRow>, kParameterCount> own_;
+  MaterialRows<Float> rows_;
 };
 
 // The parameters of one segment as rows of floats.
 struct Scratch {
-  SegmentRows source, target;
+  SegmentRows<const float> source;
+  SegmentRows<float> target;
   std::array<std::uint8_t, kSegment> outside;  // what a mask is written from
   FloatRow first, other;                       // copies of one value; what is stored
   FloatRow coverage;
 };
+
+// The values of a segment as an array of floats, if the memory of the map is one; else null.
+template <typename Byte>
+auto float_row(const BasicChannelView<Byte>& view, const Segment& segment) {
+  using Float = std::conditional_t<std::is_const_v<Byte>, const float, float>;
+  Byte* const first = at(view, segment.x, segment.y);
+  const bool is_array = view.type == PixelType::kFloat && view.texel_stride == sizeof(float) &&
+                        reinterpret_cast<std::uintptr_t>(first) % alignof(float) == 0;
+  return is_array ? reinterpret_cast<Float*>(first) : nullptr;
+}
 
 class Conversion {
  public:
@@ -82,8 +96,19 @@ class Conversion {
   const TargetParameter* wanted(Parameter parameter) const;
   bool is_made(Parameter parameter) const;
   float highest(Parameter parameter) const;
+  RoughnessConvention source_convention() const {
+    return maps_.source_convention.value_or(converter_.info().source.roughness);
+  }
+  RoughnessConvention target_convention() const {
+    return maps_.target_convention.value_or(converter_.info().target.roughness);
+  }
   void load_channel(const SourceParameter& parameter, std::size_t channel, const Segment& segment,
                     float* values) const;
+  const float* row_of_map(const SourceParameter& parameter, std::size_t channel,
+                          const Segment& segment) const;
+  void refer_to_targets(const Segment& segment, Scratch& scratch) const;
+  bool is_source_of_another(Parameter target, std::size_t channel, const float* row, std::size_t count,
+                            const Scratch& scratch) const;
   void require_grey(Parameter parameter, const Segment& segment, Scratch& scratch) const;
   void load_sources(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
   void meet_bad_texels(const Segment& segment, Scratch& scratch, MapStatistics& statistics) const;
@@ -158,17 +183,56 @@ float Conversion::highest(Parameter parameter) const {
   return !converter_.is_of_brdf() && parameter != Parameter::kWidth ? 1.0f : kLargest;
 }
 
+// The row of a map that can be read in place of a loaded one; null if its values must be changed.
+const float* Conversion::row_of_map(const SourceParameter& parameter, std::size_t channel,
+                                    const Segment& segment) const {
+  const bool is_plain = !parameter.channels.empty() && parameter.transfer == Transfer::kLinear &&
+                        parameter.factor(channel) == 1.0f;
+  return is_plain ? float_row(parameter.channels[channel], segment) : nullptr;
+}
+
 void Conversion::load_channel(const SourceParameter& parameter, std::size_t channel, const Segment& segment,
                               float* values) const {
   if (parameter.channels.empty()) {
     std::fill_n(values, segment.count, parameter.constants[channel]);
   } else {
-    load(parameter.channels[channel], segment, values);
-    to_linear(parameter.transfer, {values, segment.count});
+    const ConstChannelView& view = parameter.channels[channel];
+    load_linear(parameter.transfer, view.type, at(view, segment.x, segment.y),
+                static_cast<std::size_t>(view.texel_stride), segment.count, values);
   }
   const float factor = parameter.factor(channel);
   if (factor == 1.0f) return;
   for (std::size_t i = 0; i < segment.count; ++i) values[i] *= factor;
+}
+
+// Writes rows of a map in place of own ones where the map holds floats as they are and no source row that is
+// still read.
+void Conversion::refer_to_targets(const Segment& segment, Scratch& scratch) const {
+  for (const auto& [parameter, target] : maps_.targets) {
+    const bool changes =
+        parameter == Parameter::kWidth && target_convention() != converter_.info().target.roughness;
+    if (changes || target.transfer != Transfer::kLinear) continue;
+    const std::size_t count = std::min(scratch.target.count(parameter), target.channels.size());
+    for (std::size_t c = 0; c < count; ++c) {
+      float* const row = float_row(target.channels[c], segment);
+      if (row != nullptr && !is_source_of_another(parameter, c, row, segment.count, scratch))
+        scratch.target.refer(parameter, c, row);
+    }
+  }
+}
+
+// Whether a row of the segment's sources shares memory with `row`, apart from the row of the same channel,
+// which it may be.
+bool Conversion::is_source_of_another(Parameter target, std::size_t channel, const float* row,
+                                      std::size_t count, const Scratch& scratch) const {
+  const std::less<const float*> before;
+  for (const Parameter parameter : sources_)
+    for (std::size_t c = 0; c < scratch.source.count(parameter); ++c) {
+      const float* const source = scratch.source.row(parameter, c);
+      const bool is_same = source == row && parameter == target && c == channel;
+      if (!is_same && before(source, row + count) && before(row, source + count)) return true;
+    }
+  return false;
 }
 
 void Conversion::require_grey(Parameter parameter, const Segment& segment, Scratch& scratch) const {
@@ -215,11 +279,18 @@ void Conversion::load_sources(const Segment& segment, Scratch& scratch, MapStati
     const std::size_t count = is_color(parameter) ? channel_count(source) : 1;
     if (!is_color(parameter)) require_grey(parameter, segment, scratch);
     scratch.source.make(parameter, count);
+    const bool changes =
+        maps_.bad_texels == BadTexels::kClamp ||
+        (parameter == Parameter::kWidth && source_convention() != converter_.info().source.roughness);
     for (std::size_t c = 0; c < count; ++c) {
-      float* const row = scratch.source.row(parameter, c);
-      load_channel(source, c, segment, row);
+      const float* const stored = changes ? nullptr : row_of_map(source, c, segment);
+      if (stored != nullptr)
+        scratch.source.refer(parameter, c, stored);
+      else
+        load_channel(source, c, segment, scratch.source.own_row(parameter, c));
       if (maps_.value_statistics)
-        statistics.sources[parameter] += value_statistics(segment.count, row, scratch);
+        statistics.sources[parameter] +=
+            value_statistics(segment.count, scratch.source.row(parameter, c), scratch);
     }
   }
 }
@@ -249,9 +320,13 @@ void Conversion::meet_bad_texels(const Segment& segment, Scratch& scratch, MapSt
   for (const Parameter parameter : sources_)
     for (std::size_t c = 0; c < scratch.source.count(parameter); ++c)
       rows.push_back({scratch.source.row(parameter, c), highest(parameter)});
-  std::size_t odd = 0;
-  for (const CheckedRow& row : rows)
-    for (std::size_t i = 0; i < segment.count; ++i) odd += !is_ordinary(row.values[i], row.highest);
+  constexpr std::size_t kRun = 128;  // of one row: memory delivers several rows at once faster than one
+  int odd = 0;                       // as wide as a float, so that the loop becomes vectors
+  for (std::size_t begin = 0; begin < segment.count; begin += kRun) {
+    const std::size_t end = std::min(segment.count, begin + kRun);
+    for (const CheckedRow& row : rows)
+      for (std::size_t i = begin; i < end; ++i) odd |= !is_ordinary(row.values[i], row.highest);
+  }
   if (odd == 0) return;  // the usual case, detected at the speed of memory
   for (std::size_t i = 0; i < segment.count; ++i) {
     bool nan = false, infinite = false, negative = false, above = false;
@@ -284,7 +359,7 @@ void Conversion::clamp_bad(std::size_t count, Scratch& scratch) const {
     if (parameter == Parameter::kWidth) range = converter_.info().roughness;
     if (parameter == Parameter::kSpecular) range.max = converter_.info().specular.max;
     for (std::size_t c = 0; c < scratch.source.count(parameter); ++c)
-      clamp(scratch.source.row(parameter, c), range);
+      clamp(scratch.source.own_row(parameter, c), range);
   }
 }
 
@@ -296,15 +371,14 @@ void Conversion::write_mask(const Segment& segment, Scratch& scratch) const {
 std::size_t Conversion::store_parameter(const TargetParameter& parameter, std::size_t channel,
                                         const Segment& segment, const float* values, FloatRow& stored) const {
   const ChannelView& view = parameter.channels[channel];
-  const bool dithered = maps_.dither && byte_count(view.type) == 1;
-  if (parameter.transfer == Transfer::kLinear && !dithered) return store(view, segment, values);
+  if (!maps_.dither || byte_count(view.type) != 1)
+    return store_linear(parameter.transfer, view.type, values, segment.count, at(view, segment.x, segment.y),
+                        static_cast<std::size_t>(view.texel_stride));
   std::copy_n(values, segment.count, stored.data());
   from_linear(parameter.transfer, {stored.data(), segment.count});
-  if (dithered) {
-    for (std::size_t i = 0; i < segment.count; ++i)
-      stored[i] = std::clamp(stored[i], 0.0f, 1.0f) +
-                  dither_noise(segment.x + i, maps_.first_row + segment.y, channel) / 255.0f;
-  }
+  for (std::size_t i = 0; i < segment.count; ++i)
+    stored[i] = std::clamp(stored[i], 0.0f, 1.0f) +
+                dither_noise(segment.x + i, maps_.first_row + segment.y, channel) / 255.0f;
   return store(view, segment, stored.data());
 }
 
@@ -319,8 +393,9 @@ void Conversion::store_targets(const Segment& segment, Scratch& scratch, MapStat
     if (target == nullptr) continue;
     std::size_t clipped = 0;
     for (std::size_t c = 0; c < target->channels.size(); ++c) {
-      const std::size_t own = store_parameter(
-          *target, c, segment, scratch.target.row(parameter, std::min(c, made - 1)), scratch.other);
+      const float* const row = scratch.target.row(parameter, std::min(c, made - 1));
+      const bool is_there = row == float_row(target->channels[c], segment);
+      const std::size_t own = is_there ? 0 : store_parameter(*target, c, segment, row, scratch.other);
       clipped = is_color(parameter) ? clipped + own : own;  // equal channels count once
     }
     statistics.clipped_count += clipped;
@@ -337,23 +412,23 @@ void Conversion::convert_segment(const Segment& segment, Scratch& scratch, MapSt
   load_sources(segment, scratch, statistics);
   statistics.texel_count += count;
   meet_bad_texels(segment, scratch, statistics);
-  change_convention(maps_.source_convention.value_or(info.source.roughness), info.source.roughness,
-                    {scratch.source.row(Parameter::kWidth, 0), count});
+  change_convention(source_convention(), info.source.roughness,
+                    {scratch.source.own_row(Parameter::kWidth, 0), count});
   if (maps_.bad_texels == BadTexels::kClamp) clamp_bad(count, scratch);
 
   const std::size_t specular = scratch.source.count(Parameter::kSpecular);
   for (const Parameter parameter : converter_.targets())
     if (is_made(parameter)) scratch.target.make(parameter, converter_.target_channels(parameter, specular));
-  statistics.out_of_domain_count +=
-      converter_.convert(count, scratch.source.all<const float>(), scratch.target.all<float>(),
-                         maps_.mask ? scratch.outside.data() : nullptr);
+  refer_to_targets(segment, scratch);
+  statistics.out_of_domain_count += converter_.convert(count, scratch.source.all(), scratch.target.all(),
+                                                       maps_.mask ? scratch.outside.data() : nullptr);
   if (maps_.mask) write_mask(segment, scratch);
   if (converter_.can_diagnose() && maps_.metallic_statistics)
     statistics.metallic += statistics_of(count, {{segment.x, maps_.first_row + segment.y},
                                                  scratch.target.row(Parameter::kResidual, 0),
                                                  scratch.target.row(Parameter::kDoubts, 0),
                                                  maps_.coverage ? scratch.coverage.data() : nullptr});
-  change_convention(info.target.roughness, maps_.target_convention.value_or(info.target.roughness),
+  change_convention(info.target.roughness, target_convention(),
                     {scratch.target.row(Parameter::kWidth, 0), count});
   store_targets(segment, scratch, statistics);
 }

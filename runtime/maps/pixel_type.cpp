@@ -46,21 +46,32 @@ Stored from_float(float value) noexcept {
   }
 }
 
+// Calls `work` with the stride, as a constant for packed values, whose loops compilers vectorise.
+template <std::size_t kSize, typename Work>
+void with_stride(std::size_t stride, Work work) noexcept {
+  if (stride == kSize) return work(std::integral_constant<std::size_t, kSize>{});
+  work(stride);
+}
+
 template <typename Stored>
 void load(const std::byte* first, std::size_t stride, std::size_t count, float* values) noexcept {
-  for (std::size_t i = 0; i < count; ++i) {
-    Stored stored;
-    std::memcpy(&stored, first + i * stride, sizeof stored);
-    values[i] = to_float(stored);
-  }
+  with_stride<sizeof(Stored)>(stride, [=](auto step) {
+    for (std::size_t i = 0; i < count; ++i) {
+      Stored stored;
+      std::memcpy(&stored, first + i * step, sizeof stored);
+      values[i] = to_float(stored);
+    }
+  });
 }
 
 template <typename Stored>
 std::size_t store(const float* values, std::size_t count, std::byte* first, std::size_t stride) noexcept {
-  for (std::size_t i = 0; i < count; ++i) {
-    const Stored stored = from_float<Stored>(values[i]);
-    std::memcpy(first + i * stride, &stored, sizeof stored);
-  }
+  with_stride<sizeof(Stored)>(stride, [=](auto step) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Stored stored = from_float<Stored>(values[i]);
+      std::memcpy(first + i * step, &stored, sizeof stored);
+    }
+  });
   if constexpr (!std::is_integral_v<Stored>) return 0;
   constexpr float kLowest = std::is_signed_v<Stored> ? -1.0f : 0.0f;
   std::size_t clipped = 0;

@@ -127,7 +127,7 @@ void note_colors(const TextureSet& set, const std::vector<TargetMap>& targets, J
       for (std::size_t c = 0; c < part.channels.size(); ++c) {
         const auto* channel = std::get_if<ConvertedChannel>(&part.channels[c]);
         if (channel == nullptr || !is_color(channel->parameter) || channel->index > 0) continue;
-        const PixelType type = target.writer.layout(static_cast<int>(p)).channels[c].type;
+        const PixelType type = target.writer->layout(static_cast<int>(p)).channels[c].type;
         const ColorStorage& storage = *part.changes.colors;
         const auto source = set.parameters.find(channel->parameter);
         const bool is_asked =
@@ -220,15 +220,15 @@ void JobRunner::note_doubts(const TextureSet& set, const std::vector<TargetMap>&
     const auto note = [&](const std::string& name, const std::string& value) {
       const auto has_name = [&](const CarriedParameter& carried) { return carried.name == name; };
       if (std::none_of(set.carried.begin(), set.carried.end(), has_name))
-        report.warnings.push_back(targets.front().writer.path().string() + ": no " + name + " map; " + name +
+        report.warnings.push_back(targets.front().writer->path().string() + ": no " + name + " map; " + name +
                                   " is set to " + value);
     };
     note("occlusion", "1");
     if (!chosen_.workflow.is_to_metallic()) note("metallic", "0");
   }
   for (const TargetMap& target : targets) {
-    if (const std::string& lossy = target.writer.layout().lossy_compression; !lossy.empty())
-      report.warnings.push_back(target.writer.path().string() + ": " + lossy +
+    if (const std::string& lossy = target.writer->layout().lossy_compression; !lossy.empty())
+      report.warnings.push_back(target.writer->path().string() + ": " + lossy +
                                 " compression changes values (--format png or exr keeps them)");
   }
 }
@@ -264,10 +264,10 @@ void JobRunner::commit(const ConversionJob& job, const TargetPlan& plan, const s
   for (const PlannedCopy& copy : plan.copies) copies.add(copy);
   std::vector<FinishedFile> files;
   for (const TargetMap& target : finished)
-    files.push_back(finished_file(target.writer.path(), target.writer.finished_file()));
+    files.push_back(finished_file(target.writer->path(), target.writer->finished_file()));
   for (const auto& [unfinished, path] : copies.files()) files.push_back(finished_file(path, unfinished));
   journal_.commit(job.name + (job.tile.empty() ? "" : " " + job.tile), inputs, files, options_.force, [&] {
-    for (TargetMap& target : finished) target.writer.commit(Flush::kNo);
+    for (TargetMap& target : finished) target.writer->commit(Flush::kNo);
     for (const auto& [unfinished, path] : copies.files()) commit_file(unfinished, path, Flush::kNo);
   });
   std::error_code ignored;
@@ -313,7 +313,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   note_doubts(set, targets, report);
   note_colors(set, targets, report);
   for (const TargetMap& target : targets)
-    for (const Channel& channel : target.writer.layout().channels)
+    for (const Channel& channel : target.writer->layout().channels)
       report.has_8_bits = report.has_8_bits || channel.type == PixelType::kUint8;
   if (options_.dither && !is_tree_) require_8_bits(report.has_8_bits);
   PassOptions pass = pass_;

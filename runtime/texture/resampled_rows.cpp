@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "maps/linear_values.hpp"
+
 namespace remap {
 namespace {
 
@@ -68,9 +70,8 @@ const std::vector<float>& ResampledRows::stored_row(std::size_t number) {
       held_.data() + (number - static_cast<std::size_t>(held_begin_)) * stored_.row_bytes();
   for (std::size_t c = 0; c < stored_.channels.size(); ++c) {
     float* values = row.values.data() + c * width;
-    load_values(stored_.channels[c].type, texels + stored_.channels[c].offset, stored_.texel_bytes, width,
-                values);
-    to_linear(transfers_[c], {values, width});
+    load_linear(transfers_[c], stored_.channels[c].type, texels + stored_.channels[c].offset,
+                stored_.texel_bytes, width, values);
   }
   return row.values;
 }

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "texture/image_io.hpp"
+#include "images/image_layout.hpp"
 
 namespace remap {
 
@@ -13,7 +13,7 @@ namespace remap {
 // transfer curve are interpolated as linear light. Holds the stored rows of one band.
 class ResampledRows {
  public:
-  // Reads `count` stored rows from `first`; for tiled files with the rules of ImageReader::read_rows.
+  // Reads `count` stored rows from `first`; for tiled files with the rules of StoredImage::read_rows.
   using ReadStored = std::function<void(int first, int count, std::byte* texels)>;
 
   // `stored` is the layout in the file; `width` and `height` are at least those of the file; `transfers` has

@@ -366,9 +366,9 @@ std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& pla
   create_parent(choice.folder / "any file");
   std::vector<TargetMap> targets;
   for (const PlannedMap& map : plan.maps) {
-    std::vector<ImagePart> parts;
-    for (const TargetPart& part : map.parts) parts.push_back({&set.maps[part.model], part.changes});
-    targets.push_back({ImageWriter(map.path, parts), map.parts});
+    std::vector<NewPart> parts;
+    for (const TargetPart& part : map.parts) parts.push_back({&set.maps[part.model].stored(), part.changes});
+    targets.push_back({image_library().create(map.path, parts), map.parts});
   }
   return targets;
 }

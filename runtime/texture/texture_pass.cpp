@@ -33,7 +33,7 @@ const ChannelPlace* copied(const TargetChannel& channel) { return std::get_if<Ch
 
 // A part of a file, with its writer.
 struct Target {
-  ImageWriter* writer = nullptr;
+  NewImage* writer = nullptr;
   const TargetPart* part = nullptr;
 };
 
@@ -72,11 +72,11 @@ std::vector<Round> rounds_of(const TextureSet& set, std::vector<TargetMap>& targ
   std::vector<Round> rounds;
   std::vector<Target> single;
   for (TargetMap& target : targets)
-    if (target.parts.size() == 1) single.push_back({&target.writer, &target.parts.front()});
+    if (target.parts.size() == 1) single.push_back({target.writer.get(), &target.parts.front()});
   if (!single.empty()) rounds.emplace_back(set, single, 0);
   for (TargetMap& target : targets)
     for (std::size_t part = 0; target.parts.size() > 1 && part < target.parts.size(); ++part)
-      rounds.emplace_back(set, std::vector<Target>{{&target.writer, &target.parts[part]}},
+      rounds.emplace_back(set, std::vector<Target>{{target.writer.get(), &target.parts[part]}},
                           static_cast<int>(part));
   return rounds;
 }
@@ -399,11 +399,11 @@ MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
       if (level == 0 && statistics.texel_count == 0) statistics = plane;
     }
   }
-  for (TargetMap& target : targets) target.writer.finish();
+  for (TargetMap& target : targets) target.writer->finish();
   if (options.commit)
     options.commit(targets);
   else
-    for (TargetMap& target : targets) target.writer.commit();
+    for (TargetMap& target : targets) target.writer->commit(Flush::kYes);
   return statistics;
 }
 

@@ -10,7 +10,7 @@
 
 #include "remap/convert_maps.hpp"
 #include "remap/converter.hpp"
-#include "texture/image_io.hpp"
+#include "texture/image_reader.hpp"
 #include "texture/texture_set.hpp"
 
 namespace remap {
@@ -36,7 +36,7 @@ struct TargetPart {
 
 // One result file.
 struct TargetMap {
-  ImageWriter writer;
+  std::unique_ptr<NewImage> writer;
   std::vector<TargetPart> parts;
 };
 
@@ -49,7 +49,7 @@ struct PassOptions : MapTreatment {
   // twice. The converter must be able to diagnose.
   bool smooth_metallic = false;
   std::function<void(double share_done)> progress;
-  // Gives the finished files their names; by default by ImageWriter::commit() of each.
+  // Gives the finished files their names; by default by NewImage::commit() of each.
   std::function<void(std::vector<TargetMap>& finished)> commit;
   const std::atomic<bool>* cancelled = nullptr;  // checked between bands
 };

@@ -14,7 +14,7 @@
 #include "remap/convention.hpp"
 #include "remap/material_rows.hpp"
 #include "remap/transfer.hpp"
-#include "texture/image_io.hpp"
+#include "texture/image_reader.hpp"
 
 namespace remap {
 

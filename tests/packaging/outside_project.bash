@@ -12,11 +12,23 @@ trap 'rm -rf "$project"' EXIT
 cp -r "$source_folder/examples/outside_project/." "$project"
 
 expect_exit 0 cmake --install "$build" --prefix "$prefix"
-for file in bin/remapc bin/texremap include/remap/$id.hpp include/remap/LICENSE include/remap/version.hpp; do
+for file in bin/remapc bin/texremap lib/remap/images.so include/remap/$id.hpp include/remap/LICENSE include/remap/version.hpp; do
   [[ -f $prefix/$file ]] || fail "$file: is not installed"
 done
 ! grep -rlF -e "$source_folder" -e "$build" "$prefix"/lib* "$prefix/include" ||
   fail "an installed file names a folder of the build"
+
+# The installed programs find the module that reads images, and say what to do where it is missing.
+map=$work/map.exr
+expect_exit 0 "$prefix/bin/remapc" render --model mitsuba/ggx --set alpha=0.3 --set f0=0.5,0.4,0.3 --resolution 8 -o "$map"
+convert_map() {
+  "$prefix/bin/texremap" convert --from mitsuba/ward --to mitsuba/ggx --roughness "$map:R" --specular 0.5 -o "$work/converted" --force
+}
+expect_exit 0 convert_map
+mv "$prefix/lib/remap/images.so" "$work"
+expect_exit 1 convert_map
+expect_output "lib/remap/images.so: file not found; it reads and writes images (install it with the programs, by cmake --install)"
+mv "$work/images.so" "$prefix/lib/remap"
 
 configure() {
   cmake -S "$project" -B "$project/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \

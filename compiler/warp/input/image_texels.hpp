@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "texture/image_io.hpp"
+#include "texture/image_reader.hpp"
 
 namespace remapc {
 

@@ -11,7 +11,7 @@
 #include "table/csv.hpp"
 #include "text/errors.hpp"
 #include "text/number_text.hpp"
-#include "texture/image_io.hpp"
+#include "texture/image_reader.hpp"
 #include "warp/input/image_texels.hpp"
 
 namespace remapc {

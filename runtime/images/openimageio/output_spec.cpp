@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "images/openimageio/openimageio.hpp"
 #include "remap/error.hpp"
-#include "texture/image_library.hpp"
 
 namespace remap {
 namespace {

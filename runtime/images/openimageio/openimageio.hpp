@@ -1,15 +1,16 @@
-// Shared by the reader and the writer of images: the only header that includes OpenImageIO. Private to
-// image_reader.cpp, image_writer.cpp and output_spec.cpp.
+// Shared by the files of the module of images, which alone include OpenImageIO.
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
 
-#include "texture/image_io.hpp"
-#include "texture/resampled_rows.hpp"
+#include "images/image_library.hpp"
 
 namespace remap {
 
@@ -33,23 +34,17 @@ OIIO::TypeDesc native_type(const OIIO::ImageSpec& spec);
 ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& format,
                       const std::filesystem::path& path);
 
-struct ImageReader::State {
-  std::filesystem::path path;
-  std::unique_ptr<OIIO::ImageInput> input;
-  int part = 0;
-  int part_count = 0;
-  int level = 0;
-  std::vector<OIIO::ImageSpec> levels;  // of the levels of the part, at the size of reading
-  ImageLayout layout;                   // of `level`
-  std::unique_ptr<ResampledRows> resampled;
+std::unique_ptr<StoredImage> open_image(const std::filesystem::path& path, int part);
+std::unique_ptr<NewImage> create_image(const std::filesystem::path& path, const std::vector<NewPart>& parts);
 
-  const OIIO::ImageSpec& spec() const { return levels[static_cast<std::size_t>(level)]; }
-  void open();
-  void find_planes();
-  // Reads rows at the size of the file.
-  void read_rows(int first_row, int row_count, std::byte* texels);
-  [[noreturn]] void fail(const std::string& what) const;
-};
+// The levels of a stored image, as new images follow them.
+const std::vector<OIIO::ImageSpec>& followed_levels(const StoredImage& image);
+
+Picture read_picture(const std::filesystem::path& path);
+void write_exr_picture(const std::filesystem::path& path, const Picture& picture,
+                       const std::map<std::string, std::string>& attributes);
+void write_png_picture(const std::filesystem::path& path, const Picture& picture);
+std::string png_picture_bytes(const Picture& picture);
 
 // The description of a new file that follows `model` in everything except `changes`, as far as the format of
 // `output` can hold it. Throws kOutput, naming `path`, if it cannot hold the channels or the requested type.

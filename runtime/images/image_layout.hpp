@@ -1,0 +1,74 @@
+// Layouts of images in files, and what a new image changes in that of another.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "remap/channel_view.hpp"
+#include "remap/transfer.hpp"
+
+namespace remap {
+
+struct Channel {
+  std::string name;
+  PixelType type = PixelType::kFloat;
+  std::size_t offset = 0;  // in a texel, in bytes
+  bool operator==(const Channel&) const = default;
+};
+
+// The layout of the texels of an image in memory and in the file.
+struct ImageLayout {
+  int width = 0;
+  int height = 0;
+  int x = 0;  // position of the first texel: the corner of the data window of an EXR
+  int y = 0;
+  std::vector<Channel> channels;
+  std::size_t texel_bytes = 0;              // texels are interleaved and packed
+  int alpha_channel = -1;                   // index; -1 for none
+  int tile_height = 0;                      // 0 for a file that is stored by rows
+  std::string format;                       // name in OpenImageIO: "openexr", "tiff", "png", "jpeg", ...
+  std::string lossy_compression;            // empty for a lossless file
+  std::optional<Transfer> tagged_transfer;  // of colors, where the file has a tag for it
+
+  std::size_t row_bytes() const noexcept { return static_cast<std::size_t>(width) * texel_bytes; }
+};
+
+// Whether two images have the same number of channels with the same types.
+inline bool same_pixel_types(const ImageLayout& a, const ImageLayout& b) noexcept {
+  return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
+                    [](const Channel& x, const Channel& y) { return x.type == y.type; });
+}
+
+// A channel of rows with this layout in memory.
+template <typename Byte>
+BasicChannelView<Byte> channel_view(Byte* texels, const ImageLayout& layout, std::size_t channel) {
+  return {texels + layout.channels[channel].offset, layout.channels[channel].type,
+          static_cast<std::ptrdiff_t>(layout.texel_bytes), static_cast<std::ptrdiff_t>(layout.row_bytes())};
+}
+
+using Metadata = std::vector<std::pair<std::string, std::string>>;  // name and text
+
+// How a new image stores its colors, by the pixel type that it has.
+struct ColorStorage {
+  std::optional<Transfer> chosen;    // by the user
+  std::optional<Transfer> followed;  // by the whole numbers of the map that the colors follow
+
+  Transfer of(PixelType type) const {
+    const Transfer usual = usual_color_transfer(type);
+    return chosen.value_or(is_integer(type) ? followed.value_or(usual) : usual);
+  }
+};
+
+// The differences of a new image from the image that it follows.
+struct ImageChanges {
+  std::optional<PixelType> type;                     // of all channels
+  std::optional<std::vector<std::string>> channels;  // new channels, all of the type of the first old one
+  std::optional<ColorStorage> colors;                // none: all channels are data
+  Metadata metadata;                                 // added; TIFF and JPEG hold it in the tag Software
+};
+
+}  // namespace remap
