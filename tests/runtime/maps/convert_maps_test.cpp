@@ -92,7 +92,7 @@ TEST_CASE("convert_maps: packed planes, apart, in place, exchanged and unaligned
   enum class Targets { kApart, kInPlace, kNextPlane, kReversed };
   const Targets targets =
       GENERATE(Targets::kApart, Targets::kInPlace, Targets::kNextPlane, Targets::kReversed);
-  const std::size_t misplaced = GENERATE(0, 1);  // bytes
+  const std::size_t misplaced = GENERATE(std::size_t{0}, std::size_t{1});  // bytes
   const BadTexels bad = GENERATE(BadTexels::kKeep, BadTexels::kClamp);
   const auto converter = make_lowered_converter(example_fit());
   constexpr std::size_t kPlane = kWidth * kHeight * sizeof(float);
