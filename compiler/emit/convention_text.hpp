@@ -1,7 +1,7 @@
 // What the conventions of widths are called in generated headers.
 #pragma once
 
-#include "remap/convention.hpp"
+#include "remap/model.hpp"
 
 namespace remapc {
 

@@ -159,9 +159,9 @@ std::string digits(double value) { return number_text(rounded_up(value, 2)); }
 
 // Searches growing tolerances for the smallest one that can be met, and throws it.
 [[noreturn]] void refuse(const Wanted& wanted, const LoweredFunction& best, Attempt* attempt) {
-  const std::string found = std::string("lower: ") + wanted.name + " cannot be had within " +
-                            digits(wanted.tolerance) + wanted.unit_text + " with a table of " +
-                            std::to_string(kMostNumbers) + " numbers; ";
+  const std::string found = std::string("lower: ") + wanted.name + " needs more than " +
+                            std::to_string(kMostNumbers) + " numbers to stay within " +
+                            digits(wanted.tolerance) + wanted.unit_text + "; ";
   constexpr int kTries = 40;
   double reached = std::min(best.bound, 2.0 * attempt->closest()) / wanted.unit;
   double tolerance = 1.5 * wanted.tolerance;
@@ -170,8 +170,7 @@ std::string digits(double value) { return number_text(rounded_up(value, 2)); }
     tolerance = rounded_up(tolerance, 2);
     const LoweredFunction lowered = search(wanted, tolerance * wanted.unit, attempt);
     if (lowered.bound <= tolerance * wanted.unit)
-      throw Error(ErrorKind::kNumeric,
-                  found + "the bound that can be proven is " + digits(tolerance) + wanted.unit_text);
+      throw Error(ErrorKind::kNumeric, found + digits(tolerance) + wanted.unit_text + " can be proven");
     reached = lowered.bound / wanted.unit;
     tolerance *= attempt->budget_is_spent() ? 3.0 : 2.0;
   }
@@ -182,9 +181,9 @@ LoweredFunction lower_output(const Wanted& wanted) {
   Attempt attempt(wanted);
   const double tolerance = wanted.tolerance * wanted.unit;
   if (!std::isfinite(tolerance))
-    throw Error(ErrorKind::kNumeric, std::string("lower: ") + wanted.name + " cannot be had within " +
-                                         digits(wanted.tolerance) + wanted.unit_text +
-                                         ", which is not finite; no bound can be proven");
+    throw Error(ErrorKind::kNumeric, std::string("lower: ") + wanted.name +
+                                         " is so large that its tolerance " + digits(wanted.tolerance) +
+                                         wanted.unit_text + " is not finite");
   LoweredFunction best = search(wanted, tolerance, &attempt);
   if (!(best.bound <= tolerance)) refuse(wanted, best, &attempt);
   return best;

@@ -6,7 +6,7 @@
 
 #include "model/fit.hpp"
 #include "model/workflow_fit.hpp"
-#include "remap/warp_fit.hpp"
+#include "remap/warp.hpp"
 
 namespace remap {
 

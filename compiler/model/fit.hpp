@@ -11,8 +11,7 @@
 #include "converter/converter_data.hpp"
 #include "model/mapping.hpp"
 #include "model/regimes.hpp"
-#include "remap/model_side.hpp"
-#include "remap/range.hpp"
+#include "remap/model.hpp"
 
 namespace remap {
 

@@ -1,5 +1,5 @@
 // The kinds of mapping that a fit can hold: target alpha and target specular as functions of source alpha
-// (convention.hpp) and source specular. Specular is mapped channel by channel. If target alpha depends on
+// (remap/model.hpp) and source specular. Specular is mapped channel by channel. If target alpha depends on
 // specular, that of the largest channel is used, which is the visible highlight.
 #pragma once
 
@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "remap/network.hpp"
-#include "remap/range.hpp"
+#include "remap/model.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "remap/convention.hpp"
+#include "remap/model.hpp"
 #include "renderer/fresnel.hpp"
 
 namespace remapc {

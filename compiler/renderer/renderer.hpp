@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model/fit.hpp"
-#include "remap/convention.hpp"
+#include "remap/model.hpp"
 #include "renderer/image.hpp"
 #include "renderer/scene.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "remap/compiled_warp.hpp"
+#include "remap/warp.hpp"
 #include "renderer/brdf.hpp"
 #include "renderer/image.hpp"
 #include "warp/space/material.hpp"

@@ -2,7 +2,6 @@
 // buffer holds specular (sRGB) and glossiness in its alpha channel, and is converted in place.
 #include <cstdint>
 #include <cstdio>
-#include <remap/chained_converter.hpp>
 #include <remap/convert_maps.hpp>
 #include <remap/error.hpp>
 #include <remap/path.hpp>

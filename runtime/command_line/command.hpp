@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "remap/named_values.hpp"
+#include "remap/model.hpp"
 
 namespace CLI {
 class App;

@@ -1,11 +1,10 @@
-#include "remap/chained_converter.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
 
 #include "remap/error.hpp"
+#include "remap/path.hpp"
 
 namespace remap {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "remap/chained_converter.hpp"
+#include "remap/path.hpp"
 
 namespace remap {
 namespace {

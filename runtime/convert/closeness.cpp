@@ -1,9 +1,7 @@
-#include "remap/closeness.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "remap/chained_converter.hpp"
+#include "remap/path.hpp"
 #include "text/number_text.hpp"
 
 namespace remap {

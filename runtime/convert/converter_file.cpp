@@ -1,6 +1,9 @@
 #include "convert/converter_file.hpp"
 
+#include <utility>
+
 #include "converter/converter_fields.hpp"
+#include "remap/error.hpp"
 #include "system/files.hpp"
 #include "warp/warp_json.hpp"
 
@@ -23,6 +26,12 @@ FittedConverter fitted_converter_from_json(std::string_view text, const std::str
 
 FittedConverter load_fitted_converter(const std::filesystem::path& path) {
   return fitted_converter_from_json(read_file(path), path.string());
+}
+
+WarpMapFit load_warp_fit(const std::filesystem::path& path) {
+  FittedConverter fit = load_fitted_converter(path);
+  if (auto* warp = std::get_if<WarpMapFit>(&fit)) return std::move(*warp);
+  throw Error(ErrorKind::kInput, path.string() + ": not the fit of a warp (`remapc warp` makes them)");
 }
 
 }  // namespace remap

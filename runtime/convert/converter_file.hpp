@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "converter/converter_data.hpp"
-#include "remap/warp_fit.hpp"
+#include "remap/warp.hpp"
 
 namespace remap {
 

@@ -1,9 +1,8 @@
-#include "remap/instruction_set.hpp"
-
 #include <algorithm>
 #include <array>
 
 #include "convert/instruction_target.hpp"
+#include "remap/converter.hpp"
 #include "remap/error.hpp"
 #include "text/nearest_name.hpp"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "converter/lowered.hpp"
-#include "remap/convention.hpp"
-#include "remap/instruction_set.hpp"
+#include "remap/converter.hpp"
+#include "remap/model.hpp"
 
 namespace remap {
 

@@ -1,8 +1,7 @@
-#include "remap/material_rows.hpp"
-
 #include <algorithm>
 
-#include "remap/named_values.hpp"
+#include "remap/converter.hpp"
+#include "remap/model.hpp"
 
 namespace remap {
 namespace {

@@ -1,5 +1,3 @@
-#include "remap/warp_converter.hpp"
-
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -7,7 +5,8 @@
 
 #include "convert/warp_kernel.hpp"
 #include "convert/workflow_kernel.hpp"
-#include "remap/workflow_converter.hpp"
+#include "remap/warp.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "remap/instruction_set.hpp"
+#include "remap/converter.hpp"
 #include "warp/packed_warp.hpp"
 
 namespace remap {

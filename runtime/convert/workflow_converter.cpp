@@ -1,5 +1,3 @@
-#include "remap/workflow_converter.hpp"
-
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -8,6 +6,7 @@
 
 #include "convert/workflow_kernel.hpp"
 #include "remap/error.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
 namespace {

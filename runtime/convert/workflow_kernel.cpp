@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "convert/instruction_target.hpp"
-#include "remap/material_rows.hpp"
+#include "remap/converter.hpp"
 
 // The standard headers that it asks for stand above: they are none of these functions.
 REMAP_INLINED_FUNCTIONS_BEGIN

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "remap/instruction_set.hpp"
+#include "remap/converter.hpp"
 #include "remap/workflow.hpp"
 
 namespace remap {

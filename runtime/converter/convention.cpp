@@ -1,6 +1,6 @@
-#include "remap/convention.hpp"
-
 #include <cmath>
+
+#include "remap/model.hpp"
 
 namespace remap {
 

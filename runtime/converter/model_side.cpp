@@ -1,8 +1,8 @@
-#include "remap/model_side.hpp"
-
 #include <algorithm>
 #include <array>
 #include <string_view>
+
+#include "remap/model.hpp"
 
 namespace remap {
 namespace {

@@ -10,7 +10,7 @@
 #include "discovery/folder_walk.hpp"
 #include "discovery/naming.hpp"
 #include "discovery/tiles.hpp"
-#include "remap/convention.hpp"
+#include "remap/model.hpp"
 
 namespace remap {
 

@@ -48,7 +48,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "remap/named_values.hpp"
+#include "remap/model.hpp"
 
 namespace remap {
 

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "remap/channel_view.hpp"
-#include "remap/transfer.hpp"
+#include "remap/pixels.hpp"
 
 namespace remap {
 

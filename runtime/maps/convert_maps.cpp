@@ -11,7 +11,6 @@
 
 #include "maps/linear_values.hpp"
 #include "remap/error.hpp"
-#include "remap/map_statistics.hpp"
 #include "text/number_text.hpp"
 
 namespace remap {

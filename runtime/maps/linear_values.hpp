@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "remap/transfer.hpp"
+#include "remap/pixels.hpp"
 
 namespace remap {
 

@@ -1,8 +1,8 @@
-#include "remap/map_statistics.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "remap/convert_maps.hpp"
 
 namespace remap {
 namespace {

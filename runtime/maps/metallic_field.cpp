@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "remap/material_rows.hpp"
+#include "remap/converter.hpp"
 
 namespace remap {
 namespace {

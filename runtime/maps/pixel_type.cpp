@@ -1,10 +1,10 @@
-#include "remap/pixel_type.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>
 #include <type_traits>
+
+#include "remap/pixels.hpp"
 
 namespace remap {
 namespace {

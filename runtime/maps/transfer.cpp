@@ -1,5 +1,3 @@
-#include "remap/transfer.hpp"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -8,6 +6,7 @@
 #include <limits>
 
 #include "maps/linear_values.hpp"
+#include "remap/pixels.hpp"
 
 namespace remap {
 namespace {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "command_line/command.hpp"
-#include "remap/convention.hpp"
-#include "remap/instruction_set.hpp"
-#include "remap/workflow_models.hpp"
+#include "remap/converter.hpp"
+#include "remap/model.hpp"
+#include "remap/workflow.hpp"
 #include "texremap/used_converters.hpp"
 #include "texture/target_plan.hpp"
 #include "texture/texture_set.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "command_line/progress.hpp"
-#include "remap/closeness.hpp"
+#include "remap/path.hpp"
 #include "texremap/conversion_jobs.hpp"
 #include "texture/material_survey.hpp"
 #include "texture/texture_pass.hpp"

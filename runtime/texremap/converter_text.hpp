@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "remap/closeness.hpp"
+#include "remap/path.hpp"
 #include "text/json.hpp"
 
 namespace remap {

@@ -8,9 +8,9 @@
 
 #include "command_line/command.hpp"
 #include "converter/converter_fields.hpp"
-#include "remap/closeness.hpp"
 #include "remap/error.hpp"
-#include "remap/workflow_models.hpp"
+#include "remap/path.hpp"
+#include "remap/workflow.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
 #include "texremap/used_converters.hpp"

@@ -10,7 +10,6 @@
 
 #include "command_line/command.hpp"
 #include "converter/converter_fields.hpp"
-#include "remap/chained_converter.hpp"
 #include "texremap/commands.hpp"
 #include "texremap/converter_text.hpp"
 #include "texremap/workflow_choice.hpp"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "remap/closeness.hpp"
 #include "remap/error.hpp"
+#include "remap/path.hpp"
 #include "text/number_text.hpp"
 
 namespace remap {

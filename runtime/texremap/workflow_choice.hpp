@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "remap/warp_fit.hpp"
-#include "remap/workflow_converter.hpp"
+#include "remap/warp.hpp"
+#include "remap/workflow.hpp"
 #include "texremap/convert_options.hpp"
 #include "texture/texture_set.hpp"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "remap/named_values.hpp"
+#include "remap/model.hpp"
 #include "text/json.hpp"
 
 namespace remap {

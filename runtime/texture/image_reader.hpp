@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "images/image_library.hpp"
-#include "remap/transfer.hpp"
+#include "remap/pixels.hpp"
 #include "texture/resampled_rows.hpp"
 
 namespace remap {

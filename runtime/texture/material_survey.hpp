@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "remap/workflow_converter.hpp"
+#include "remap/workflow.hpp"
 #include "texture/texture_set.hpp"
 #include "workflow/diagnosis.hpp"
 

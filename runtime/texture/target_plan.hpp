@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "remap/named_values.hpp"
+#include "remap/model.hpp"
 #include "texture/texture_pass.hpp"
 
 namespace remap {

@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-#include "remap/convention.hpp"
-#include "remap/material_rows.hpp"
-#include "remap/transfer.hpp"
+#include "remap/converter.hpp"
+#include "remap/model.hpp"
+#include "remap/pixels.hpp"
 #include "texture/image_reader.hpp"
 
 namespace remap {

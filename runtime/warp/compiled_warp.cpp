@@ -1,10 +1,9 @@
-#include "remap/compiled_warp.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "remap/error.hpp"
+#include "remap/warp.hpp"
 
 namespace remap {
 namespace {

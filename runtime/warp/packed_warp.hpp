@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "remap/compiled_warp.hpp"
+#include "remap/warp.hpp"
 
 namespace remap {
 

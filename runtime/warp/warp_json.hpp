@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "remap/warp_fit.hpp"
+#include "remap/warp.hpp"
 
 namespace remap {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "remap/network.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
 

@@ -1,4 +1,4 @@
-#include "remap/workflow_models.hpp"
+#include "remap/workflow.hpp"
 
 namespace remap {
 namespace {

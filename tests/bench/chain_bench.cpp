@@ -3,7 +3,7 @@
 
 #include "bench/bench.hpp"
 #include "bench/builds.hpp"
-#include "remap/chained_converter.hpp"
+#include "remap/path.hpp"
 
 namespace remap_bench {
 namespace {

@@ -36,7 +36,9 @@ TEST_CASE(
   const auto json = nlohmann::json::parse(made.output);
   CHECK(json["copy_rms_error"] > 0.0);
   CHECK(json["copy_rms_error"] < 0.05);
-  const auto fit = std::get<WarpMapFit>(load_any_fit(session.path("stony.json")));
+  const WarpMapFit fit = load_warp_fit(session.path("stony.json"));
+  CHECK_THROWS_WITH(load_warp_fit(REMAP_SOURCE_DIR "/fits/mitsuba_ward_to_mitsuba_as.json"),
+                    Catch::Contains("not the fit of a warp"));
   CHECK(fit.copy_rms_error == json["copy_rms_error"]);
   CHECK(std::holds_alternative<CopiedNodes>(fit.warp.table.entries));
   const std::string card = session.remapc({"show", session.path("stony.json")}).output;

@@ -7,7 +7,7 @@
 
 #include "cli/texremap_session.hpp"
 #include "model/fit_file.hpp"
-#include "remap/closeness.hpp"
+#include "remap/path.hpp"
 #include "text/number_text.hpp"
 
 using namespace remap;

@@ -15,8 +15,7 @@
 #include "cli/texremap_tree.hpp"
 #include "model/fit_file.hpp"
 #include "remap/convert_maps.hpp"
-#include "remap/workflow_converter.hpp"
-#include "remap/workflow_models.hpp"
+#include "remap/workflow.hpp"
 #include "support/campaign.hpp"
 #include "support/fitted_converter.hpp"
 

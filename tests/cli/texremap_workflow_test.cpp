@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/texremap_session.hpp"
-#include "remap/material_rows.hpp"
+#include "remap/converter.hpp"
 #include "remap/shipped_converters.hpp"
 #include "support/skip.hpp"
 #include "workflow/conversion.hpp"

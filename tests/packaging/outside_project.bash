@@ -62,19 +62,12 @@ expect_output "65536 texels, "
 for header in "$prefix"/include/remap/*.hpp; do
   [[ $header == *_to_*.hpp ]] || echo "#include \"$header\""
 done >"$work/headers.txt"
-(($(wc -l <"$work/headers.txt") > 15)) || fail "public headers are not installed"
+(($(wc -l <"$work/headers.txt") > 8)) || fail "public headers are not installed"
 while read -r include; do
   expect_exit 0 "$compiler" -std=c++20 -fsyntax-only -I "$prefix/include" -x c++ - <<<"$include"
 done <"$work/headers.txt"
 
-python3 - "$project/$id.json" <<'PROGRAM'
-import json
-import sys
-
-fit = json.load(open(sys.argv[1]))
-fit["mapping"]["specular"]["coefficients"][0][0] += 0.01
-json.dump(fit, open(sys.argv[1], "w"))
-PROGRAM
+expect_exit 0 "$prefix/bin/remapc" fit "$source_folder/fits/tables/$id.csv" --model series --seed 2 -o "$project"
 [[ $(own_fit) != "$shipped" ]] || fail "the fit was to be changed"
 expect_exit 0 cmake --build "$project/build"
 expect_close "$(second_row shipped)" "$shipped"

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "remap/compiled_warp.hpp"
+#include "remap/warp.hpp"
 
 namespace remap {
 

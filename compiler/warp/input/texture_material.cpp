@@ -2,7 +2,7 @@
 
 #include "discovery/discovery.hpp"
 #include "remap/convert_maps.hpp"
-#include "remap/workflow_converter.hpp"
+#include "remap/workflow.hpp"
 #include "text/errors.hpp"
 #include "texture/texture_set.hpp"
 #include "warp/input/image_texels.hpp"

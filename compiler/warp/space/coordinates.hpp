@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "remap/compiled_warp.hpp"
+#include "remap/warp.hpp"
 #include "warp/space/features.hpp"
 
 namespace remapc {

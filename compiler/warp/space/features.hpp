@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "remap/named_values.hpp"
+#include "remap/model.hpp"
 #include "warp/space/lobe_table.hpp"
 
 namespace remapc {

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "remap/compiled_warp.hpp"
+#include "remap/warp.hpp"
 #include "renderer/brdf.hpp"
 
 namespace remapc {

@@ -3,16 +3,52 @@
 // al. 2019, section 8). Both are layers over the same BRDF.
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "remap/convention.hpp"
-#include "remap/named_values.hpp"
-#include "remap/network.hpp"
+#include "remap/converter.hpp"
+#include "remap/model.hpp"
 
 namespace remap {
+
+// Fully connected networks.
+
+// normalised = (t - offset) * scale, with t = value, or t = value / (value + pole), which spreads values near
+// 0, where curves over alpha bend most.
+struct Scaling {
+  double offset = 0.0;
+  double scale = 1.0;  // not 0
+  double pole = 0.0;   // >= 0; 0: t = value. Outputs have none
+  bool operator==(const Scaling&) const = default;
+};
+
+enum class Activation { kRelu, kTanh, kSilu };
+inline constexpr NamedValues<Activation, 3> kActivations = {
+    {{Activation::kRelu, "relu"}, {Activation::kTanh, "tanh"}, {Activation::kSilu, "silu"}}};
+inline std::string_view activation_name(Activation activation) { return name_of(kActivations, activation); }
+
+// One layer: outputs = weights inputs + biases.
+struct Layer {
+  std::size_t input_count = 0;
+  std::vector<double> weights;  // one row of input_count per output
+  std::vector<double> biases;   // one per output
+  std::size_t output_count() const noexcept { return biases.size(); }
+  bool operator==(const Layer&) const = default;
+};
+
+// A fully connected network of normalised inputs and outputs, with `activation` after every layer but the
+// last.
+struct Network {
+  Activation activation = Activation::kTanh;
+  std::vector<Scaling> inputs;
+  std::vector<Scaling> outputs;
+  std::vector<Layer> layers;  // at least 1
+  bool operator==(const Network&) const = default;
+};
 
 // The meaning of a diffuse color.
 enum class DiffuseConvention {
@@ -133,5 +169,74 @@ struct MaterialParameter {
 // In the order of the rows: diffuse, specular, width; or base_color, metallic, width.
 std::vector<MaterialParameter> source_parameters(const WorkflowConversion& conversion);
 std::vector<MaterialParameter> target_parameters(const WorkflowConversion& conversion);
+
+// Workflows with a name, the conventions of their parameters, and their BRDF.
+
+enum class WorkflowKind { kSpecular, kMetallic };
+inline constexpr NamedValues<WorkflowKind, 2> kWorkflowKinds = {
+    {{WorkflowKind::kSpecular, "specular"}, {WorkflowKind::kMetallic, "metallic"}}};
+
+// One side of a conversion of whole materials.
+using WorkflowEnd = std::variant<SpecularWorkflow, MetallicWorkflow>;
+inline WorkflowKind kind_of(const WorkflowEnd& end) noexcept {
+  return std::holds_alternative<SpecularWorkflow>(end) ? WorkflowKind::kSpecular : WorkflowKind::kMetallic;
+}
+inline const std::string& model_of(const WorkflowEnd& end) noexcept {
+  return std::visit([](const auto& workflow) -> const std::string& { return workflow.model; }, end);
+}
+inline RoughnessConvention width_of(const WorkflowEnd& end) noexcept {
+  return std::visit([](const auto& workflow) { return workflow.width; }, end);
+}
+inline DiffuseConvention diffuse_of(const WorkflowEnd& end) noexcept {
+  return std::visit([](const auto& workflow) { return workflow.diffuse; }, end);
+}
+inline std::string_view kind_name(const WorkflowEnd& end) noexcept {
+  return name_of(kWorkflowKinds, kind_of(end));
+}
+
+// A workflow with a name.
+struct WorkflowModel {
+  WorkflowEnd end;
+  std::string brdf;                // model of its width and specular in the graph of converters
+  bool conventions_known = false;  // from its specification or source code; otherwise assumed
+  std::string reason;              // the source of the conventions
+};
+
+// `gltf`, `gltf-specgloss`, `cycles-5/principled`, `threejs/standard`, `usd-preview-surface`, `metallic`,
+// `specular`.
+const std::vector<WorkflowModel>& workflow_models();
+// Null for an unknown name.
+const WorkflowModel* find_workflow_model(std::string_view name);
+
+// A BRDF model of the graph, such as `mitsuba/ward`, as a specular or a metallic workflow with the common
+// conventions.
+WorkflowModel workflow_over(const std::string& brdf, WorkflowKind kind, RoughnessConvention width);
+
+// Whether maps of the model `name` hold materials of `end` over `brdf`. For example `specular` and
+// mitsuba/ggx are both layers over mitsuba/ggx with plain diffuse. The encoding of the roughness is not
+// compared.
+bool holds_materials_of(const std::string& name, const WorkflowEnd& end, const std::string& brdf);
+
+// Converters of whole materials between workflows.
+
+// The parameters of a material of a workflow, in the order of Parameter.
+std::vector<Parameter> parameters_of(const WorkflowEnd& end);
+
+// The stages of a conversion from one workflow to another.
+struct WorkflowStages {
+  WorkflowEnd source, target;
+  // Between the BRDFs of both ends; null if they are the same. Must outlive the converter.
+  const Converter* brdf = nullptr;
+  RoughnessConvention width = RoughnessConvention::kRoughness;  // of both ends if `brdf` is null
+  // To metallic; ignored if the target is a specular workflow.
+  WorkflowFormula formula = Projection{kCleanPrior};
+};
+
+// Converts block by block, in one pass over the rows: equation (2) if the source is metallic, then `brdf` for
+// width and specular, then `formula` if the target is metallic. The diffuse lobe keeps its reflectance where
+// `brdf` changes specular, so scaled diffuse is scaled to the new specular. Throws kInput as require_valid()
+// does.
+std::unique_ptr<Converter> make_workflow_converter(const WorkflowStages& stages,
+                                                   InstructionSet set = best_instruction_set());
 
 }  // namespace remap

@@ -60,9 +60,10 @@ std::optional<Lowered> lower_or_refuse(const MappingKind& mapping, const Domain&
     return lowered;
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::kNumeric);
-    CHECK_THAT(error.what(), Catch::Contains(" cannot be had within ") &&
-                                 (Catch::Contains("the bound that can be proven is ") ||
-                                  Catch::Contains("no bound can be proven")));
+    CHECK_THAT(error.what(),
+               Catch::Contains(" is not finite") ||
+                   (Catch::Contains(" numbers to stay within ") &&
+                    (Catch::Contains(" can be proven") || Catch::Contains("no bound can be proven"))));
     return std::nullopt;
   }
 }

@@ -154,7 +154,7 @@ void check_rising(const LoweredFunction& function, const Domain& domain) {
 
 // The bound that a refusal states is taken as the tolerance, until both outputs are met.
 std::optional<Lowered> lowered_as_stated(const RandomModel& model, LoweringOptions options, int* refusals) {
-  static const std::regex kStated("the bound that can be proven is ([0-9.e+-]*[0-9])");
+  static const std::regex kStated("; ([0-9.e+-]*[0-9])( of its largest value)? can be proven");
   for (*refusals = 0; *refusals <= 2; ++*refusals) {
     try {
       return lower(model.mapping, model.domain, options);

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "remap/convention.hpp"
+#include "remap/model.hpp"
 
 using namespace remap;
 

@@ -1,6 +1,4 @@
 // Chains of converters against their steps one after another, and against the interpreter.
-#include "remap/chained_converter.hpp"
-
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -9,6 +7,7 @@
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
+#include "remap/path.hpp"
 #include "runtime/convert/texel_rows.hpp"
 #include "support/example_fit.hpp"
 #include "support/fitted_converter.hpp"

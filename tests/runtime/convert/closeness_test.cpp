@@ -1,11 +1,10 @@
 // Which model looks closest: made-up converters with known errors, SSIMs and domains.
-#include "remap/closeness.hpp"
-
 #include <algorithm>
 
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
+#include "remap/path.hpp"
 #include "runtime/convert/named_converters.hpp"
 
 using namespace remap;

@@ -1,8 +1,7 @@
 // Which instruction sets there are, and how a person names one.
-#include "remap/instruction_set.hpp"
-
 #include <catch2/catch.hpp>
 
+#include "remap/converter.hpp"
 #include "remap/error.hpp"
 
 using namespace remap;

@@ -113,6 +113,6 @@ TEST_CASE("lowered converter: a mapping that no few polynomials can follow is re
     FAIL("no exception");
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::kNumeric);
-    CHECK_THAT(error.what(), Catch::Matchers::Contains("cannot be had within"));
+    CHECK_THAT(error.what(), Catch::Matchers::Contains("needs more than 2048 numbers to stay within"));
   }
 }

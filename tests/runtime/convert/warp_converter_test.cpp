@@ -1,6 +1,4 @@
 // The pass of a compiled warp against the same warp in double precision, one texel at a time.
-#include "remap/warp_converter.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -11,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "convert/warp_kernel.hpp"
+#include "remap/warp.hpp"
 #include "support/random_warp.hpp"
 #include "support/warp_rows.hpp"
 

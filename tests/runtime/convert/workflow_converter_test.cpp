@@ -1,12 +1,11 @@
 // Whole materials between workflows, as a texture pass converts them.
-#include "remap/workflow_converter.hpp"
-
 #include <array>
 #include <random>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "remap/workflow.hpp"
 #include "runtime/workflow/materials.hpp"
 
 using namespace remap;

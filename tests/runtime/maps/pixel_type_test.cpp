@@ -1,6 +1,4 @@
 // Pixel types, compared with Imath's half and with integer arithmetic.
-#include "remap/pixel_type.hpp"
-
 #include <Imath/half.h>
 #include <bit>
 #include <cmath>
@@ -9,6 +7,8 @@
 #include <random>
 
 #include <catch2/catch.hpp>
+
+#include "remap/pixels.hpp"
 
 using namespace remap;
 

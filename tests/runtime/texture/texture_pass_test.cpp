@@ -9,7 +9,7 @@
 
 #include "remap/error.hpp"
 #include "remap/shipped_converters.hpp"
-#include "remap/workflow_converter.hpp"
+#include "remap/workflow.hpp"
 #include "support/example_fit.hpp"
 #include "support/fitted_converter.hpp"
 #include "support/temporary_folder.hpp"

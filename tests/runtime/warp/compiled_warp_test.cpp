@@ -1,11 +1,10 @@
 // Checks of compiled warps.
-#include "remap/compiled_warp.hpp"
-
 #include <limits>
 
 #include <catch2/catch.hpp>
 
 #include "remap/error.hpp"
+#include "remap/warp.hpp"
 #include "support/random_warp.hpp"
 
 TEST_CASE("compiled warp: invalid tables are refused") {

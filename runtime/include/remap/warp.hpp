@@ -1,16 +1,24 @@
-// A compiled appearance warp (An et al. 2011), which gives texels of one material reflectances of another:
-// coordinates in closed form, and a table of the template's parameters over them.
+// Appearance warps: as tables, with their provenance, and as converters.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <variant>
 #include <vector>
 
+#include "remap/converter.hpp"
+#include "remap/workflow.hpp"
+
 namespace remap {
+
+// A compiled appearance warp (An et al. 2011), which gives texels of one material reflectances of another:
+// coordinates in closed form, and a table of the template's parameters over them.
 
 // One texel of a diffuse lobe and a specular one: diffuse reflectance (R, G, B), specular reflectance at
 // normal incidence or scale (R, G, B), both linear, and alpha, the microfacet width.
@@ -115,5 +123,41 @@ std::size_t byte_count(const CompiledWarp& warp) noexcept;
 // Throws kInput, beginning with `place`, for inconsistent counts, an empty box, or numbers that are not
 // finite.
 void require_valid(const CompiledWarp& warp, const std::string& place);
+
+// A fit of kind `warp`: a compiled appearance warp and its provenance.
+
+struct WarpMapFit {
+  std::string id;
+  std::string source_model, template_model;  // of the texels before and after, such as `mitsuba/ggx`
+  CompiledWarp warp;
+  // RMS distance in appearance from the exact copy of template texels, as a share of the template's spread;
+  // -1 if unknown.
+  double copy_rms_error = -1.0;
+  std::map<std::string, std::string> method;  // how it was made
+  std::vector<std::string> remarks;           // warnings of the fit, a line each
+  std::string tool_version;
+  bool operator==(const WarpMapFit&) const = default;
+};
+
+inline constexpr const char* kWarpKind = "warp";
+
+// The entry of `method` for a warp whose source was a diffuse map alone, with specular 0 and alpha 1.
+inline constexpr const char* kWarpSourceMaps = "source_maps";
+inline constexpr const char* kDiffuseAlone = "diffuse";
+inline bool is_of_diffuse_alone(const WarpMapFit& fit) {
+  const auto maps = fit.method.find(kWarpSourceMaps);
+  return maps != fit.method.end() && maps->second == kDiffuseAlone;
+}
+
+// Converters of whole materials by a compiled warp.
+
+// Converts diffuse, specular and width of the source of a warp to those of its template; all target rows must
+// be present. A metallic source is first converted to a specular one by equation (2). A color in one row is
+// grey. Throws kInput as require_valid() does.
+std::unique_ptr<Converter> make_warp_converter(const WarpMapFit& fit, const WorkflowEnd& source,
+                                               InstructionSet set = best_instruction_set());
+
+// The warp of a fit file. Throws kInput if it cannot be read, and for a fit of another kind.
+WarpMapFit load_warp_fit(const std::filesystem::path& path);
 
 }  // namespace remap

@@ -1,0 +1,122 @@
+// BRDF models as the ends of a conversion: their names, the meaning of their parameters, and ranges.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace remap {
+
+// Names of enumerators in files and on the command line.
+
+template <typename Value>
+struct NamedValue {
+  Value value;
+  std::string_view name;
+};
+
+// Each enumerator appears once.
+template <typename Value, std::size_t Count>
+using NamedValues = std::array<NamedValue<Value>, Count>;
+
+// Empty for a value that is not in the table.
+template <typename Value, std::size_t Count>
+constexpr std::string_view name_of(const NamedValues<Value, Count>& table, Value value) noexcept {
+  for (const NamedValue<Value>& entry : table)
+    if (entry.value == value) return entry.name;
+  return {};
+}
+
+template <typename Value, std::size_t Count>
+constexpr std::optional<Value> value_named(const NamedValues<Value, Count>& table,
+                                           std::string_view name) noexcept {
+  for (const NamedValue<Value>& entry : table)
+    if (entry.name == name) return entry.value;
+  return std::nullopt;
+}
+
+// All names in the order of the table.
+template <typename Value, std::size_t Count>
+std::vector<std::string> names_of(const NamedValues<Value, Count>& table) {
+  std::vector<std::string> names;
+  for (const NamedValue<Value>& entry : table) names.emplace_back(entry.name);
+  return names;
+}
+
+// A closed interval.
+struct Range {
+  double min = 0.0;
+  double max = 0.0;
+  bool contains(double value) const noexcept { return value >= min && value <= max; }
+  bool operator==(const Range&) const = default;
+};
+
+// The parameters by which BRDF models state the microfacet width. Each is an invertible function of alpha, in
+// which sweeps and fits work.
+
+enum class RoughnessConvention {
+  kAlpha,       // the microfacet width itself, (0, 1]
+  kRoughness,   // perceptual roughness, sqrt(alpha) (Burley 2012; glTF 2.0; Cycles since Blender 2.80)
+  kExponent,    // Phong exponent, 2 / alpha^2 - 2 (Walter et al. 2007, section 5.2)
+  kGlossiness,  // 1 - sqrt(alpha)
+  kSquared,     // alpha^2, the square that the formulas of microfacet distributions hold
+};
+
+// Converts the model's own parameter to alpha and back. The functions are inverses up to rounding for alpha
+// in (0, 1]; the exponent of alpha 0 is infinite.
+double to_alpha(RoughnessConvention convention, double own);
+double from_alpha(RoughnessConvention convention, double alpha);
+
+// The names in fits and tables, and of the parameter in generated headers.
+inline constexpr NamedValues<RoughnessConvention, 5> kConventions = {
+    {{RoughnessConvention::kAlpha, "alpha"},
+     {RoughnessConvention::kRoughness, "roughness"},
+     {RoughnessConvention::kExponent, "exponent"},
+     {RoughnessConvention::kGlossiness, "glossiness"},
+     {RoughnessConvention::kSquared, "squared"}}};
+inline std::string_view convention_name(RoughnessConvention convention) {
+  return name_of(kConventions, convention);
+}
+inline std::optional<RoughnessConvention> convention_from_name(std::string_view name) {
+  return value_named(kConventions, name);
+}
+inline std::vector<std::string> convention_names() { return names_of(kConventions); }
+
+// The ends of a conversion and their names.
+
+// One end of a conversion: a model and the meaning of its two parameters.
+struct ModelSide {
+  std::string model;                                            // e.g. "mitsuba/ward"
+  RoughnessConvention roughness = RoughnessConvention::kAlpha;  // the model's own width parameter
+  std::string specular = "specular";                            // "specular" (plain scale) or "f0"
+  bool operator==(const ModelSide&) const = default;
+};
+
+// `mitsuba_ward_to_mitsuba_as` for `mitsuba/ward` and `mitsuba/as`: characters that an identifier cannot hold
+// become underscores.
+std::string converter_id(const std::string& source_model, const std::string& target_model);
+
+// The most letters of an id and of a model: file systems end at 255, of which unfinished files and extensions
+// need some.
+inline constexpr std::size_t kLongestName = 128;
+
+// What an id must be, for messages.
+inline constexpr const char* kIdRule =
+    "a C++ identifier of at most 128 letters, without leading or doubled underscore, that C++ does not use "
+    "itself";
+
+// Whether `id` can name a namespace and a file: kIdRule. C++ uses keywords, `std` and macros of
+// its headers.
+bool is_valid_id(const std::string& id);
+
+// Whether `name` can name a model in file names, messages and generated code: letters, digits and `_ - . /`,
+// at most kLongestName of them.
+bool is_valid_model(const std::string& name);
+
+// Whether `name` can name a specular parameter: an identifier other than the name of a width parameter.
+bool is_valid_specular(const std::string& name);
+
+}  // namespace remap
