@@ -282,6 +282,7 @@ std::string fit_to_json(const Fit& fit) {
 Fit read_fit(const Field& root) {
   Fit fit;
   fit.id = read_id(root["id"]);
+  fit.converter = read_fitted_converter(root);  // first: older files lack other fields, too
   fit.source = read_side(root["source"]);
   fit.target = read_side(root["target"]);
   fit.domain = {read_range(root["domain"]["alpha"]), read_range(root["domain"]["specular"])};
@@ -299,7 +300,6 @@ Fit read_fit(const Field& root) {
   fit.split = read_split(root["split"]);
   fit.table = read_table_record(root["table"]);
   fit.tool_version = read_tool_version(root["tool"]);
-  fit.converter = read_fitted_converter(root);
   if (fit.converter) require_own_converter(fit, root);
   return fit;
 }
