@@ -184,16 +184,15 @@ class Builder {
       remap::write_file(paths.table, text);
       record->table = sha256(text);
     }
+    if (fresh.header) return;
+    remap::AnyFit fit = fresh.fit ? remap::load_any_fit(paths.fit) : fit_of(item, paths);
     if (!fresh.fit) {
-      remap::AnyFit made = fit_of(item, paths);
-      if (auto* fit = std::get_if<remap::Fit>(&made)) add_converter(fit);
-      const std::string text = std::visit([](const auto& fit) { return fit_to_json(fit); }, made);
+      if (auto* of_width = std::get_if<remap::Fit>(&fit)) add_converter(of_width);
+      const std::string text = std::visit([](const auto& made) { return fit_to_json(made); }, fit);
       remap::write_file(paths.fit, text);
       record->fit = sha256(text);
     }
-    if (fresh.header) return;
-    const std::string text =
-        std::visit([](const auto& fit) { return emit_header(fit); }, remap::load_any_fit(paths.fit));
+    const std::string text = std::visit([](const auto& made) { return emit_header(made); }, fit);
     remap::write_file(paths.header, text);
     record->header = sha256(text);
   }

@@ -13,10 +13,10 @@ FittedConverter fitted_converter_from_json(std::string_view text, const std::str
   const Json json = parse_json(text, place);
   const Field root(json, place);
   require_fit_file(root);
-  const std::string id = read_id(root["id"]);
+  read_id(root["id"]);
   if (is_of_materials(root)) {
     if (root["mapping"]["kind"].text() == kWarpKind) return read_warp_fit(root);
-    return UnusedFit{id};
+    return UnusedFit{};
   }
   const std::optional<ConverterData> converter = read_fitted_converter(root);
   if (!converter)

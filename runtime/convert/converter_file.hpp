@@ -12,9 +12,7 @@
 namespace remap {
 
 // A fit between workflows: a formula that texremap has, or a network, which it does not run.
-struct UnusedFit {
-  std::string id;
-};
+struct UnusedFit {};
 
 using FittedConverter = std::variant<ConverterData, WarpMapFit, UnusedFit>;
 

@@ -80,13 +80,13 @@ TEST_CASE("transfer: invalid roughness is clamped") {
 
 TEST_CASE("transfer: values of 8 and 16 bits and halves are decoded to the nearest float") {
   const auto check = [](float stored) {
-    if (!(std::fabs(stored) < kInfinity)) return;
     const auto exact = static_cast<float>(exact_linear(std::fabs(static_cast<long double>(stored))));
     REQUIRE(to_linear(stored) == std::copysign(exact, stored));
   };
   for (int i = 0; i < 256; ++i) check(static_cast<float>(i) / 255.0f);
   for (int i = 0; i < 65536; ++i) check(static_cast<float>(i) / 65535.0f);
-  for (int i = 0; i < 65536; ++i) check(half_to_float(static_cast<std::uint16_t>(i)));
+  for (int i = 0; i < 65536; ++i)
+    if (const float half = half_to_float(static_cast<std::uint16_t>(i)); std::isfinite(half)) check(half);
 }
 
 TEST_CASE("transfer: the table of 8 bits holds what the curve gives") {
