@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "convert/stage.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -31,7 +32,14 @@ std::size_t Converter::target_channels(Parameter parameter, std::size_t specular
 std::size_t Converter::convert(std::size_t count, const MaterialRows<const float>& in,
                                const MaterialRows<float>& out, std::uint8_t* outside) const {
   if (has_source(Parameter::kSpecular)) require_channels(in[Parameter::kSpecular].count);
-  return convert_rows(count, in, out, outside);
+  Block block(in, out);
+  std::size_t outside_count = 0;
+  for (std::size_t start = 0; start < count; start += kBlockTexels) {
+    block.begin(start, std::min(kBlockTexels, count - start));
+    outside_count += run_stages(stages_, block, outside == nullptr ? nullptr : outside + start);
+    block.finish();
+  }
+  return outside_count;
 }
 
 std::size_t Converter::convert(std::size_t count, const float* width, std::span<const float* const> specular,
@@ -45,7 +53,11 @@ std::size_t Converter::convert(std::size_t count, const float* width, std::span<
   in[Parameter::kSpecular].count = out[Parameter::kSpecular].count = specular.size();
   std::copy(specular.begin(), specular.end(), in[Parameter::kSpecular].row.begin());
   std::copy(specular_out.begin(), specular_out.end(), out[Parameter::kSpecular].row.begin());
-  return convert_rows(count, in, out, outside);
+  return convert(count, in, out, outside);
+}
+
+bool Converter::self_test() const {
+  return std::all_of(stages_.begin(), stages_.end(), [](const auto& stage) { return stage->self_test(); });
 }
 
 }  // namespace remap

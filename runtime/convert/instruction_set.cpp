@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "convert/instruction_target.hpp"
+#include "convert/kernels.hpp"
 #include "remap/converter.hpp"
 #include "remap/error.hpp"
 #include "text/nearest_name.hpp"

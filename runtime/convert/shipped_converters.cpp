@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "convert/converter_file.hpp"
-#include "convert/data_converter.hpp"
+#include "convert/brdf_stage.hpp"
 #include "convert/shipped_text.hpp"
 #include "remap/error.hpp"
 #include "system/files.hpp"

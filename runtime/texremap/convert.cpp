@@ -10,8 +10,8 @@
 
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
+#include "convert/brdf_stage.hpp"
 #include "convert/converter_file.hpp"
-#include "convert/data_converter.hpp"
 #include "remap/error.hpp"
 #include "remap/path.hpp"
 #include "remap/warp.hpp"

@@ -78,7 +78,8 @@ WorkflowStages stages_of(const ChosenConverter& chosen) {
   WorkflowStages stages{*chosen.workflow.source, *chosen.workflow.target};
   stages.brdf = chosen.brdf;
   stages.width = width_of(stages.target);
-  stages.formula = chosen.workflow.formula;
+  if (const auto* projection = std::get_if<Projection>(&chosen.workflow.formula))
+    stages.prior = projection->prior;
   return stages;
 }
 

@@ -3,6 +3,7 @@
 
 #include "bench/bench.hpp"
 #include "bench/builds.hpp"
+#include "convert/stage.hpp"
 #include "remap/path.hpp"
 
 namespace remap_bench {
@@ -11,44 +12,41 @@ namespace {
 constexpr const char* kCode = "parametric";
 constexpr int kSteps = 3;
 
-// The build of a header as a step from the model `number` to the next.
-class Step final : public remap::Converter {
+// The build of a header as a stage.
+class HeaderStage final : public remap::Stage {
  public:
-  Step(Pass pass, int number) : Converter(info(number)), pass_(pass) {}
+  explicit HeaderStage(Pass pass) : pass_(pass) {}
 
-  std::size_t convert_rows(std::size_t count, const remap::MaterialRows<const float>& in,
-                           const remap::MaterialRows<float>& out, std::uint8_t*) const override {
-    const auto& specular = in[remap::Parameter::kSpecular];
-    const auto& specular_out = out[remap::Parameter::kSpecular].row;
-    const float* const width = in[remap::Parameter::kWidth].row[0];
-    float* const width_out = out[remap::Parameter::kWidth].row[0];
-    if (specular.count == 3) return pass_(count, width, specular.row, width_out, specular_out);
-    // The pass takes three channels only: a chain asks for one where it looks for its domain.
-    const std::vector<float> grey(specular.row[0], specular.row[0] + count);
-    std::vector<float> green(count), blue(count);
-    return pass_(count, width, {grey.data(), grey.data(), grey.data()}, width_out,
-                 {specular_out[0], green.data(), blue.data()});
+  bool has_domain() const noexcept override { return true; }
+
+  std::size_t run(remap::Block& block, std::uint8_t*) const override {
+    const float* const width = block.row(remap::Parameter::kWidth);
+    const auto specular = block.color(remap::Parameter::kSpecular);
+    return pass_(block.size(), width, specular, block.make(remap::Parameter::kWidth),
+                 block.make_color(remap::Parameter::kSpecular));
   }
 
  private:
-  static remap::ConverterInfo info(int number) {
-    remap::ConverterInfo info;
-    info.id = "step_" + std::to_string(number);
-    info.source.model = "bench/" + std::to_string(number);
-    info.target.model = "bench/" + std::to_string(number + 1);
-    info.roughness = {0.005, 1.0};
-    info.specular = {0.0, 1.0};
-    return info;
-  }
-
   Pass pass_;
 };
+
+// A step from the model `number` to the next.
+std::unique_ptr<remap::Converter> step(Pass pass, int number) {
+  remap::ConverterInfo info;
+  info.id = "step_" + std::to_string(number);
+  info.source.model = "bench/" + std::to_string(number);
+  info.target.model = "bench/" + std::to_string(number + 1);
+  info.roughness = {0.005, 1.0};
+  info.specular = {0.0, 1.0};
+  return std::make_unique<remap::Converter>(std::move(info),
+                                            remap::StageList{std::make_shared<HeaderStage>(pass)});
+}
 
 struct Chain {
   explicit Chain(Pass pass) {
     std::vector<const remap::Converter*> pointers;
     for (int i = 0; i < kSteps; ++i) {
-      steps.push_back(std::make_unique<Step>(pass, i));
+      steps.push_back(step(pass, i));
       pointers.push_back(steps.back().get());
     }
     chained = remap::make_chained_converter(pointers);

@@ -1,6 +1,6 @@
 // Appearance warps: the fit from two texture sets and strokes, and the pass of the compiled table.
 #include "bench/bench.hpp"
-#include "convert/warp_kernel.hpp"
+#include "convert/kernels.hpp"
 #include "support/warp_sets.hpp"
 #include "warp/warp.hpp"
 
@@ -45,7 +45,7 @@ void run_pass(remap::InstructionSet set, WarpCase& warp) {
     in[r] = warp.in[r].data();
     out[r] = warp.out[r].data();
   }
-  benchmark::DoNotOptimize(warp_kernel(set)(warp.packed, kTexels, in, out));
+  benchmark::DoNotOptimize(kernels(set).warp(warp.packed, kTexels, in, out));
 }
 
 struct Case {

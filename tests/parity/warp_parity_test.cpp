@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/warp_kernel.hpp"
+#include "convert/kernels.hpp"
 #include "emit/emit.hpp"
 #include "support/random_warp.hpp"
 #include "support/skip.hpp"
@@ -155,8 +155,8 @@ void check_headers(const std::string& compiler, const std::string& flags, bool f
     CHECK(entries[i].copy_rms_error == 0.0125);
     WarpRows out(kCount), expected(kCount);
     const std::size_t outside = entries[i].rows(kCount, in.sources(), out.targets());
-    CHECK(outside == warp_kernel(InstructionSet::kBaseline)(packed(fits[i].warp), kCount, in.sources(),
-                                                            expected.targets()));
+    CHECK(outside == kernels(InstructionSet::kBaseline)
+                         .warp(packed(fits[i].warp), kCount, in.sources(), expected.targets()));
     if (!fuses) CHECK(same(out, expected));
     check_against_oracle(fits[i].warp, in, out);
     check_single_texels(entries[i], in, out, outside);

@@ -5,51 +5,53 @@
 #include <memory>
 #include <utility>
 
-#include "convert/data_converter.hpp"
+#include "convert/brdf_stage.hpp"
+#include "convert/stage.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
 
 namespace remap {
 
-class InterpretedConverter final : public Converter {
+class InterpretedStage final : public Stage {
  public:
-  explicit InterpretedConverter(Fit fit) : Converter(info_of(fit)), fit_(std::move(fit)) {}
+  explicit InterpretedStage(Fit fit) : fit_(std::move(fit)) {}
 
- private:
-  static ConverterInfo info_of(const Fit& fit) {
-    ConverterInfo info;
-    info.id = fit.id;
-    info.source = fit.source;
-    info.target = fit.target;
-    info.roughness = own_roughness_range(fit);
-    info.specular = specular_range(fit);
-    return info;
-  }
+  bool has_domain() const noexcept override { return true; }
 
-  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
-                           const MaterialRows<float>& out, std::uint8_t* outside) const override {
-    const auto& specular = in[Parameter::kSpecular];
+  std::size_t run(Block& block, std::uint8_t* outside) const override {
+    const std::size_t channels = block.is_grey(Parameter::kSpecular) ? 1 : 3;
+    const float* const width = block.row(Parameter::kWidth);
+    const auto specular = block.color(Parameter::kSpecular);
+    float* const width_out = block.make(Parameter::kWidth);
+    const auto specular_out = block.make_color(Parameter::kSpecular, channels);
     std::array<double, 3> texel{}, mapped{};
     std::size_t outside_count = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t c = 0; c < specular.count; ++c) texel[c] = static_cast<double>(specular.row[c][i]);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      for (std::size_t c = 0; c < channels; ++c) texel[c] = static_cast<double>(specular[c][i]);
       bool in_domain = true;
-      out[Parameter::kWidth].row[0][i] = static_cast<float>(
-          evaluate_texel(fit_, static_cast<double>(in[Parameter::kWidth].row[0][i]),
-                         {texel.data(), specular.count}, {mapped.data(), specular.count}, &in_domain));
-      for (std::size_t c = 0; c < specular.count; ++c)
-        out[Parameter::kSpecular].row[c][i] = static_cast<float>(mapped[c]);
+      width_out[i] =
+          static_cast<float>(evaluate_texel(fit_, static_cast<double>(width[i]), {texel.data(), channels},
+                                            {mapped.data(), channels}, &in_domain));
+      for (std::size_t c = 0; c < channels; ++c) specular_out[c][i] = static_cast<float>(mapped[c]);
       outside_count += !in_domain;
       if (outside != nullptr) outside[i] = !in_domain;
     }
     return outside_count;
   }
 
+ private:
   Fit fit_;
 };
 
 inline std::unique_ptr<Converter> make_interpreted_converter(Fit fit) {
-  return std::make_unique<InterpretedConverter>(std::move(fit));
+  ConverterInfo info;
+  info.id = fit.id;
+  info.source = fit.source;
+  info.target = fit.target;
+  info.roughness = own_roughness_range(fit);
+  info.specular = specular_range(fit);
+  return std::make_unique<Converter>(std::move(info),
+                                     StageList{std::make_shared<InterpretedStage>(std::move(fit))});
 }
 
 // The fit with its converter.

@@ -1,5 +1,6 @@
-// Converters: rows of planar floats in, rows of planar floats out. Behind the interface are the polynomials
-// that a fit was lowered to, a chain of converters, a workflow or a warp.
+// Converters: rows of planar floats in, rows of planar floats out. A converter is a list of stages: the
+// polynomials that a fit was lowered to, changes of the workflow, a warp. A chain of converters is the list
+// of all their stages.
 #pragma once
 
 #include <array>
@@ -123,10 +124,23 @@ struct ConverterInfo {
   bool operator==(const ConverterInfo&) const = default;
 };
 
+// Replaces rows of a block of texels (convert/stage.hpp).
+class Stage;
+using StageList = std::vector<std::shared_ptr<const Stage>>;
+
 // Converts rows of texels: the parameters of one material model to those of another.
 class Converter {
  public:
-  virtual ~Converter() = default;
+  // A converter of width and specular alone.
+  Converter(ConverterInfo info, StageList stages)
+      : Converter(std::move(info), {Parameter::kWidth, Parameter::kSpecular},
+                  {Parameter::kWidth, Parameter::kSpecular}, std::move(stages)) {}
+  Converter(ConverterInfo info, std::vector<Parameter> sources, std::vector<Parameter> targets,
+            StageList stages)
+      : info_(std::move(info)),
+        sources_(std::move(sources)),
+        targets_(std::move(targets)),
+        stages_(std::move(stages)) {}
 
   // Models, width parameters and ranges of both ends.
   const ConverterInfo& info() const noexcept { return info_; }
@@ -161,23 +175,14 @@ class Converter {
 
   // Whether the converter gives its golden texels and, on every instruction set, the bits of the baseline.
   // True if it has none.
-  virtual bool self_test() const { return true; }
+  bool self_test() const;
 
- protected:
-  // A converter of width and specular alone.
-  explicit Converter(ConverterInfo info)
-      : Converter(std::move(info), {Parameter::kWidth, Parameter::kSpecular},
-                  {Parameter::kWidth, Parameter::kSpecular}) {}
-  Converter(ConverterInfo info, std::vector<Parameter> sources, std::vector<Parameter> targets)
-      : info_(std::move(info)), sources_(std::move(sources)), targets_(std::move(targets)) {}
+  const StageList& stages() const noexcept { return stages_; }
 
  private:
-  // convert() of rows whose numbers are valid.
-  virtual std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
-                                   const MaterialRows<float>& out, std::uint8_t* outside) const = 0;
-
   ConverterInfo info_;
   std::vector<Parameter> sources_, targets_;
+  StageList stages_;
 };
 
 }  // namespace remap

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/data_converter.hpp"
+#include "convert/brdf_stage.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"
@@ -19,27 +19,21 @@ namespace {
 using Steps = std::vector<const Converter*>;
 
 // The steps over whole rows; a texel that counts alone at any step counts.
-class InTurn final : public Converter {
+class InTurn {
  public:
-  explicit InTurn(Steps steps) : Converter(steps.front()->info()), steps_(std::move(steps)) {}
+  explicit InTurn(Steps steps) : steps_(std::move(steps)) {}
 
-  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& rows,
-                           const MaterialRows<float>& out, std::uint8_t* flags) const override {
+  std::size_t convert(std::size_t count, const float* width, std::span<const float* const> specular,
+                      float* width_out, std::span<float* const> specular_out) const {
     std::vector<bool> outside(count, false);
-    const std::size_t channels = rows[Parameter::kSpecular].count;
-    const auto& specular_out = out[Parameter::kSpecular].row;
-    const auto& specular = rows[Parameter::kSpecular].row;
-    std::vector<const float*> in(specular.begin(), specular.begin() + channels);
-    const float* width = rows[Parameter::kWidth].row[0];
+    std::vector<const float*> in(specular.begin(), specular.end());
     for (const Converter* step : steps_) {
       for (std::size_t i = 0; i < count; ++i)
         if (counts(*step, width[i], in, i)) outside[i] = true;
-      float* const width_out = out[Parameter::kWidth].row[0];
-      step->convert(count, width, in, width_out, {specular_out.data(), channels});
+      step->convert(count, width, in, width_out, specular_out);
       width = width_out;
-      in.assign(specular_out.begin(), specular_out.begin() + channels);
+      in.assign(specular_out.begin(), specular_out.end());
     }
-    if (flags != nullptr) std::copy(outside.begin(), outside.end(), flags);
     return static_cast<std::size_t>(std::count(outside.begin(), outside.end(), true));
   }
 

@@ -12,20 +12,7 @@ using Names = std::vector<std::string>;
 
 namespace {
 
-// Keeps width and specular.
-class UnchangingConverter final : public Converter {
- public:
-  explicit UnchangingConverter(ConverterInfo info) : Converter(std::move(info)) {}
-  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
-                           const MaterialRows<float>& out, std::uint8_t*) const override {
-    std::copy_n(in[Parameter::kWidth].row[0], count, out[Parameter::kWidth].row[0]);
-    for (std::size_t c = 0; c < in[Parameter::kSpecular].count; ++c)
-      std::copy_n(in[Parameter::kSpecular].row[c], count, out[Parameter::kSpecular].row[c]);
-    return 0;
-  }
-};
-
-class Converters : public NamedConverters<UnchangingConverter> {
+class Converters : public NamedConverters {
  public:
   void add(const std::string& source, const std::string& target, std::optional<double> image_error,
            std::optional<double> ssim = {}, double largest_specular = 1.0) {

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/data_converter.hpp"
+#include "convert/brdf_stage.hpp"
 #include "lower/lower.hpp"
 #include "model/interpreter.hpp"
 #include "remap/error.hpp"

@@ -12,8 +12,7 @@
 namespace remap {
 
 // Converters of width 0 to 1 and specular from 0, without fit errors: what is expected of each is its image
-// error. `One`: made from its info.
-template <class One>
+// error. They keep width and specular.
 class NamedConverters {
  public:
   // What a converter says of itself, to be added as it is or with changes.
@@ -27,7 +26,7 @@ class NamedConverters {
     made.image_rms_error = image_error;
     return made;
   }
-  void add(ConverterInfo made) { all_.push_back(std::make_unique<One>(std::move(made))); }
+  void add(ConverterInfo made) { all_.push_back(std::make_unique<Converter>(std::move(made), StageList{})); }
   std::vector<const Converter*> pointers() const {
     std::vector<const Converter*> pointers;
     for (const auto& converter : all_) pointers.push_back(converter.get());

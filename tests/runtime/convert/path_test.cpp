@@ -16,16 +16,7 @@ using Names = std::vector<std::string>;
 
 namespace {
 
-class NamedConverter final : public Converter {
- public:
-  explicit NamedConverter(ConverterInfo info) : Converter(std::move(info)) {}
-  std::size_t convert_rows(std::size_t, const MaterialRows<const float>&, const MaterialRows<float>&,
-                           std::uint8_t*) const override {
-    throw std::logic_error("a path was run");
-  }
-};
-
-class Converters : public NamedConverters<NamedConverter> {
+class Converters : public NamedConverters {
  public:
   void add(const std::string& source, const std::string& target, std::optional<double> image_error,
            const std::string& suffix = "") {

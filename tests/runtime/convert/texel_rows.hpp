@@ -67,8 +67,10 @@ struct Converted {
   TexelRows rows;
   std::size_t out_of_domain = 0;
 };
-inline Converted converted(const Converter& converter, const TexelRows& given, std::size_t first,
-                           std::size_t count, std::size_t channels, bool in_place) {
+// `converter`: a Converter, or what has its convert() of width and specular.
+template <class Convert>
+Converted converted(const Convert& converter, const TexelRows& given, std::size_t first, std::size_t count,
+                    std::size_t channels, bool in_place) {
   const auto cut = [&](const std::vector<float>& row) {
     const auto begin = row.begin() + static_cast<std::ptrdiff_t>(first);
     return std::vector<float>(begin, begin + static_cast<std::ptrdiff_t>(count));
@@ -98,7 +100,8 @@ inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) 
 
 // Whether `converter` gives the bits of `expected` for all of `texels`, for rows of many lengths, one and
 // three channels, in place and not.
-inline bool same_bits(const Converter& converter, const Converter& expected, const TexelRows& texels) {
+template <class Expected>
+bool same_bits(const Converter& converter, const Expected& expected, const TexelRows& texels) {
   const std::size_t all = texels.roughness.size();
   for (const std::size_t count :
        {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{15}, std::size_t{127}, std::size_t{128},

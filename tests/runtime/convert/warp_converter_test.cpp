@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "convert/warp_kernel.hpp"
+#include "convert/kernels.hpp"
 #include "remap/warp.hpp"
 #include "support/random_warp.hpp"
 #include "support/warp_rows.hpp"
@@ -37,7 +37,7 @@ TEST_CASE("warp converter: every texel is that of the warp in double precision")
   const WarpRows rows = random_rows(count);
   WarpRows found(count);
   const std::size_t outside =
-      warp_kernel(InstructionSet::kBaseline)(pass, count, rows.sources(), found.targets());
+      kernels(InstructionSet::kBaseline).warp(pass, count, rows.sources(), found.targets());
   std::size_t expected_outside = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const WarpTexel texel = rows.texel(i), expected = evaluate_warp(warp, texel);
@@ -59,7 +59,7 @@ TEST_CASE("warp converter: tables of copied nodes give texels of the palette, th
   const auto& palette = std::get<CopiedNodes>(warp.table.entries).palette;
   const WarpRows rows = random_rows(kCount);
   WarpRows found(kCount);
-  warp_kernel(InstructionSet::kBaseline)(packed(warp), kCount, rows.sources(), found.targets());
+  kernels(InstructionSet::kBaseline).warp(packed(warp), kCount, rows.sources(), found.targets());
   std::size_t others = 0;
   for (std::size_t i = 0; i < kCount; ++i) {
     const WarpTexel result = found.texel(i);
@@ -81,7 +81,7 @@ TEST_CASE("warp converter: quadratic coordinates hold at black and at the least 
   for (const float value : {0.0f, -0.0f, 1e-45f, 1e-40f, 1.2e-38f, 1e-30f, 1e-12f, 1e-6f, 1e-3f, 1.0f}) {
     WarpRows rows(1), found(1);
     for (auto& row : rows.row) row[0] = value;
-    warp_kernel(InstructionSet::kBaseline)(pass, 1, rows.sources(), found.targets());
+    kernels(InstructionSet::kBaseline).warp(pass, 1, rows.sources(), found.targets());
     const WarpTexel expected = evaluate_warp(warp, rows.texel(0));
     for (std::size_t p = 0; p < kWarpParameters; ++p)
       CHECK(found.row[p][0] == Approx(expected[p]).margin(1e-4));
@@ -95,10 +95,10 @@ TEST_CASE("warp converter: every instruction set gives the same bits, in place t
   const PackedWarp pass = packed(random_warp({dimension, quadratic, copied}, 5, 17));
   WarpRows expected(kCount);
   const WarpRows rows = random_rows(kCount);
-  warp_kernel(InstructionSet::kBaseline)(pass, kCount, rows.sources(), expected.targets());
+  kernels(InstructionSet::kBaseline).warp(pass, kCount, rows.sources(), expected.targets());
   for (const InstructionSet set : available_sets()) {
     WarpRows found = rows, single = rows;
-    warp_kernel(set)(pass, kCount, found.sources(), found.targets());
+    kernels(set).warp(pass, kCount, found.sources(), found.targets());
     for (std::size_t i = 0; i < kCount; ++i) {
       auto from = single.sources();
       auto to = single.targets();
@@ -106,7 +106,7 @@ TEST_CASE("warp converter: every instruction set gives the same bits, in place t
         from[r] += i;
         to[r] += i;
       }
-      warp_kernel(set)(pass, 1, from, to);
+      kernels(set).warp(pass, 1, from, to);
     }
     for (std::size_t r = 0; r < found.row.size(); ++r) {
       REQUIRE(std::memcmp(found.row[r].data(), expected.row[r].data(), kCount * sizeof(float)) == 0);
@@ -126,7 +126,7 @@ TEST_CASE("warp converter: NaN stays NaN, infinity and negative values are held"
       for (std::size_t r = 0; r < kWarpParameters; ++r) {
         WarpRows rows = random_rows(70), found(70);
         rows.row[r][66] = odd;
-        warp_kernel(set)(pass, 70, rows.sources(), found.targets());
+        kernels(set).warp(pass, 70, rows.sources(), found.targets());
         const WarpTexel expected = evaluate_warp(warp, rows.texel(66));
         for (std::size_t p = 0; p < kWarpParameters; ++p) {
           CAPTURE(odd, r, p);

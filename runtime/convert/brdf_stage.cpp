@@ -1,4 +1,4 @@
-#include "convert/data_converter.hpp"
+#include "convert/brdf_stage.hpp"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "convert/lowered_kernel.hpp"
+#include "convert/kernels.hpp"
+#include "convert/stage.hpp"
 #include "remap/error.hpp"
 #include "text/number_text.hpp"
 
@@ -57,22 +58,21 @@ RegimeRows rows_of(const LoweredSeries& series, std::optional<OwnedPolynomialRow
 
 bool is_close(float value, float expected, float within) { return std::fabs(value - expected) <= within; }
 
-class DataConverter final : public Converter {
+class BrdfStage final : public Stage {
  public:
-  DataConverter(const ConverterData& data, InstructionSet set)
-      : Converter(info_of(data, set)),
-        alpha_(data.lowered.alpha.polynomial),
+  BrdfStage(const ConverterData& data, const ConverterInfo& info)
+      : alpha_(data.lowered.alpha.polynomial),
         specular_(data.lowered.specular.polynomial),
         golden_(data.golden),
-        kernel_(lowered_kernel(set)) {
+        kernel_(kernels(info.instructions).convert) {
     constexpr float kNone = std::numeric_limits<float>::max();  // larger than any number that a mapping gives
     pass_.source = data.info.source.roughness;
     pass_.target = data.info.target.roughness;
-    pass_.roughness_min = static_cast<float>(data.info.roughness.min);
-    pass_.roughness_max = static_cast<float>(data.info.roughness.max);
-    pass_.specular_min = static_cast<float>(data.info.specular.min);
-    pass_.specular_max = static_cast<float>(data.info.specular.max);
-    pass_.inverse_specular_max = static_cast<float>(1.0 / data.info.specular.max);
+    pass_.roughness_min = static_cast<float>(info.roughness.min);
+    pass_.roughness_max = static_cast<float>(info.roughness.max);
+    pass_.specular_min = static_cast<float>(info.specular.min);
+    pass_.specular_max = static_cast<float>(info.specular.max);
+    pass_.inverse_specular_max = static_cast<float>(1.0 / info.specular.max);
     const Lowered& lowered = data.lowered;
     pass_.form = form_of(lowered);
     pass_.alpha = alpha_.rows();
@@ -84,11 +84,14 @@ class DataConverter final : public Converter {
     if (lowered.bright) pass_.bright = rows_of(*lowered.bright, &bright_);
   }
 
-  std::size_t convert_rows(std::size_t count, const MaterialRows<const float>& in,
-                           const MaterialRows<float>& out, std::uint8_t* outside) const override {
-    const auto& specular = in[Parameter::kSpecular];
-    return kernel_(pass_, {count, specular.count, in[Parameter::kWidth].row[0], specular.row,
-                           out[Parameter::kWidth].row[0], out[Parameter::kSpecular].row, outside});
+  bool has_domain() const noexcept override { return true; }
+
+  std::size_t run(Block& block, std::uint8_t* outside) const override {
+    const std::size_t channels = block.is_grey(Parameter::kSpecular) ? 1 : 3;
+    const float* const width = block.row(Parameter::kWidth);
+    const auto specular = block.color(Parameter::kSpecular);
+    return kernel_(pass_, {block.size(), channels, width, specular, block.make(Parameter::kWidth),
+                           block.make_color(Parameter::kSpecular, channels), outside});
   }
 
   bool self_test() const override { return gives_golden_texels() && agrees_with_baseline(); }
@@ -97,9 +100,7 @@ class DataConverter final : public Converter {
   bool gives_golden_texels() const {
     for (const GoldenTexel& golden : golden_) {
       float width = 0.0f, mapped = 0.0f;
-      const std::array<const float*, 1> in = {&golden.specular};
-      const std::array<float*, 1> out = {&mapped};
-      convert(1, &golden.width, in, &width, out, nullptr);
+      kernel_(pass_, {1, 1, &golden.width, {&golden.specular}, &width, {&mapped}, nullptr});
       if (!is_close(width, golden.width_out, golden.width_within) ||
           !is_close(mapped, golden.specular_out, golden.specular_within))
         return false;
@@ -118,7 +119,7 @@ class DataConverter final : public Converter {
           pass_.roughness_min + (1.2f * share - 0.1f) * (pass_.roughness_max - pass_.roughness_min);
       specular[i] = pass_.specular_max * 1.2f * other;
     }
-    const auto run = [&](LoweredKernel kernel, std::size_t channels) {
+    const auto run = [&](const auto& kernel, std::size_t channels) {
       std::array<Row, 4> results{};
       const float* in = specular.data();
       kernel(pass_, {kCount,
@@ -132,7 +133,7 @@ class DataConverter final : public Converter {
     };
     for (const std::size_t channels : {1u, 3u}) {
       const auto found = run(kernel_, channels),
-                 expected = run(lowered_kernel(InstructionSet::kBaseline), channels);
+                 expected = run(kernels(InstructionSet::kBaseline).convert, channels);
       if (std::memcmp(&found, &expected, sizeof found) != 0) return false;
     }
     return true;
@@ -142,14 +143,16 @@ class DataConverter final : public Converter {
   std::optional<OwnedPolynomialRows> wide_, bright_;
   std::vector<GoldenTexel> golden_;
   LoweredPass pass_;  // points into the polynomials
-  LoweredKernel kernel_;
+  decltype(Kernels::convert) kernel_;
 };
 
 }  // namespace
 
 std::unique_ptr<Converter> make_converter(const ConverterData& data, InstructionSet set) {
   require_evaluable(data);
-  return std::make_unique<DataConverter>(data, set);
+  ConverterInfo info = info_of(data, set);
+  auto stage = std::make_shared<BrdfStage>(data, info);
+  return std::make_unique<Converter>(std::move(info), StageList{std::move(stage)});
 }
 
 }  // namespace remap

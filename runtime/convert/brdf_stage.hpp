@@ -1,4 +1,4 @@
-// Converters that run the data of lowered fits.
+// Converters of width and specular by the data of lowered fits.
 #pragma once
 
 #include <memory>

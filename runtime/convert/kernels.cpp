@@ -1,15 +1,10 @@
-// The kernels of a lowered mapping, one a file: texel_kernel.inc, compiled for each instruction set.
-#include "convert/lowered_kernel.hpp"
-
-#include "convert/instruction_target.hpp"
-#include "converter/emitted_order.hpp"
+#include "convert/kernels.hpp"
 
 namespace remap {
 
-std::size_t convert_baseline(const LoweredPass& pass, const TexelRows& rows) noexcept;
+extern const Kernels baseline_kernels;
 #if REMAP_HAS_X86_SETS
-std::size_t convert_avx2(const LoweredPass& pass, const TexelRows& rows) noexcept;
-std::size_t convert_avx512(const LoweredPass& pass, const TexelRows& rows) noexcept;
+extern const Kernels avx2_kernels, avx512_kernels;
 #endif
 
 OwnedPolynomialRows::OwnedPolynomialRows(const PiecewisePolynomial& polynomial)
@@ -28,13 +23,13 @@ PolynomialRows OwnedPolynomialRows::rows() const {
           shape_.degrees.data(), numbers_.data()};
 }
 
-LoweredKernel lowered_kernel(InstructionSet set) {
+const Kernels& kernels(InstructionSet set) {
 #if REMAP_HAS_X86_SETS
-  if (set == InstructionSet::kAvx512) return &convert_avx512;
-  if (set == InstructionSet::kAvx2) return &convert_avx2;
+  if (set == InstructionSet::kAvx512) return avx512_kernels;
+  if (set == InstructionSet::kAvx2) return avx2_kernels;
 #endif
   static_cast<void>(set);
-  return &convert_baseline;
+  return baseline_kernels;
 }
 
 }  // namespace remap
