@@ -109,8 +109,7 @@ Json job_json(const Outcome& outcome, const JobReport& report) {
   const MapStatistics& counts = report.statistics;
   Json json, values;
   std::vector<Parameter> named = chosen.converter().targets();
-  for (const Parameter parameter : named)
-    if (parameter != Parameter::kDoubts) json[plain_name(parameter)] = file_json(report, parameter);
+  for (const Parameter parameter : named) json[plain_name(parameter)] = file_json(report, parameter);
   json["mask"] = file_json(report, [](const JobReport::Result& result) { return result.mask; });
   json["copies"] = paths_json(report.copies);
   json["specular_color_space"] = name_of(kTransfers, report.specular_transfer);

@@ -77,7 +77,7 @@ struct ConvertOptions {
   std::optional<RoughnessConvention> output_encoding;
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
-  std::vector<DiagnosisMap> diagnoses;
+  std::filesystem::path diagnose;  // folder for the maps of diagnoses; empty for none
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
   bool copy_others = false, force = false, resume = false, allow_skips = false, dry_run = false;
@@ -97,7 +97,7 @@ struct ConvertOptions {
 
 void add_convert_options(Command& command, ConvertOptions& options);
 
-// Throws kUsage if an option with `tag` was given: `--mask` and the reason.
+// Throws kUsage if an option with `tag` was given: `--only` and the reason.
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason);
 
 // All options that the results depend on, as on a command line.
