@@ -59,12 +59,9 @@ Json converter_json(const ChosenConverter& chosen) {
                {"closest_of", chosen.workflow.is_closest ? Json(chosen.workflow.renderer) : Json()}};
   json.update(closeness_json(chosen.path, chosen.closeness));
   if (!chosen.workflow.is_material()) return json;
-  json["workflow"] = {
-      {"source", end_json(*chosen.workflow.source)},
-      {"target", end_json(*chosen.workflow.target)},
-      {"formula",
-       chosen.workflow.is_to_metallic() ? Json(std::string(formula_name(chosen.workflow.formula))) : Json()},
-      {"assumptions", chosen.workflow.assumptions}};
+  json["workflow"] = {{"source", end_json(*chosen.workflow.source)},
+                      {"target", end_json(*chosen.workflow.target)},
+                      {"assumptions", chosen.workflow.assumptions}};
   return json;
 }
 

@@ -17,10 +17,6 @@ constexpr NamedValues<BadTexels, 3> kBadTexels = {
     {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
 constexpr NamedValues<Parameter, 2> kOnly = {
     {{Parameter::kWidth, "roughness"}, {Parameter::kSpecular, "specular"}}};
-constexpr NamedValues<Formula, 4> kFormulas = {{{Formula::kProjection, "projection"},
-                                                {Formula::kEquation3, "equation-3"},
-                                                {Formula::kEquation3Mean, "equation-3-mean"},
-                                                {Formula::kKhronos, "khronos"}}};
 
 Reader<MapSource> map_source() {
   return {[](const std::string& option, const std::string& word) { return parameter_source(option, word); },
@@ -230,13 +226,8 @@ void add_workflow_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsWorkflow | kNotWithWarp);
   command.option_group("Rare: how metallic is found");
   command
-      .add_option("--formula NAME", options.formula, one_of(kFormulas, "formula"),
-                  "How; projection has the smallest visible error")
-      ->default_text("projection")
-      ->tag(kChangesResults | kNeedsMetallic);
-  command
       .add_option("--prior VALUE", options.prior, prior(),
-                  "How strongly projection prefers 0 and 1: clean (default), noisy (scans, JPEG) or a number "
+                  "How strongly 0 and 1 are preferred: clean (default), noisy (scans, JPEG) or a number "
                   "from 0 to 1")
       ->tag(kChangesResults | kNeedsMetallic);
   command

@@ -43,8 +43,6 @@ struct ColorSpaceWord {
 struct FromMaps {};
 using F0Choice = std::variant<std::monostate, double, FromMaps>;  // the model's own by default
 
-enum class Formula { kProjection, kEquation3, kEquation3Mean, kKhronos };
-
 struct ConvertOptions {
   std::vector<GivenOption> given;  // all options of the command line
 
@@ -66,8 +64,7 @@ struct ConvertOptions {
   std::optional<WorkflowKind> from_workflow, to_workflow;
   F0Choice dielectric_f0;
   std::optional<DiffuseConvention> diffuse_convention;
-  Formula formula = Formula::kProjection;
-  std::optional<double> prior;
+  double prior = kCleanPrior;
   bool smooth_metallic = false;
 
   std::filesystem::path output;
