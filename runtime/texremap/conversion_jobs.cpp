@@ -120,7 +120,8 @@ JobList TreeJobs::list() {
   DiscoveryOptions discovery;
   discovery.recursive = options_.recursive;
   discovery.naming = &naming;
-  if (!options_.output.empty()) discovery.excluded = {options_.output};
+  discovery.excluded = {options_.output};
+  if (!options_.diagnose.empty()) discovery.excluded.push_back(options_.diagnose);
   Discovery found = find_sets(root_, discovery);
   jobs_.is_tree = true;
   jobs_.unrecognised_count = found.unrecognised.size();
@@ -185,7 +186,8 @@ void TreeJobs::add_tile(const FoundSet& set, int tile) {
   ConversionJob job{place(set),
                     number,
                     stand_ins_,
-                    fs::path(options_.output) / set.folder,
+                    options_.output / set.folder,
+                    options_.diagnose / set.folder,
                     {set.name + "_", tile == 0 ? "" : "." + number},
                     {}};
   for (const Parameter parameter : workflow_.sources())
@@ -224,26 +226,26 @@ void TreeJobs::copy_others(const FoundSet& set, int tile, ConversionJob& job) co
   }
 }
 
-// The files that the conversion of a set writes, relative to the output folder, each with one of its source
-// maps. Tiles count as one file.
+// The files that the conversion of a set writes, each with one of its source maps. Tiles count as one file.
 std::map<fs::path, fs::path> TreeJobs::outputs(const FoundSet& set) const {
   const FoundMap& first = set.width ? set.maps[set.width->map] : set.maps.front();
-  const ResultNames names = {set.name + "_", tiles_of(set).front() == 0 ? "" : ".<UDIM>"};
-  const std::string extension =
-      choice_.extension.empty() ? first.path.extension().string() : "." + choice_.extension;
+  const std::string end =
+      (tiles_of(set).front() == 0 ? "" : ".<UDIM>") +
+      (choice_.extension.empty() ? first.path.extension().string() : "." + choice_.extension);
+  const auto own_name = [&](const std::string& name) { return set.name + "_" + name + end; };
   std::map<fs::path, fs::path> sources;
   for (const Parameter parameter : choice_.parameters) {
     const std::vector<MapUse> found = uses_of(set, parameter);
     const fs::path& source = (found.empty() ? first : set.maps[found.front().map]).path;
-    fs::path path = set.folder / set_file_name(file_name(parameter, choice_) + extension, names);
+    fs::path path = set.folder / own_name(file_name(parameter, choice_));
     if (choice_.layout == Layout::kAsInputs && !found.empty()) {
       path = source;
       if (!choice_.extension.empty()) path.replace_extension(choice_.extension);
     }
-    sources.emplace(path, source);
+    sources.emplace(options_.output / path, source);
   }
-  for (const DiagnosisMap& map : choice_.diagnoses)
-    sources.emplace(set.folder / set_file_name(map.name, names), first.path);
+  for (const TargetChannel& diagnosis : choice_.diagnoses)
+    sources.emplace(options_.diagnose / set.folder / own_name(diagnosis_name(diagnosis)), first.path);
   return sources;
 }
 
@@ -265,10 +267,9 @@ void TreeJobs::require_no_collisions() const {
     for (const auto& [path, source] : outputs(set)) {
       const auto [first, is_new] = all.try_emplace(path.lexically_normal(), source);
       if (!is_new)
-        throw Error(ErrorKind::kUsage, shown(fs::path(options_.output) / first->first) +
-                                           ": would be written twice, from " + shown(root_ / first->second) +
-                                           " and from " + shown(root_ / source) +
-                                           " (rename one of the sets)");
+        throw Error(ErrorKind::kUsage, shown(first->first) + ": would be written twice, from " +
+                                           shown(root_ / first->second) + " and from " +
+                                           shown(root_ / source) + " (rename one of the sets)");
     }
 }
 
@@ -333,7 +334,7 @@ JobList tile_jobs(const ConversionJob& whole_set, const std::vector<TiledFile>& 
 JobList conversion_jobs(const ConvertOptions& options, const WorkflowChoice& workflow,
                         const TextureSetRequest& request) {
   if (!options.folder.empty()) return TreeJobs(options, workflow, request).list();
-  ConversionJob job{"", "", request, options.output, {}, copied_files(options, workflow)};
+  ConversionJob job{"", "", request, options.output, options.diagnose, {}, copied_files(options, workflow)};
   if (const std::vector<TiledFile> tiled = tiled_files(job); !tiled.empty()) return tile_jobs(job, tiled);
   JobList list;
   list.jobs.push_back(std::move(job));

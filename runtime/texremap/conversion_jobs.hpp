@@ -18,8 +18,8 @@ struct ConversionJob {
   std::string name;  // of the set, for messages
   std::string tile;  // number of the tile; empty where the set has no tiles
   TextureSetRequest request;
-  std::filesystem::path folder;  // where the results go
-  ResultNames names;             // of results without an input of the same name
+  std::filesystem::path folder, diagnosis_folder;  // where the results go
+  ResultNames names;                               // of results without an input of the same name
   std::vector<CopiedFile> copies;
 };
 

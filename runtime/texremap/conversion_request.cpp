@@ -224,7 +224,13 @@ TargetChoice target_choice(const ConvertOptions& options, const WorkflowChoice& 
                                                                                        : Layout::kAsInputs);
   choice.extension = options.format;
   choice.type = options.type;
-  choice.diagnoses = options.diagnoses;
+  choice.diagnosis_folder = options.diagnose;
+  if (!options.diagnose.empty()) {
+    choice.diagnoses = {MaskChannel{}};
+    if (workflow.is_to_metallic())
+      for (const Parameter measure : {Parameter::kResidual, Parameter::kMetallicWidth, Parameter::kDoubts})
+        choice.diagnoses.push_back(ConvertedChannel{measure});
+  }
   choice.parameters = workflow.targets();
   choice.colors_stay_grey = !workflow.is_material();
   if (options.only) choice.parameters = {*options.only};

@@ -59,12 +59,9 @@ Json converter_json(const ChosenConverter& chosen) {
                {"closest_of", chosen.workflow.is_closest ? Json(chosen.workflow.renderer) : Json()}};
   json.update(closeness_json(chosen.path, chosen.closeness));
   if (!chosen.workflow.is_material()) return json;
-  json["workflow"] = {
-      {"source", end_json(*chosen.workflow.source)},
-      {"target", end_json(*chosen.workflow.target)},
-      {"formula",
-       chosen.workflow.is_to_metallic() ? Json(std::string(formula_name(chosen.workflow.formula))) : Json()},
-      {"assumptions", chosen.workflow.assumptions}};
+  json["workflow"] = {{"source", end_json(*chosen.workflow.source)},
+                      {"target", end_json(*chosen.workflow.target)},
+                      {"assumptions", chosen.workflow.assumptions}};
   return json;
 }
 
@@ -109,8 +106,7 @@ Json job_json(const Outcome& outcome, const JobReport& report) {
   const MapStatistics& counts = report.statistics;
   Json json, values;
   std::vector<Parameter> named = chosen.converter().targets();
-  for (const Parameter parameter : named)
-    if (parameter != Parameter::kDoubts) json[plain_name(parameter)] = file_json(report, parameter);
+  for (const Parameter parameter : named) json[plain_name(parameter)] = file_json(report, parameter);
   json["mask"] = file_json(report, [](const JobReport::Result& result) { return result.mask; });
   json["copies"] = paths_json(report.copies);
   json["specular_color_space"] = name_of(kTransfers, report.specular_transfer);

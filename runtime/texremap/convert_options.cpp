@@ -17,10 +17,6 @@ constexpr NamedValues<BadTexels, 3> kBadTexels = {
     {{BadTexels::kKeep, "keep"}, {BadTexels::kClamp, "clamp"}, {BadTexels::kFail, "fail"}}};
 constexpr NamedValues<Parameter, 2> kOnly = {
     {{Parameter::kWidth, "roughness"}, {Parameter::kSpecular, "specular"}}};
-constexpr NamedValues<Formula, 4> kFormulas = {{{Formula::kProjection, "projection"},
-                                                {Formula::kEquation3, "equation-3"},
-                                                {Formula::kEquation3Mean, "equation-3-mean"},
-                                                {Formula::kKhronos, "khronos"}}};
 
 Reader<MapSource> map_source() {
   return {[](const std::string& option, const std::string& word) { return parameter_source(option, word); },
@@ -230,13 +226,8 @@ void add_workflow_options(Command& command, ConvertOptions& options) {
       ->tag(kChangesResults | kNeedsWorkflow | kNotWithWarp);
   command.option_group("Rare: how metallic is found");
   command
-      .add_option("--formula NAME", options.formula, one_of(kFormulas, "formula"),
-                  "How; projection has the smallest visible error")
-      ->default_text("projection")
-      ->tag(kChangesResults | kNeedsMetallic);
-  command
       .add_option("--prior VALUE", options.prior, prior(),
-                  "How strongly projection prefers 0 and 1: clean (default), noisy (scans, JPEG) or a number "
+                  "How strongly 0 and 1 are preferred: clean (default), noisy (scans, JPEG) or a number "
                   "from 0 to 1")
       ->tag(kChangesResults | kNeedsMetallic);
   command
@@ -268,33 +259,14 @@ void add_rare_options(Command& command, ConvertOptions& options) {
   command.add_flag("--dither", options.dither, "Add repeatable noise of half a step to 8-bit results")
       ->tag(kChangesResults | kNeedsFiles);
 
-  command.option_group("Rare: diagnosis maps");
-  const auto add_diagnosis = [&](const std::string& name, const TargetChannel& content,
-                                 const std::string& description) {
-    return command
-        .add_option(name + " FILE", options.diagnoses,
-                    Reader<std::vector<DiagnosisMap>>{
-                        [&options, content](const std::string&, const std::string& word) {
-                          std::vector<DiagnosisMap> all = options.diagnoses;
-                          all.push_back({content, word});
-                          return all;
-                        },
-                        {}},
-                    "Also write this map: " + description)
-        ->tag(kChangesResults | kNeedsFiles);
-  };
-  add_diagnosis("--mask", MaskChannel{}, "1 where a texel is outside the domain");
-  add_diagnosis("--residual", ConvertedChannel{Parameter::kResidual},
-                "what metal-rough cannot represent; rendered pictures differ by 0.42 of it")
-      ->tag(kNeedsMetallic);
-  add_diagnosis("--metallic-width", ConvertedChannel{Parameter::kMetallicWidth},
-                "the share of [0, 1] in which metallic may lie; above 0.2 it is undetermined")
-      ->tag(kNeedsMetallic);
-  add_diagnosis("--doubts", ConvertedChannel{Parameter::kDoubts},
-                "doubts, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined")
-      ->tag(kNeedsMetallic);
-
   command.option_group("Rare: checks");
+  command
+      .add_option("--diagnose FOLDER", options.diagnose,
+                  "Also write maps that check the result: mask, 1 outside the domain; of a metallic result, "
+                  "residual, what metal-rough cannot represent (rendered pictures differ by 0.42 of it), "
+                  "metallic_width, the share of [0, 1] in which metallic may lie (above 0.2 it is "
+                  "undetermined), and doubts, a sum: 1 clamped, 2 ambiguous, 4 too dark, 8 undetermined")
+      ->tag(kNeedsFiles);
   command
       .add_option("--bad-texels NAME", options.bad_texels, one_of(kBadTexels, "treatment"),
                   "NaN, infinite and negative values; clamp moves all values into the domain")

@@ -43,8 +43,6 @@ struct ColorSpaceWord {
 struct FromMaps {};
 using F0Choice = std::variant<std::monostate, double, FromMaps>;  // the model's own by default
 
-enum class Formula { kProjection, kEquation3, kEquation3Mean, kKhronos };
-
 struct ConvertOptions {
   std::vector<GivenOption> given;  // all options of the command line
 
@@ -66,8 +64,7 @@ struct ConvertOptions {
   std::optional<WorkflowKind> from_workflow, to_workflow;
   F0Choice dielectric_f0;
   std::optional<DiffuseConvention> diffuse_convention;
-  Formula formula = Formula::kProjection;
-  std::optional<double> prior;
+  double prior = kCleanPrior;
   bool smooth_metallic = false;
 
   std::filesystem::path output;
@@ -77,7 +74,7 @@ struct ConvertOptions {
   std::optional<RoughnessConvention> output_encoding;
   std::vector<ColorSpaceWord> output_color_spaces;
   std::optional<Parameter> only;
-  std::vector<DiagnosisMap> diagnoses;
+  std::filesystem::path diagnose;  // folder for the maps of diagnoses; empty for none
   BadTexels bad_texels = BadTexels::kKeep;
   bool dither = false;
   bool copy_others = false, force = false, resume = false, allow_skips = false, dry_run = false;
@@ -97,7 +94,7 @@ struct ConvertOptions {
 
 void add_convert_options(Command& command, ConvertOptions& options);
 
-// Throws kUsage if an option with `tag` was given: `--mask` and the reason.
+// Throws kUsage if an option with `tag` was given: `--only` and the reason.
 void refuse(const ConvertOptions& options, OptionTags tag, const std::string& reason);
 
 // All options that the results depend on, as on a command line.

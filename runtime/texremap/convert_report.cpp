@@ -26,7 +26,7 @@ std::string material_text(const ChosenConverter& chosen) {
     return model_of(end) + " (" + std::string(kind_name(end)) + ": " + conventions_text(end) + ")";
   };
   std::string text = end_text(*workflow.source) + " to " + end_text(*workflow.target);
-  if (workflow.is_to_metallic()) text += " by " + std::string(formula_name(workflow.formula));
+  if (workflow.is_to_metallic()) text += " by projection";
   if (chosen.brdf == nullptr)
     for (const std::string& step : chosen.info().steps) text += " by " + step;  // a warp
   else
@@ -78,8 +78,7 @@ WorkflowStages stages_of(const ChosenConverter& chosen) {
   WorkflowStages stages{*chosen.workflow.source, *chosen.workflow.target};
   stages.brdf = chosen.brdf;
   stages.width = width_of(stages.target);
-  if (const auto* projection = std::get_if<Projection>(&chosen.workflow.formula))
-    stages.prior = projection->prior;
+  stages.prior = chosen.workflow.prior;
   return stages;
 }
 
@@ -89,8 +88,7 @@ std::string converter_ids(const ChosenConverter& chosen) {
   if (!chosen.workflow.is_material()) return ids;
   return ids + (ids.empty() ? "" : " ") + chosen.info().id + " (" +
          conventions_text(*chosen.workflow.source) + "; " + conventions_text(*chosen.workflow.target) +
-         (chosen.workflow.is_to_metallic() ? "; " + std::string(formula_name(chosen.workflow.formula)) : "") +
-         ")";
+         (chosen.workflow.is_to_metallic() ? "; projection)" : ")");
 }
 
 JobReport& JobReport::operator+=(const JobReport& other) {

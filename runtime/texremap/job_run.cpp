@@ -271,7 +271,8 @@ void JobRunner::commit(const ConversionJob& job, const TargetPlan& plan, const s
     for (const auto& [unfinished, path] : copies.files()) commit_file(unfinished, path, Flush::kNo);
   });
   std::error_code ignored;
-  if (std::filesystem::exists(job.folder, ignored)) flush_to_disk(job.folder, job.folder);
+  for (const std::filesystem::path& folder : {job.folder, job.diagnosis_folder})
+    if (std::filesystem::exists(folder, ignored)) flush_to_disk(folder, folder);
 }
 
 void JobRunner::run(const ConversionJob& job, const std::function<void(double)>& progress,
@@ -285,6 +286,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
 
   TargetChoice choice = choice_;
   choice.folder = job.folder;
+  choice.diagnosis_folder = job.diagnosis_folder;
   choice.names = job.names;
   choice.metadata = metadata_of(chosen_);
   choice.force = options_.force || options_.resume || is_tree_;  // existing files are checked below
@@ -309,7 +311,7 @@ void JobRunner::run(const ConversionJob& job, const std::function<void(double)>&
   if (options_.dry_run) return;
 
   const std::unique_ptr<Converter> own = survey(set, report);
-  std::vector<TargetMap> targets = open_targets(set, plan, choice);
+  std::vector<TargetMap> targets = open_targets(set, plan);
   note_doubts(set, targets, report);
   note_colors(set, targets, report);
   for (const TargetMap& target : targets)

@@ -32,7 +32,8 @@ struct Entry {
 // A name as the journal writes it. Names that are not UTF-8, which JSON cannot hold, have % and two digits
 // for each byte that is not ASCII.
 std::string journal_name(const fs::path& path, const fs::path& folder) {
-  const std::string name = path.lexically_normal().lexically_relative(folder).generic_string();
+  const auto absolute = [](const fs::path& name) { return fs::absolute(name).lexically_normal(); };
+  const std::string name = absolute(path).lexically_relative(absolute(folder)).generic_string();
   if (is_utf8(name)) return name;
   constexpr const char* kDigits = "0123456789ABCDEF";
   std::string escaped;

@@ -110,8 +110,7 @@ std::vector<std::string> stage_texts(const WorkflowChoice& choice) {
     stages.push_back("to diffuse and specular by equation (2), exact");
   if (choice.source_brdf != choice.target_brdf)
     stages.push_back("roughness and specular from " + choice.source_brdf + " to " + choice.target_brdf);
-  if (choice.is_to_metallic())
-    stages.push_back("to base color and metallic by " + std::string(formula_name(choice.formula)));
+  if (choice.is_to_metallic()) stages.push_back("to base color and metallic by projection");
   stages.push_back(end_text(*choice.target, choice.target_brdf));
   return stages;
 }

@@ -110,22 +110,6 @@ void choose_f0(const ConvertOptions& options, WorkflowChoice& choice) {
   set_f0(choice.target, std::get<double>(options.dielectric_f0));
 }
 
-WorkflowFormula formula_of(const ConvertOptions& options) {
-  if (options.formula != Formula::kProjection && options.prior)
-    throw Error(ErrorKind::kUsage, "--prior can only be used with --formula projection");
-  switch (options.formula) {
-    case Formula::kEquation3:
-      return Equation3{MetallicMean::kAlbedo};
-    case Formula::kEquation3Mean:
-      return Equation3{MetallicMean::kPlain};
-    case Formula::kKhronos:
-      return KhronosSolver{};
-    case Formula::kProjection:
-      break;
-  }
-  return Projection{options.prior.value_or(kCleanPrior)};
-}
-
 // Refuses options that require a workflow, or a target with metallic.
 void require_workflow(const ConvertOptions& options, const WorkflowChoice& choice) {
   if (choice.is_material())
@@ -173,7 +157,7 @@ WorkflowChoice workflow_choice(const ConvertOptions& options) {
     choice.target = target.end;
     choose_diffuse(options, source, target, choice);
     choose_f0(options, choice);
-    choice.formula = formula_of(options);
+    choice.prior = options.prior;
     if (choice.source == choice.target)
       throw Error(ErrorKind::kUsage, "--to: " + options.to + " is the same material as --from " +
                                          options.from + " (choose another model)");

@@ -21,8 +21,8 @@ struct WorkflowChoice {
   // Both or neither are set. Without them, roughness and specular alone are converted.
   std::optional<WorkflowEnd> source, target;
   std::map<Parameter, ConstantValues> constants;  // source values in place of missing maps
-  WorkflowFormula formula = Projection{kCleanPrior};
-  bool estimates_f0 = false;  // use the F0 estimated from the maps
+  double prior = kCleanPrior;                     // of the projection, towards a metallic of 0 and 1
+  bool estimates_f0 = false;                      // use the F0 estimated from the maps
   bool f0_given = false;
   std::vector<std::string> assumptions;  // one message per assumption
 

@@ -43,8 +43,9 @@ void require_free(const fs::path& output, bool force) {
 
 void require_safe(const TargetPlan& plan, const TextureSet& set, const TargetChoice& choice) {
   std::error_code ignored;
-  if (fs::exists(choice.folder, ignored) && !fs::is_directory(choice.folder, ignored))
-    throw Error(ErrorKind::kOutput, choice.folder.string() + ": is a file, not a folder");
+  for (const fs::path& folder : {choice.folder, choice.diagnosis_folder})
+    if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
+      throw Error(ErrorKind::kOutput, folder.string() + ": is a file, not a folder");
   std::vector<fs::path> results;
   for (const PlannedMap& map : plan.maps) results.push_back(map.path);
   for (const PlannedCopy& copy : plan.copies) results.push_back(copy.path);
@@ -317,10 +318,6 @@ std::vector<PlannedMap> packed_maps(const TextureSet& set, const TargetChoice& c
 
 }  // namespace
 
-std::string set_file_name(const fs::path& file, const ResultNames& names) {
-  return names.before + file.stem().string() + names.after + file.extension().string();
-}
-
 std::string file_name(Parameter parameter, const TargetChoice& choice) {
   const bool is_width = parameter == Parameter::kWidth;
   if (choice.layout == Layout::kSpecGloss && (is_width || parameter == Parameter::kSpecular))
@@ -329,6 +326,11 @@ std::string file_name(Parameter parameter, const TargetChoice& choice) {
       (is_width || parameter == Parameter::kMetallic))
     return std::string(name_of(kLayouts, choice.layout));
   return is_width ? choice.width_name : std::string(parameter_name(parameter));
+}
+
+std::string diagnosis_name(const TargetChannel& diagnosis) {
+  const auto* measure = std::get_if<ConvertedChannel>(&diagnosis);
+  return measure == nullptr ? "mask" : std::string(parameter_name(measure->parameter));
 }
 
 TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
@@ -340,11 +342,10 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
     require_nothing_lost(set);
     plan.maps = choice.layout == Layout::kSeparate ? separate_maps(set, choice) : packed_maps(set, choice);
   }
-  for (const DiagnosisMap& diagnosis : choice.diagnoses) {
-    PlannedMap map = new_map(diagnosis.name, kGrey, {diagnosis.content}, set, choice);
-    map.path = choice.folder / set_file_name(diagnosis.name, choice.names);
-    map.parts.front().changes.type = std::nullopt;
-    plan.maps.push_back(map);
+  for (const TargetChannel& diagnosis : choice.diagnoses) {
+    plan.maps.push_back(new_map(diagnosis_name(diagnosis), kGrey, {diagnosis}, set, choice));
+    fs::path& path = plan.maps.back().path;
+    path = choice.diagnosis_folder / path.filename();
   }
   for (PlannedMap& map : plan.maps)
     for (TargetPart& part : map.parts)
@@ -361,11 +362,10 @@ TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice) {
   return plan;
 }
 
-std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& plan,
-                                    const TargetChoice& choice) {
-  create_parent(choice.folder / "any file");
+std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& plan) {
   std::vector<TargetMap> targets;
   for (const PlannedMap& map : plan.maps) {
+    create_parent(map.path);
     std::vector<NewPart> parts;
     for (const TargetPart& part : map.parts) parts.push_back({&set.maps[part.model].stored(), part.changes});
     targets.push_back({image_library().create(map.path, parts), map.parts});

@@ -53,22 +53,14 @@ struct ResultNames {
   std::string after;
 };
 
-// Adds this text to a file name: mask.png becomes `wood_mask.1001.png`.
-std::string set_file_name(const std::filesystem::path& file, const ResultNames& names);
-
-// A map of one channel with a diagnosis of the conversion: the mask, or a measure.
-struct DiagnosisMap {
-  TargetChannel content;
-  std::string name;  // of the file
-};
-
 struct TargetChoice {
   std::filesystem::path folder;
   std::vector<Parameter> parameters = {Parameter::kWidth, Parameter::kSpecular};  // to write
   std::string width_name = "roughness";           // name of a separate roughness file
   std::map<Parameter, Transfer> color_transfers;  // chosen by the user
-  bool colors_stay_grey = true;  // colors that are grey in the set stay grey in a separate file
-  std::vector<DiagnosisMap> diagnoses;
+  bool colors_stay_grey = true;          // colors that are grey in the set stay grey in a separate file
+  std::vector<TargetChannel> diagnoses;  // the mask and measures: a grey map each, in a folder of its own
+  std::filesystem::path diagnosis_folder;
   std::string extension;          // of all files; empty for those of the inputs
   std::optional<PixelType> type;  // of all files
   ResultNames names;
@@ -81,6 +73,8 @@ struct TargetChoice {
 // The name of the file that holds a parameter in layouts that name their files, or without an input of the
 // same name; without ResultNames and extension.
 std::string file_name(Parameter parameter, const TargetChoice& choice);
+// The name of the map of a diagnosis, without ResultNames and extension: `mask`, `residual`.
+std::string diagnosis_name(const TargetChannel& diagnosis);
 
 // Plans the files of a conversion.
 //
@@ -95,8 +89,7 @@ std::string file_name(Parameter parameter, const TargetChoice& choice);
 // to copy does not exist; kOutput if a result exists and `force` is not set, or if the folder is a file.
 TargetPlan plan_targets(const TextureSet& set, const TargetChoice& choice);
 
-// Opens the planned files. Throws kOutput if the folder cannot be created or a file cannot be opened.
-std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& plan,
-                                    const TargetChoice& choice);
+// Opens the planned files. Throws kOutput if a folder cannot be created or a file cannot be opened.
+std::vector<TargetMap> open_targets(const TextureSet& set, const TargetPlan& plan);
 
 }  // namespace remap

@@ -211,9 +211,9 @@ TEST_CASE("texremap inputs: the mask marks the texels that were counted") {
   write_image(session.path("r.exr"), test_spec(kSize, kSize, {"Y"}, OIIO::TypeHalf),
               [](int x, int y, int c) { return 1.3f * noise(x, y, c); });
   std::vector<std::string> words = maps(session, "r.exr", "s.exr");
-  words.insert(words.end(), {"--json", "--mask", "outside.png"});
+  words.insert(words.end(), {"--json", "--diagnose", session.path("checks")});
   const ProcessResult result = require_success(convert(session, words));
-  const TestImage mask = read_image(session.path("out/outside.png")), in = read_image(session.path("r.exr"));
+  const TestImage mask = read_image(session.path("checks/mask.exr")), in = read_image(session.path("r.exr"));
   const Range covered = find_converter("mitsuba/ward", "mitsuba/as").info().roughness;
   std::size_t marked = 0;
   for (int y = 0; y < kSize; ++y)

@@ -102,6 +102,54 @@ TEST_CASE("texremap nights: --resume makes anew what changed, without --force", 
   CHECK(states(tree, {"--copy-others"}) == "dd");
 }
 
+TEST_CASE("texremap nights: maps of diagnoses are results of a folder of their own") {
+  const Tree tree;
+  for (const std::string name : {"wood", "deep/wall"}) {
+    tree.map("in/" + name + "_diffuse.png", kColor);
+    tree.map("in/" + name + "_specular.png", kColor);
+    tree.map("in/" + name + "_glossiness.png", kGrey);
+  }
+  const fs::path checks = tree.path("in/checks");  // below the inputs; --output is a relative path
+  const auto convert = [&](const Words& more) {
+    Words words = {"convert",    tree.path("in"),
+                   "--from",     "gltf-specgloss",
+                   "--to",       "gltf",
+                   "-r",         "--json",
+                   "-o",         fs::relative(tree.path("out")).string(),
+                   "--diagnose", checks.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return tree.texremap(words);
+  };
+  const auto letters = [&](const Words& more) {
+    std::string all;
+    const auto report = tree_report(convert(more).output);
+    for (const auto& set : report["sets"]) all += set["state"].get<std::string>().front();
+    return all;
+  };
+  const auto planned = tree_report(require_success(convert({"--dry-run"})).output);
+  CHECK(planned["sets"][1]["results"].size() == 7);
+  CHECK(planned["sets"][1]["doubts"] == (checks / "wood_doubts.png").string());
+  CHECK_FALSE(fs::exists(checks));
+  CHECK(letters({}) == "cc");
+  for (const char* name : {"wood_mask.png", "wood_residual.png", "wood_metallic_width.png", "wood_doubts.png",
+                           "deep/wall_mask.png", "deep/wall_doubts.png"})
+    CHECK(fs::exists(checks / name));
+  CHECK(tree.results().size() == 6);
+  CHECK(letters({"--resume"}) == "dd");
+  CHECK(letters({}) == "ff");
+  const std::string before = read_file(checks / "wood_doubts.png");
+  write_file(checks / "wood_doubts.png", "no image");
+  CHECK(letters({"--resume"}) == "dc");
+  CHECK(read_file(checks / "wood_doubts.png") == before);
+  write_file(checks / "wood_mask.png", "of nobody");
+  fs::remove(tree.path("out/" + std::string(kJournal)));
+  CHECK(letters({"--resume"}) == "ff");
+  CHECK(read_file(checks / "wood_mask.png") == "of nobody");
+  CHECK(letters({"--force"}) == "cc");
+  require_success(convert({"--force", "--format", "exr", "--type", "half"}));
+  CHECK(read_image(checks / "wood_residual.exr").spec.format == OIIO::TypeHalf);
+}
+
 TEST_CASE("texremap nights: another converter of the same name is another conversion", "[slow]") {
   const Tree tree;
   write_sets(tree, 1, "png");

@@ -137,11 +137,10 @@ RoundTrip round_trip(const Material& material, const std::vector<std::string>& m
                            "--roughness", material.roughness, "--occlusion", material.occlusion, "--format",
                            "png", "--type", type, "--layout", "specgloss", "-o", at("specgloss")}));
   const std::string packed = at("specgloss/specular_glossiness.png");
-  const ProcessResult back =
-      require_success(convert(models[1], models[0],
-                              {"--diffuse", at("specgloss/diffuse.png"), "--specular", packed, "--glossiness",
-                               words_of(packed, ":A"), "--layout", "separate", "--type", "uint8", "--doubts",
-                               "doubts.png", "--metallic-width", "width.png", "-o", at("back")}));
+  const ProcessResult back = require_success(convert(
+      models[1], models[0],
+      {"--diffuse", at("specgloss/diffuse.png"), "--specular", packed, "--glossiness", words_of(packed, ":A"),
+       "--layout", "separate", "--type", "uint8", "--diagnose", at("checks"), "-o", at("back")}));
   std::cout << material.name << ", " << models[0] << " to " << models[1] << " in " << type
             << " and back: " << nlohmann::json::parse(back.output)["metallic_confidence"].dump() << "\n";
   const auto channel_of = [](const std::string& word) {
@@ -154,7 +153,8 @@ RoundTrip round_trip(const Material& material, const std::vector<std::string>& m
                   metal_back = read_image(at("back/metallic.png")),
                   rough = read_image(file_of(material.roughness)),
                   rough_back = read_image(at("back/roughness.png")),
-                  doubts = read_image(at("back/doubts.png")), width = read_image(at("back/width.png"));
+                  doubts = read_image(at("checks/doubts.png")),
+                  width = read_image(at("checks/metallic_width.png"));
   RoundTrip result;
   result.texels = metal_back.bytes.size();
   std::vector<Answer> answers(result.texels);

@@ -111,16 +111,16 @@ TEST_CASE("texremap workflows: specular to metallic has the bits of the library,
   const std::string threads = GENERATE("1", "3");
   const std::string set = GENERATE("baseline", "avx2");
   if (set == "avx2" && !has_avx2()) return;
-  const ProcessResult result =
-      require_success(convert(session, with(specular_words(session, "specular", "metallic"),
-                                            {"--threads", threads, "--instructions", set, "--residual",
-                                             "res.exr", "--metallic-width", "wid.exr", "--json"})));
+  const ProcessResult result = require_success(convert(
+      session,
+      with(specular_words(session, "specular", "metallic"),
+           {"--threads", threads, "--instructions", set, "--diagnose", session.path("checks"), "--json"})));
   const TestImage d = read_image(session.path("d.exr")), s = read_image(session.path("s.exr")),
                   r = read_image(session.path("r.exr")),
                   base = read_image(session.path("out/base_color.exr")),
                   metal = read_image(session.path("out/metallic.exr")),
-                  residual = read_image(session.path("out/res.exr")),
-                  width = read_image(session.path("out/wid.exr"));
+                  residual = read_image(session.path("checks/residual.exr")),
+                  width = read_image(session.path("checks/metallic_width.exr"));
   const WorkflowConversion conversion{{}, {}, Projection{kCleanPrior}};
   std::size_t guesses = 0;
   for (int y = 0; y < kSize; ++y)
@@ -254,23 +254,23 @@ TEST_CASE("texremap workflows: undetermined metallic follows the reliable texels
   bytes("s.png", 200, 56, 2.0f, 56);
   const auto converted = [&](const std::string& folder, const std::vector<std::string>& more) {
     std::vector<std::string> words = {"convert", "-o", session.path(folder)};
-    for (const char* word :
-         {"--from specular", "--to metallic", "--roughness 0.4", "--prior 0", "--format exr", "--type float",
-          "--metallic-width wid.exr", "--residual res.exr"}) {
+    for (const char* word : {"--from specular", "--to metallic", "--roughness 0.4", "--prior 0",
+                             "--format exr", "--type float"}) {
       const std::string both = word;
       const std::size_t space = both.find(' ');
       words.insert(words.end(), {both.substr(0, space), both.substr(space + 1)});
     }
-    words = with(words, {"--diffuse", session.path("d.png"), "--specular", session.path("s.png")});
+    words = with(words, {"--diffuse", session.path("d.png"), "--specular", session.path("s.png"),
+                         "--diagnose", session.path(folder)});
     require_success(session.texremap(with(words, more)));
     return read_image(session.path(folder + "/metallic.exr"));
   };
   const TestImage alone = converted("alone", {}), smooth = converted("smooth", {"--smooth-metallic"}),
                   threads = converted("threads", {"--smooth-metallic", "--threads", "3"});
   CHECK(threads.bytes == smooth.bytes);
-  const TestImage width = read_image(session.path("alone/wid.exr")),
-                  residual = read_image(session.path("alone/res.exr")),
-                  smooth_residual = read_image(session.path("smooth/res.exr"));
+  const TestImage width = read_image(session.path("alone/metallic_width.exr")),
+                  residual = read_image(session.path("alone/residual.exr")),
+                  smooth_residual = read_image(session.path("smooth/residual.exr"));
   double jumps = 0.0, smooth_jumps = 0.0;
   int guesses = 0;
   for (int y = 1; y < kWide; ++y)

@@ -81,7 +81,7 @@ MapStatistics convert(const std::string& roughness, const std::string& specular,
   TextureSet set = open_texture_set(request);
   TargetChoice choice;
   choice.folder = folder;
-  std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice), choice);
+  std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice));
   PassOptions options;
   options.thread_count = 2;
   return run_texture_pass(set, targets, converter, options);

@@ -60,7 +60,7 @@ void convert(const std::filesystem::path& file, const std::filesystem::path& fol
   TargetChoice choice;
   choice.folder = folder;
   choice.force = true;
-  std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice), choice);
+  std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice));
   run_texture_pass(set, targets, converter, {});
 }
 

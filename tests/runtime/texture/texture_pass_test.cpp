@@ -60,7 +60,7 @@ struct Scene {
     TargetChoice choice;
     choice.folder = folder.path() / "out";
     choice.force = true;
-    std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice), choice);
+    std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice));
     return run_texture_pass(set, targets, converter, options);
   }
 };
@@ -152,7 +152,7 @@ TEST_CASE("texture pass: whole materials do not depend on threads and bands, smo
   TargetChoice choice;
   choice.layout = Layout::kSeparate;
   choice.parameters = {Parameter::kWidth, Parameter::kBaseColor, Parameter::kMetallic};
-  choice.diagnoses = {{ConvertedChannel{Parameter::kDoubts}, "doubts.exr"}};
+  choice.diagnoses = {ConvertedChannel{Parameter::kDoubts}};
   choice.force = true;
   std::optional<MapStatistics> first;
   for (const int threads : {1, 3})
@@ -162,9 +162,9 @@ TEST_CASE("texture pass: whole materials do not depend on threads and bands, smo
       options.band_bytes = bytes;
       options.metallic_statistics = true;
       options.smooth_metallic = is_smooth;
-      choice.folder = folder.path() / (first ? "again" : "first");
+      choice.folder = choice.diagnosis_folder = folder.path() / (first ? "again" : "first");
       TextureSet set = open_texture_set(request);
-      std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice), choice);
+      std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice));
       const MapStatistics statistics = run_texture_pass(set, targets, *converter, options);
       if (!first) {
         first = statistics;
