@@ -60,19 +60,19 @@ bool is_close(float value, float expected, float within) { return std::fabs(valu
 
 class BrdfStage final : public Stage {
  public:
-  BrdfStage(const ConverterData& data, const ConverterInfo& info)
+  BrdfStage(const ConverterData& data, InstructionSet set)
       : alpha_(data.lowered.alpha.polynomial),
         specular_(data.lowered.specular.polynomial),
         golden_(data.golden),
-        kernel_(kernels(info.instructions).convert) {
+        kernel_(kernels(set).convert) {
     constexpr float kNone = std::numeric_limits<float>::max();  // larger than any number that a mapping gives
     pass_.source = data.info.source.roughness;
     pass_.target = data.info.target.roughness;
-    pass_.roughness_min = static_cast<float>(info.roughness.min);
-    pass_.roughness_max = static_cast<float>(info.roughness.max);
-    pass_.specular_min = static_cast<float>(info.specular.min);
-    pass_.specular_max = static_cast<float>(info.specular.max);
-    pass_.inverse_specular_max = static_cast<float>(1.0 / info.specular.max);
+    pass_.roughness_min = static_cast<float>(data.info.roughness.min);
+    pass_.roughness_max = static_cast<float>(data.info.roughness.max);
+    pass_.specular_min = static_cast<float>(data.info.specular.min);
+    pass_.specular_max = static_cast<float>(data.info.specular.max);
+    pass_.inverse_specular_max = static_cast<float>(1.0 / data.info.specular.max);
     const Lowered& lowered = data.lowered;
     pass_.form = form_of(lowered);
     pass_.alpha = alpha_.rows();
@@ -150,9 +150,7 @@ class BrdfStage final : public Stage {
 
 std::unique_ptr<Converter> make_converter(const ConverterData& data, InstructionSet set) {
   require_evaluable(data);
-  ConverterInfo info = info_of(data, set);
-  auto stage = std::make_shared<BrdfStage>(data, info);
-  return std::make_unique<Converter>(std::move(info), StageList{std::move(stage)});
+  return std::make_unique<Converter>(info_of(data, set), StageList{std::make_shared<BrdfStage>(data, set)});
 }
 
 }  // namespace remap
