@@ -15,7 +15,7 @@ namespace {
 
 using remap::Range;
 
-constexpr double kWidthRatio = 1.01;  // of neighbouring widths of the target
+constexpr double kAlphaRatio = 1.01;  // of neighbouring widths of the target
 constexpr std::size_t kStride = 6;    // of those that are looked at first
 constexpr double kNarrowest = 0.25;   // width of the target, relative to the source's least
 
@@ -47,7 +47,7 @@ TargetWidths target_widths(const PictureTaker& taker, const ProbedModel& target,
   TargetWidths widths;
   widths.speculars = target.linear_range();
   const double least = std::max(target.model.alpha.min, narrowest);
-  for (double alpha = target.model.alpha.max; alpha > least; alpha /= kWidthRatio)
+  for (double alpha = target.model.alpha.max; alpha > least; alpha /= kAlphaRatio)
     widths.alphas.push_back(alpha);
   widths.alphas.push_back(least);
   for (const double alpha : widths.alphas) widths.pictures.push_back(take_affine(taker, target, alpha));

@@ -248,7 +248,6 @@ PassOptions pass_options(const ConvertOptions& options) {
   pass.dither = options.dither;
   pass.value_statistics = options.json;
   pass.metallic_statistics = options.json || !options.quiet;
-  pass.smooth_metallic = options.smooth_metallic;
   return pass;
 }
 

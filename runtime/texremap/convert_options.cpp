@@ -234,10 +234,6 @@ void add_workflow_options(Command& command, ConvertOptions& options) {
       .add_option("--metal-mask MAP", options.maps[Parameter::kMetalMask], map_source(),
                   "Map of the metals, which decides between metallic values that look alike")
       ->tag(kChangesResults | kNeedsMetallic);
-  command
-      .add_flag("--smooth-metallic", options.smooth_metallic,
-                "Where metallic is undetermined, follow the texels around it; reads the maps twice")
-      ->tag(kChangesResults | kNeedsMetallic | kNeedsFiles);
 }
 
 void add_rare_options(Command& command, ConvertOptions& options) {

@@ -65,7 +65,6 @@ struct ConvertOptions {
   F0Choice dielectric_f0;
   std::optional<DiffuseConvention> diffuse_convention;
   double prior = kCleanPrior;
-  bool smooth_metallic = false;
 
   std::filesystem::path output;
   std::optional<Layout> layout;

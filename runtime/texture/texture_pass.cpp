@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "maps/metallic_field.hpp"
 #include "remap/error.hpp"
 
 namespace remap {
@@ -87,9 +86,7 @@ class Pass {
   Pass(TextureSet& set, const Round& round, const Converter& converter, const PassOptions& options);
   // Called after each band with the number of finished rows.
   using Progress = std::function<void(int)>;
-  // Finds the metallic around each texel, for smooth_metallic. Call it before run().
-  void look_around(const Progress& progress);
-  MapStatistics run(const Progress& progress);
+  MapStatistics run(const Progress& progress);  // reads the next band while one is converted
 
  private:
   // Index of the input band that can be overwritten in place, because `target` copies its other channels; -1
@@ -98,8 +95,6 @@ class Pass {
   int rows_of_a_band() const;
   void stop_if_cancelled() const;
   void read(Band& band, int first_row);
-  // Calls `process` for each band in order, and reads the next band meanwhile.
-  void for_each_band(const std::function<void(Band&)>& process, const Progress& progress);
   MapConversion sources_of(const Band& band) const;
   MapStatistics convert(Band& band);
   void write(Band& band);
@@ -121,8 +116,6 @@ class Pass {
   std::vector<int> in_place_;  // index of a map for each target, or -1
   int band_rows_;
   std::vector<std::vector<std::byte>> converted_;  // bands of targets that are not in place
-  std::optional<MetallicField> around_;            // set by look_around()
-  std::vector<float> around_band_;
 };
 
 Pass::Pass(TextureSet& set, const Round& round, const Converter& converter, const PassOptions& options)
@@ -197,51 +190,22 @@ void Pass::stop_if_cancelled() const {
     throw Error(ErrorKind::kInterrupted, "interrupted: no file was written");
 }
 
-void Pass::for_each_band(const std::function<void(Band&)>& process, const Progress& progress) {
+MapStatistics Pass::run(const Progress& progress) {
+  MapStatistics statistics;
   Band present, next;
   read(present, 0);
   while (present.row_count > 0) {
     stop_if_cancelled();
     const int end = present.first_row + present.row_count;
     std::future<void> reading = std::async(launch_, [&] { read(next, end); });
-    process(present);
+    statistics += convert(present);
+    write(present);
     reading.get();
     std::swap(present, next);
     progress(end);
   }
   stop_if_cancelled();
-}
-
-MapStatistics Pass::run(const Progress& progress) {
-  MapStatistics statistics;
-  const auto process = [&](Band& band) {
-    statistics += convert(band);
-    write(band);
-  };
-  for_each_band(process, progress);
   return statistics;
-}
-
-void Pass::look_around(const Progress& progress) {
-  const auto width = static_cast<std::size_t>(width_);
-  MetallicField field(width, static_cast<std::size_t>(height_));
-  const std::size_t texels = width * static_cast<std::size_t>(band_rows_);
-  std::vector<float> metallic(texels), metallic_width(texels), coverage(width);
-  const auto process = [&](Band& band) {
-    MapConversion maps = sources_of(band);
-    maps.targets[Parameter::kMetallic].channels = {float_channel(metallic.data(), width)};
-    maps.targets[Parameter::kMetallicWidth].channels = {float_channel(metallic_width.data(), width)};
-    convert_maps(converter_, maps, options_.thread_count);
-    for (std::size_t y = 0; y < maps.height; ++y) {
-      if (maps.coverage) load(*maps.coverage, {0, y, width}, coverage.data());
-      field.add(0, maps.first_row + y, width, &metallic[y * width], &metallic_width[y * width],
-                maps.coverage ? coverage.data() : nullptr);
-    }
-  };
-  for_each_band(process, progress);
-  if (!field.fill()) return;
-  around_ = std::move(field);
-  around_band_.resize(texels);
 }
 
 void Pass::read(Band& band, int first_row) {
@@ -321,12 +285,6 @@ MapConversion Pass::sources_of(const Band& band) const {
 
 MapStatistics Pass::convert(Band& band) {
   MapConversion maps = sources_of(band);
-  if (around_) {
-    for (std::size_t y = 0; y < maps.height; ++y)
-      around_->read(maps.first_row + y, maps.width, &around_band_[y * maps.width]);
-    maps.sources[Parameter::kNearbyMetallic].channels = {
-        float_channel(std::as_const(around_band_).data(), maps.width)};
-  }
   static_cast<MapTreatment&>(maps) = options_;
   std::size_t clipped = 0;
   for (std::size_t t = 0; t < round_.targets.size(); ++t) {
@@ -382,19 +340,11 @@ MapStatistics run_texture_pass(TextureSet& set, std::vector<TargetMap>& targets,
       const double rows = set.maps[round.maps.front()].layout().height;
       // A level takes a quarter of the time of the previous one; the last level ends the round.
       const double left = std::ldexp(1.0, -2 * level), own_share = level + 1 < levels ? 0.75 : 1.0;
-      const bool looks_around = options.smooth_metallic && round.is_converting;
-      const double passes = looks_around ? 2.0 : 1.0;
-      const auto after = [&](double passes_before) {
-        return [&, passes_before](int done) {
-          const double share = (passes_before + done / rows) / passes;
-          const double of_round = 1.0 - left * (1.0 - own_share * share);
-          if (options.progress)
-            options.progress((static_cast<double>(i) + of_round) / static_cast<double>(rounds.size()));
-        };
-      };
-      Pass pass(set, round, converter, options);
-      if (looks_around) pass.look_around(after(0.0));
-      const MapStatistics plane = pass.run(after(passes - 1.0));
+      const MapStatistics plane = Pass(set, round, converter, options).run([&](int done) {
+        const double of_round = 1.0 - left * (1.0 - own_share * done / rows);
+        if (options.progress)
+          options.progress((static_cast<double>(i) + of_round) / static_cast<double>(rounds.size()));
+      });
       // The texels of the full picture count once, however many files they go to.
       if (level == 0 && statistics.texel_count == 0) statistics = plane;
     }

@@ -45,9 +45,6 @@ struct PassOptions : MapTreatment {
   // Largest size of a band of the set, unless whole tiles need more. Two bands are in memory, or three if
   // pixel types change.
   std::size_t band_bytes = std::size_t{8} << 20;
-  // Undetermined metallic follows the metallic around it as far as that has no visible effect. Maps are read
-  // twice. The converter must be able to diagnose.
-  bool smooth_metallic = false;
   std::function<void(double share_done)> progress;
   // Gives the finished files their names; by default by NewImage::commit() of each.
   std::function<void(std::vector<TargetMap>& finished)> commit;

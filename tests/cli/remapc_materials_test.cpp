@@ -1,4 +1,4 @@
-// Runs `remapc sweep` with stages and diffuse, `remapc sample`, and the study of dielectrics.
+// Runs `remapc sweep` with stages and diffuse, and `remapc sample`.
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -6,18 +6,6 @@
 #include "cli/remapc_session.hpp"
 
 using namespace remap;
-namespace fs = std::filesystem;
-
-namespace {
-
-std::vector<std::string> study(const Session& session, const std::string& name,
-                               const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {name, "-o", session.path(name), "--resolution", "32"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
-}  // namespace
 
 TEST_CASE("remapc sweep: stages and diffuse give columns that check and fit accept", "[slow]") {
   const Session session;
@@ -45,19 +33,6 @@ TEST_CASE("remapc sweep: models with an index are swept in F0") {
   CHECK(table.find("# target_specular_law: ior\n") != std::string::npos);
   CHECK(table.find("# target_specular_column: f0\n") != std::string::npos);
   CHECK(table.find("3 specular 0 to 0.36\n") != std::string::npos);
-}
-
-TEST_CASE("remap-study dielectrics: compares one, two and three stages") {
-  const Session session;
-  const ProcessResult result =
-      require_success(session.study(study(session, "dielectrics", {"--alphas", "0.3", "--json"})));
-  CHECK(result.output.find("\"stages\": 3") != std::string::npos);
-  CHECK(result.output.find("\"jumps\": false") != std::string::npos);
-  CHECK(result.output.find("figure 10: three stages lower") != std::string::npos);
-  CHECK(result.output.find("null") == std::string::npos);
-  for (const std::string file :
-       {"stages1.csv", "stages2.csv", "stages3.csv", "guesses.csv", "dielectrics.csv"})
-    CHECK(fs::exists(session.path("dielectrics/" + file)));
 }
 
 TEST_CASE("remapc sample: a table of named columns that check reads and fit --swap inverts", "[slow]") {

@@ -237,57 +237,6 @@ TEST_CASE("texremap workflows: a metal mask chooses between ambiguous answers") 
   CHECK(metal.at(30, 3, 0) < 0.01f);
 }
 
-TEST_CASE("texremap workflows: undetermined metallic follows the reliable texels around it", "[slow]") {
-  constexpr int kWide = 96, kDark = 32, kPlastic = 64;  // columns: metal, then dark texels, then plastic
-  const Session session;
-  const auto bytes = [&](const std::string& name, int metal, int dark, float spread, int plastic) {
-    const auto value = [=](int x, int y, int) {
-      const int steps = x < kDark      ? metal
-                        : x < kPlastic ? dark + static_cast<int>(spread * noise(x, y, 0))
-                                       : plastic;
-      return static_cast<float>(steps) / 255.0f;
-    };
-    write_colors(session, name, value, OIIO::TypeUInt8, kWide);
-  };
-  // With one step of 8 bits more specular, the dark plastic is a blend of metallic 0.7: the same picture.
-  bytes("d.png", 0, 34, 0.0f, 150);
-  bytes("s.png", 200, 56, 2.0f, 56);
-  const auto converted = [&](const std::string& folder, const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"convert", "-o", session.path(folder)};
-    for (const char* word : {"--from specular", "--to metallic", "--roughness 0.4", "--prior 0",
-                             "--format exr", "--type float"}) {
-      const std::string both = word;
-      const std::size_t space = both.find(' ');
-      words.insert(words.end(), {both.substr(0, space), both.substr(space + 1)});
-    }
-    words = with(words, {"--diffuse", session.path("d.png"), "--specular", session.path("s.png"),
-                         "--diagnose", session.path(folder)});
-    require_success(session.texremap(with(words, more)));
-    return read_image(session.path(folder + "/metallic.exr"));
-  };
-  const TestImage alone = converted("alone", {}), smooth = converted("smooth", {"--smooth-metallic"}),
-                  threads = converted("threads", {"--smooth-metallic", "--threads", "3"});
-  CHECK(threads.bytes == smooth.bytes);
-  const TestImage width = read_image(session.path("alone/metallic_width.exr")),
-                  residual = read_image(session.path("alone/residual.exr")),
-                  smooth_residual = read_image(session.path("smooth/residual.exr"));
-  double jumps = 0.0, smooth_jumps = 0.0;
-  int guesses = 0;
-  for (int y = 1; y < kWide; ++y)
-    for (int x = 1; x < kWide; ++x) {
-      if (width.at(x, y, 0) <= kGuessWidth) REQUIRE(smooth.at(x, y, 0) == alone.at(x, y, 0));
-      // The square must be within a step of 8 bits of the best, which is not visible.
-      const double step = 1.0 / 255.0, before = residual.at(x, y, 0), after = smooth_residual.at(x, y, 0);
-      REQUIRE(after * after <= before * before + 1.01 * step * step);
-      if (x <= kDark + 4 || x >= kPlastic - 4) continue;
-      guesses += width.at(x, y, 0) > kGuessWidth;
-      jumps += std::abs(static_cast<double>(alone.at(x, y, 0) - alone.at(x - 1, y, 0)));
-      smooth_jumps += std::abs(static_cast<double>(smooth.at(x, y, 0) - smooth.at(x - 1, y, 0)));
-    }
-  CHECK(guesses > 100);
-  CHECK(smooth_jumps < 0.5 * jumps);
-}
-
 TEST_CASE("texremap workflows: implausible maps give a warning with the reason", "[slow]") {
   const Session session;
   const auto warned = [&](const std::vector<std::string>& words, const std::string& message) {

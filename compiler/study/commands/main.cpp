@@ -1,5 +1,4 @@
-// remap-study: measures how accurate the converters are (under environment maps, between workflows and
-// for dielectrics) and reproduces figures of the papers.
+// remap-study: measures how accurate the converters are, under environment maps and between workflows.
 #include "command_line/command.hpp"
 #include "command_line/run_app.hpp"
 #include "remap/version.hpp"
@@ -14,6 +13,5 @@ int main(int argc, char** argv) {
   remapc::add_environments_study(app);
   remapc::add_reach_study(app);
   remapc::add_workflows_study(app);
-  remapc::add_dielectrics_study(app);
   return remap::run_app(app, argc, argv);
 }

@@ -8,6 +8,5 @@ namespace remapc {
 void add_environments_study(remap::Command& study);
 void add_reach_study(remap::Command& study);
 void add_workflows_study(remap::Command& study);
-void add_dielectrics_study(remap::Command& study);
 
 }  // namespace remapc

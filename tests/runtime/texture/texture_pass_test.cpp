@@ -126,9 +126,7 @@ TEST_CASE("texture pass: compiled converters give the same results in a map as a
   }
 }
 
-TEST_CASE("texture pass: whole materials do not depend on threads and bands, smoothed ones neither",
-          "[slow]") {
-  const bool is_smooth = GENERATE(false, true);
+TEST_CASE("texture pass: whole materials do not depend on threads and bands", "[slow]") {
   const TemporaryFolder folder;
   const auto write = [&](const char* name, std::vector<std::string> channels, const TexelFunction& texel) {
     write_image(folder.path() / name, test_spec(kWidth, kHeight, channels, OIIO::TypeFloat), texel);
@@ -161,7 +159,6 @@ TEST_CASE("texture pass: whole materials do not depend on threads and bands, smo
       options.thread_count = threads;
       options.band_bytes = bytes;
       options.metallic_statistics = true;
-      options.smooth_metallic = is_smooth;
       choice.folder = choice.diagnosis_folder = folder.path() / (first ? "again" : "first");
       TextureSet set = open_texture_set(request);
       std::vector<TargetMap> targets = open_targets(set, plan_targets(set, choice));
