@@ -85,14 +85,14 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   std::vector<TableRow> answers = split.training;
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
   fit.image_similarity = image_similarity(table, answers);
-  const TargetLimits limits = target_limits(table);
-  const RegimeRows rows = regime_rows(split.training, answers, limits);
+  const RegimeRows rows = regime_rows(split.training, answers);
   const remap::Domain inside = covered_domain(rows.inside);
   const auto fit_of = [&](const Regression& regression) {
     remap::Fit one = fit;
     one.mapping = regression.mapping;
     one.method = regression.method;
-    one.regimes = fit_regimes(rows, limits, one.mapping, fit.domain, options.regression.seed, &one.method);
+    one.regimes =
+        fit_regimes(rows, table.limits, one.mapping, fit.domain, options.regression.seed, &one.method);
     const RowErrors errors = row_errors(one, split.held_out);
     one.alpha_error = errors.alpha;
     one.specular_error = errors.specular;

@@ -73,7 +73,7 @@ DielectricCurve curve_of(const std::vector<Table>& stages, int stage_count, doub
     curve.mean_error += rows[i]->error / static_cast<double>(rows.size());
     curve.worst_error = std::max(curve.worst_error, rows[i]->error);
     curve.unstable += rows[i]->status == RowStatus::kUnstable ? 1 : 0;
-    curve.clamped += rows[i]->status == RowStatus::kClamped ? 1 : 0;
+    curve.clamped += status_name(rows[i]->status) == "clamped" ? 1 : 0;
     curve.least_highlight = std::min(curve.least_highlight, rows[i]->specular2 / two[i]->specular2);
     if (i == 0) continue;
     const double step = std::fabs(rows[i]->specular2 - rows[i - 1]->specular2) / range;

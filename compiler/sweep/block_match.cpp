@@ -5,7 +5,6 @@
 
 #include "match/joint_match.hpp"
 #include "match/match.hpp"
-#include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -139,15 +138,15 @@ std::unique_ptr<WidthMatch> width_match(const SweepSetup& setup, const SampleBlo
 // Halvings of the step between samples by which a joint of regimes is found.
 constexpr int kJointHalvings = 6;
 
-// Adds rows on both sides of every joint between regimes (row_regime.hpp) of neighbouring samples, where fits
+// Adds rows on both sides of every joint between regimes (RowStatus) of neighbouring samples, where fits
 // of the regimes have to meet.
 void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow>* rows) {
   const TargetLimits limits = setup.limits();
+  for (TableRow& row : *rows) row.status = status_at(row, limits);
   std::vector<TableRow> sorted = *rows;
   std::ranges::sort(sorted, {}, &TableRow::specular1);
-  const auto differ = [&](const TableRow& a, const TableRow& b) {
-    const RowRegime of_a = regime_of(a, limits), of_b = regime_of(b, limits);
-    return of_a != of_b && of_a != RowRegime::kNone && of_b != RowRegime::kNone;
+  const auto differ = [](const TableRow& a, const TableRow& b) {
+    return a.status != b.status && has_answer(a) && has_answer(b);
   };
   for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
     // Between two samples lies at most one corner, so at most two joints.
@@ -159,7 +158,8 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
       std::vector<TableRow> on_this_side, beyond;
       for (int k = 0; k < kJointHalvings; ++k) {
         const double middle = remap::rounded(0.5 * (below.specular1 + above.specular1), kSampleDigits);
-        const TableRow row = match->at({below.alpha1, middle});
+        TableRow row = match->at({below.alpha1, middle});
+        row.status = status_at(row, limits);
         (differ(row, below) ? above : below) = row;
         (differ(row, start) ? beyond : on_this_side).push_back(row);
       }

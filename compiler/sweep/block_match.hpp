@@ -8,7 +8,6 @@
 #include "match/target_pictures.hpp"
 #include "sweep/sweep_options.hpp"
 #include "table/light.hpp"
-#include "table/row_regime.hpp"
 #include "table/table.hpp"
 
 namespace remapc {
@@ -36,7 +35,7 @@ struct SweepSetup {
   EffectiveWidths source_widths, target_widths;
 
   LightMatch light() const { return {irradiance_scale, diffuse.error, options.accept_light}; }
-  TargetLimits limits() const { return {target_widths.effective.max, target.linear_range().max, true}; }
+  TargetLimits limits() const { return {target_widths.effective.max, target.linear_range().max}; }
 };
 
 // Whether rows carry diffuse: if the source has some, or if the target's is matched together with the rest.

@@ -310,6 +310,7 @@ Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const
   });
   table.comments.emplace_back(kSpheresComment, spheres_text(setup, table.rows));
   for (const auto& rows : joints) table.rows.insert(table.rows.end(), rows.begin(), rows.end());
+  find_limits(&table);
   return table;
 }
 
