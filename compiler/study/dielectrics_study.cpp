@@ -102,9 +102,9 @@ std::map<std::pair<double, double>, Errors> try_guesses(const Renderer& renderer
     const RoleValues role_values{options.alphas[task / kIorCount], grid_ior(task % kIorCount), diffuse};
     auto picture = target.picture_taker.take(source, role_values);
     auto weights = squared_weights(target.picture_taker.objective(), picture, {});
-    const JointMatcher matcher(pictures, std::move(picture), std::move(weights), {true, diffuse > 0.0});
+    const JointMatcher matcher(pictures, {{std::move(picture), std::move(weights)}}, {true, diffuse > 0.0});
     for (const RoleValues& guess : guesses)
-      found[task].push_back(matcher.best_match({matcher.point_of(guess)}).error);
+      found[task].push_back(matcher.match({matcher.point_of(guess)}).error);
     if (options.progress)
       options.progress(0.6 + 0.4 * static_cast<double>(++done) / static_cast<double>(found.size()));
   });

@@ -26,12 +26,10 @@ struct SweepSetup {
   const SweepOptions& options;
   const PictureTaker& picture_taker;
   ProbedModel source;
-  ProbedModel target;
-  double irradiance_scale = 1.0;             // multiplies the source's pictures
-  DiffuseMatch diffuse;                      // after that multiplication
-  std::unique_ptr<TargetBank> bank;          // of a target with a family (ProbedModel::family)
-  std::unique_ptr<TargetPictures> pictures;  // for non-linear matches
-  std::unique_ptr<TargetGrid> grid;          // of a target without a family
+  MatchTarget target;
+  double irradiance_scale = 1.0;     // multiplies the source's pictures
+  DiffuseMatch diffuse;              // after that multiplication
+  std::unique_ptr<TargetGrid> grid;  // of a target without a family
   EffectiveWidths source_widths, target_widths;
 
   LightMatch light() const { return {irradiance_scale, diffuse.error, options.accept_light}; }
