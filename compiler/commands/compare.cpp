@@ -11,7 +11,6 @@
 #include "fit/rows/split.hpp"
 #include "manifest/fit_folder.hpp"
 #include "report/fit_plot.hpp"
-#include "table/row_regime.hpp"
 #include "text/errors.hpp"
 #include "text/json.hpp"
 

@@ -10,7 +10,6 @@
 #include "manifest/fit_folder.hpp"
 #include "model/interpreter.hpp"
 #include "system/files.hpp"
-#include "table/row_regime.hpp"
 #include "text/errors.hpp"
 #include "text/json.hpp"
 #include "text/number_text.hpp"

@@ -30,19 +30,16 @@ namespace {
 // Larger values are assumed to be typos: the networks of the paper have 300 units.
 constexpr int kMostUnits = 4096, kMostStarts = 1000;
 
-// No kind: the best by cross-validation.
-constexpr remap::NamedValues<std::optional<Regressor>, 5> kModels = {{{std::nullopt, "auto"},
-                                                                      {Regressor::kParametric, "parametric"},
-                                                                      {Regressor::kSeries, "series"},
-                                                                      {Regressor::kSvr, "svr"},
-                                                                      {Regressor::kMlp, "mlp"}}};
-
-std::string model_name(std::optional<Regressor> model) { return std::string(remap::name_of(kModels, model)); }
+// The kinds of fits, and first the best by cross-validation.
+const auto kModels = [] {
+  remap::NamedValues<std::string_view, kFitKinds.size() + 1> models{{{"", "auto"}}};
+  for (std::size_t i = 0; i < kFitKinds.size(); ++i) models[i + 1] = {kFitKinds[i].name, kFitKinds[i].name};
+  return models;
+}();
 
 struct FitCommand {
   TableInput table;
   FitOptions options;
-  std::optional<Regressor> model;
   std::filesystem::path folder = "fits";
   std::filesystem::path plot;
   double tolerance = 1e-5;  // of lowering
@@ -52,21 +49,14 @@ struct FitCommand {
 
 // Options of one regression are errors together with another one.
 void require_consistent(const FitCommand& command, const remap::Command& app) {
-  const auto require_model = [&](const std::string& option, Regressor model) {
-    if (app.count(option) != 0 && command.model && command.model != model)
-      throw usage_error(option + " cannot be used with --model " + model_name(command.model) + " (use " +
-                        model_name(model) + " or auto)");
+  const std::string given(command.options.kind);
+  const auto require_model = [&](const std::string& option, const std::string& model) {
+    if (app.count(option) != 0 && !given.empty() && given != model)
+      throw usage_error(option + " cannot be used with --model " + given + " (use " + model + " or auto)");
   };
-  require_model("--form", Regressor::kParametric);
-  for (const std::string option : {"--layers", "--activation", "--starts"})
-    require_model(option, Regressor::kMlp);
+  require_model("--form", "parametric");
+  for (const std::string option : {"--layers", "--activation", "--starts"}) require_model(option, "mlp");
   if (!command.options.regression.form.empty()) find_form(command.options.regression.form);
-}
-
-FitOptions fit_options(const FitCommand& command) {
-  FitOptions options = command.options;
-  options.regressor = command.model;
-  return options;
 }
 
 void report(const FitCommand& command, const std::filesystem::path& path, const remap::Fit& fit) {
@@ -109,9 +99,8 @@ void require_material_options(const FitCommand& command) {
     throw usage_error(
         command.table.path +
         ": metallic to specular is exact by equation (2) and needs no fit (use --swap to fit the inverse)");
-  if (command.model && command.model != Regressor::kMlp)
-    throw usage_error("--model " + model_name(command.model) +
-                      ": not available for a table of materials (use mlp)");
+  if (const std::string model(command.options.kind); !model.empty() && model != "mlp")
+    throw usage_error("--model " + model + ": not available for a table of materials (use mlp)");
   if (!command.plot.empty()) throw usage_error("--plot: not available for a table of materials (remove it)");
 }
 
@@ -197,7 +186,7 @@ void run_on(const Table& given, const std::string& bytes, const FitCommand& comm
   if (!command.plot.empty()) require_plot(command.plot);
   FittedTable fitted = [&] {
     ShareProgress progress("fit", table.source.model + " -> " + table.target.model);
-    return fit_table(table, bytes, fit_options(command), std::ref(progress));
+    return fit_table(table, bytes, command.options, std::ref(progress));
   }();
   lower_if_possible(command, &fitted.fit);
   const std::filesystem::path path = command.folder / (fitted.fit.id + ".json");
@@ -218,7 +207,7 @@ void run(const FitCommand& command, const remap::Command& app) {
 void add_regression_options(remap::Command& app, FitCommand& command) {
   RegressionOptions& regression = command.options.regression;
   app.option_group("Regression");
-  app.add_option("--model NAME", command.model, remap::one_of(kModels, "kind of fit"),
+  app.add_option("--model NAME", command.options.kind, remap::one_of(kModels, "kind of fit"),
                  "parametric: polynomials and exponentials; series: of Chebyshev polynomials; svr: support "
                  "vectors; mlp: a "
                  "small network; auto: the simplest of them that is as good as the best by cross-validation, "

@@ -76,6 +76,16 @@ EdgeRows edge_rows(const std::vector<TableRow>& rows) {
   return edge;
 }
 
+remap::Domain covered_domain(const std::vector<TableRow>& rows) {
+  remap::Domain domain{{1e300, -1e300}, {0.0, 0.0}};
+  for (const TableRow& row : rows) {
+    domain.alpha.min = std::min(domain.alpha.min, row.alpha1);
+    domain.alpha.max = std::max(domain.alpha.max, row.alpha1);
+    domain.specular.max = std::max(domain.specular.max, row.specular1);
+  }
+  return domain;
+}
+
 EdgeErrors edge_errors(const remap::MappingKind& mapping, const remap::Domain& domain,
                        const std::vector<TableRow>& rows) {
   const Residuals raw = residuals_of(rows, mapping);

@@ -19,6 +19,9 @@ struct EdgeRows {
 };
 EdgeRows edge_rows(const std::vector<TableRow>& rows);
 
+// The bounding box of rows. Specular starts at 0.
+remap::Domain covered_domain(const std::vector<TableRow>& rows);
+
 // Errors in alpha2 and specular2 on rows outside `domain`.
 struct EdgeErrors {
   double alpha_rms = 0.0, specular_rms = 0.0;          // with the domain rule of generated code (fit.hpp)

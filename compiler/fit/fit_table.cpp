@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "fit/comparison.hpp"
+#include "fit/edge.hpp"
 #include "fit/regime_fit.hpp"
 #include "fit/rows/split.hpp"
 #include "model/interpreter.hpp"
@@ -85,26 +86,26 @@ FittedTable fit_table(const Table& table, std::string_view bytes, const FitOptio
   std::vector<TableRow> answers = split.training;
   answers.insert(answers.end(), split.held_out.begin(), split.held_out.end());
   fit.image_similarity = image_similarity(table, answers);
-  const TargetLimits limits = target_limits(table);
-  const RegimeRows rows = regime_rows(split.training, answers, limits);
+  const RegimeRows rows = regime_rows(split.training, answers);
   const remap::Domain inside = covered_domain(rows.inside);
   const auto fit_of = [&](const Regression& regression) {
     remap::Fit one = fit;
     one.mapping = regression.mapping;
     one.method = regression.method;
-    one.regimes = fit_regimes(rows, limits, one.mapping, fit.domain, options.regression.seed, &one.method);
+    one.regimes =
+        fit_regimes(rows, table.limits, one.mapping, fit.domain, options.regression.seed, &one.method);
     const RowErrors errors = row_errors(one, split.held_out);
     one.alpha_error = errors.alpha;
     one.specular_error = errors.specular;
     return one;
   };
-  if (options.regressor)
-    return {fit_of(regress(*options.regressor, rows.inside, inside, options.regression, progress)), {}};
+  if (!options.kind.empty())
+    return {fit_of(fit_kind(options.kind).fit(rows.inside, inside, options.regression, progress)), {}};
   const Comparison comparison = compare_regressions(rows.inside, inside, options.regression, progress);
-  for (const Contender& contender : comparison.contenders) fit.candidates.push_back(contender.candidate);
-  FittedTable fitted{fit_of(comparison.contenders[comparison.chosen].regression), {}};
-  for (const Contender& contender : comparison.contenders)
-    if (contender.fitted) fitted.compared.push_back(fit_of(contender.regression));
+  for (const Candidate& candidate : comparison.candidates) fit.candidates.push_back(candidate.record);
+  FittedTable fitted{fit_of(comparison.candidates[comparison.chosen].regression), {}};
+  for (const Candidate& candidate : comparison.candidates)
+    if (candidate.regression.again) fitted.compared.push_back(fit_of(candidate.regression));
   return fitted;
 }
 

@@ -3,19 +3,20 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "fit/regressors.hpp"
+#include "fit/kinds.hpp"
 #include "model/fit.hpp"
 #include "table/table.hpp"
 
 namespace remapc {
 
 struct FitOptions {
-  std::string id;                      // empty: `<source>_to_<target>` from the table
-  std::optional<Regressor> regressor;  // none: compare_regressions() (comparison.hpp) chooses
-  RegressionOptions regression;        // its seed is also the seed of the split
+  std::string id;                // empty: `<source>_to_<target>` from the table
+  std::string_view kind;         // of kFitKinds; empty: compare_regressions() (comparison.hpp) chooses
+  RegressionOptions regression;  // its seed is also the seed of the split
   double held_out_fraction = 0.2;
   bool accept_light = false;  // light_remark() (table/light.hpp)
 };

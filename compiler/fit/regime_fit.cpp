@@ -40,9 +40,8 @@ std::map<double, Column> columns_of(const std::vector<TableRow>& rows) {
 }
 
 // The rows of one regime in `column`, continued to its end: specular in proportion, as pictures are.
-void continue_in_specular(const Column& column, RowRegime regime, const TargetLimits& limits,
-                          std::vector<TableRow>* rows) {
-  const auto is_own = [&](const TableRow& row) { return regime_of(row, limits) == regime; };
+void continue_in_specular(const Column& column, RowStatus regime, std::vector<TableRow>* rows) {
+  const auto is_own = [&](const TableRow& row) { return row.status == regime; };
   std::vector<TableRow> own;
   std::ranges::copy_if(column, std::back_inserter(own), is_own);
   if (own.size() < 2) return;
@@ -90,7 +89,7 @@ std::optional<remap::MappedTexel> target_in(const Column& column, double specula
 // The columns of `inside` before the width `alpha`, continued to the rows of `beyond` by polynomials in
 // width. `keeps_specular`: where the rows are wide, that of the row.
 void continue_in_alpha(const std::map<double, Column>& inside, double alpha, const Column& beyond,
-                       const TargetLimits& limits, bool keeps_specular, std::vector<TableRow>* rows) {
+                       bool keeps_specular, std::vector<TableRow>* rows) {
   for (TableRow row : beyond) {
     std::array<double, kExtrapolated> at{}, alphas{}, speculars{};
     std::size_t found = 0;
@@ -102,19 +101,17 @@ void continue_in_alpha(const std::map<double, Column>& inside, double alpha, con
         speculars[found++] = target->specular;
       }
     if (found < kExtrapolated) continue;
-    const bool is_wide = regime_of(row, limits) == RowRegime::kWide;
     row.alpha2 = through(at, alphas, alpha);
-    if (!(keeps_specular && is_wide)) row.specular2 = through(at, speculars, alpha);
+    if (!(keeps_specular && row.status == RowStatus::kWide)) row.specular2 = through(at, speculars, alpha);
     rows->push_back(row);
   }
 }
 
 // The rows of corners that end where the bright regime begins: alpha is at its limit there, and not yet
 // beyond.
-void add_bright_ends(const Column& column, const TargetLimits& limits, std::vector<TableRow>* rows) {
+void add_bright_ends(const Column& column, std::vector<TableRow>* rows) {
   for (std::size_t i = 0; i + 1 < column.size(); ++i)
-    if (regime_of(column[i], limits) == RowRegime::kCorner &&
-        regime_of(column[i + 1], limits) == RowRegime::kBright &&
+    if (column[i].status == RowStatus::kCorner && column[i + 1].status == RowStatus::kBright &&
         column[i + 1].specular1 - column[i].specular1 < kSameJoint * column.back().specular1)
       rows->push_back(column[i]);
 }
@@ -239,47 +236,33 @@ class RegimeFit {
 
 }  // namespace
 
-RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<TableRow>& all,
-                       const TargetLimits& limits) {
+RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<TableRow>& all) {
   RegimeRows rows;
-  for (const TableRow& row : training) switch (regime_of(row, limits)) {
-      case RowRegime::kInside:
-        rows.inside.push_back(row);
-        break;
-      case RowRegime::kWide:
-        rows.wide.push_back(row);
-        break;
-      case RowRegime::kBright:
-        rows.bright.push_back(row);
-        break;
-      case RowRegime::kCorner:
-      case RowRegime::kNone:
-        break;
-    }
+  for (const TableRow& row : training) {
+    if (row.status == RowStatus::kOk) rows.inside.push_back(row);
+    if (row.status == RowStatus::kWide) rows.wide.push_back(row);
+    if (row.status == RowStatus::kBright) rows.bright.push_back(row);
+  }
   if (rows.bright.size() < kFewestBright || columns_of(rows.bright).size() < kFewestBrightWidths)
     rows.bright.clear();
   const bool has_wide = rows.wide.size() >= kFewestWide;
   if (!has_wide) rows.wide.clear();
   for (const auto& [alpha, column] : columns_of(training)) {
-    continue_in_specular(column, RowRegime::kInside, limits, &rows.inside);
-    if (has_wide) continue_in_specular(column, RowRegime::kWide, limits, &rows.wide);
-    if (!rows.bright.empty()) add_bright_ends(column, limits, &rows.bright);
+    continue_in_specular(column, RowStatus::kOk, &rows.inside);
+    if (has_wide) continue_in_specular(column, RowStatus::kWide, &rows.wide);
+    if (!rows.bright.empty()) add_bright_ends(column, &rows.bright);
   }
   std::map<double, Column> inside;
   std::size_t continued = 0;
   for (const auto& [alpha, column] : columns_of(all)) {
     Column& own = inside[alpha];
-    std::ranges::copy_if(column, std::back_inserter(own),
-                         [&](const TableRow& row) { return regime_of(row, limits) == RowRegime::kInside; });
-    continue_in_specular(column, RowRegime::kInside, limits, &own);
-    const bool is_wide = std::ranges::any_of(
-        column, [&](const TableRow& row) { return regime_of(row, limits) == RowRegime::kWide; });
+    Column beyond;
+    for (const TableRow& row : column) (row.status == RowStatus::kOk ? own : beyond).push_back(row);
+    continue_in_specular(column, RowStatus::kOk, &own);
+    const bool is_wide = std::ranges::count(column, RowStatus::kWide, &TableRow::status) != 0;
     if (!is_wide || (has_wide && continued == kContinuedWidths)) continue;
     ++continued;
-    Column beyond;
-    std::ranges::copy_if(column, std::back_inserter(beyond),
-                         [&](const TableRow& row) { return regime_of(row, limits) != RowRegime::kInside; });
-    continue_in_alpha(inside, alpha, beyond, limits, !has_wide, &rows.inside);
+    continue_in_alpha(inside, alpha, beyond, !has_wide, &rows.inside);
   }
   return rows;
 }

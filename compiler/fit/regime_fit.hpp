@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fit/rows/regression.hpp"
-#include "table/row_regime.hpp"
+#include "table/table.hpp"
 
 namespace remapc {
 
@@ -21,8 +21,7 @@ struct RegimeRows {
   std::vector<TableRow> bright;
 };
 // `all`: the rows of the table, from whose neighbours the training rows are continued.
-RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<TableRow>& all,
-                       const TargetLimits& limits);
+RegimeRows regime_rows(const std::vector<TableRow>& training, const std::vector<TableRow>& all);
 
 // Fits a series to each regime that has rows, for a `mapping` of rows.inside. Where regimes meet, the mapping
 // gives further rows. `domain`: that of the fit. The degree is chosen by cross-validation, whose folds depend

@@ -157,10 +157,6 @@ JointMatcher::JointMatcher(const TargetPictures& target, std::vector<JointChanne
   for (const JointChannel& channel : channels_) power_ += picture_power(channel);
 }
 
-JointMatcher::JointMatcher(const TargetPictures& target, std::vector<float> source,
-                           std::vector<float> squared_weights, const JointOptions& options)
-    : JointMatcher(target, {{std::move(source), std::move(squared_weights)}}, options) {}
-
 std::vector<JointMatcher::Unknown> JointMatcher::unknowns() const {
   std::vector<Unknown> all;
   for (std::size_t i = 0; i < target_.coordinates().size(); ++i) {
@@ -181,10 +177,9 @@ std::vector<RoleValues> JointMatcher::points_of(const double* values, const Role
   return points;
 }
 
-const std::vector<RoleValues>& JointMatcher::other_guesses() {
-  static const std::vector<RoleValues> guesses = {
-      {0.05, 0.1, 0.9}, {0.15, 0.9, 0.1}, {0.9, 0.1, 0.1}, {0.3, 0.3, 0.7}};
-  return guesses;
+std::vector<RoleValues> JointMatcher::other_guesses() const {
+  return {point_of({0.05, 0.1, 0.9}), point_of({0.15, 0.9, 0.1}), point_of({0.9, 0.1, 0.1}),
+          point_of({0.3, 0.3, 0.7})};
 }
 
 RoleValues JointMatcher::point_of(const RoleValues& shares) const {
@@ -267,19 +262,12 @@ RowStatus JointMatcher::judge(const JointMatch& match, const std::vector<JointMa
   return at_bound(match) && match.error > kJointSameError ? RowStatus::kClamped : RowStatus::kOk;
 }
 
-JointMatch JointMatcher::match_from(const RoleValues& guess) const {
-  JointMatch match = search(guess, kAnswerTolerance);
-  std::vector<JointMatch> rivals;
-  for (const RoleValues& shares : other_guesses())
-    rivals.push_back(search(point_of(shares), kRivalTolerance));
-  match.status = judge(match, rivals);
-  return match;
-}
-
-JointMatch JointMatcher::best_match(const std::vector<RoleValues>& guesses) const {
+JointMatch JointMatcher::match(const std::vector<RoleValues>& guesses,
+                               const std::vector<RoleValues>& rivals) const {
   std::vector<JointMatch> found;
   for (const RoleValues& guess : guesses) found.push_back(search(guess, kAnswerTolerance));
   JointMatch best = *std::ranges::min_element(found, {}, &JointMatch::error);
+  for (const RoleValues& rival : rivals) found.push_back(search(rival, kRivalTolerance));
   best.status = judge(best, found);
   return best;
 }

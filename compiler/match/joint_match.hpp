@@ -4,6 +4,7 @@
 // width) are shared and the others are found for each channel. In a sweep, only this file uses Ceres.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct JointOptions {
 // One color channel of the source: its picture, and w^2 for each pixel.
 struct JointChannel {
   std::vector<float> picture, weights;
+  bool is_black() const { return *std::ranges::max_element(picture) <= 0.0f; }
 };
 
 struct JointMatch {
@@ -36,22 +38,16 @@ struct JointMatch {
 
 class JointMatcher {
  public:
-  // The channels' pictures must be as long as the target's. `target` must outlive the matcher.
+  // One channel for a grey match. The channels' pictures must be as long as the target's. `target` must
+  // outlive the matcher.
   JointMatcher(const TargetPictures& target, std::vector<JointChannel> channels, const JointOptions& options);
 
-  // Makes a grey match.
-  JointMatcher(const TargetPictures& target, std::vector<float> source, std::vector<float> squared_weights,
-               const JointOptions& options);
-
-  // Searches from `guess` in every channel, by Ceres' bounded Levenberg-Marquardt. A guess out of bounds is
-  // moved into them. The status is kUnstable if the search does not converge, or if a search from one of four
-  // other guesses ends with an error lower by more than 1 %, or within 1 % but with a parameter that differs
-  // by more than 10 %. Otherwise it is kClamped if a parameter is at a bound and the pictures differ. Throws
-  // kNumeric if Ceres fails.
-  JointMatch match_from(const RoleValues& guess) const;
-
-  // Returns the best match of searches from several guesses; kUnstable if two of them rival as above.
-  JointMatch best_match(const std::vector<RoleValues>& guesses) const;
+  // Returns the best match of searches from `guesses` in every channel, by Ceres' bounded
+  // Levenberg-Marquardt. A guess out of bounds is moved into them. The status is kUnstable if the search does
+  // not converge, or if one from another guess or from `rivals` ends with an error lower by more than 1 %, or
+  // within 1 % but with a parameter that differs by more than 10 %. Otherwise it is kClamped if a parameter
+  // is at a bound and the pictures differ. Throws kNumeric if Ceres fails.
+  JointMatch match(const std::vector<RoleValues>& guesses, const std::vector<RoleValues>& rivals = {}) const;
 
   // Returns the weighted relative RMS of `picture` against the source, for a grey match.
   double error_of(std::span<const float> picture) const;
@@ -60,8 +56,8 @@ class JointMatcher {
   // does not name take the shares of alpha, specular and diffuse in turn.
   RoleValues point_of(const RoleValues& shares) const;
 
-  // The other guesses of match_from, as shares: narrow and wide, weak and strong, bright and dark.
-  static const std::vector<RoleValues>& other_guesses();
+  // Four points to judge a match from: narrow and wide, weak and strong, bright and dark.
+  std::vector<RoleValues> other_guesses() const;
 
  private:
   // One searched number: a coordinate of one channel, or of all.

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "match/interpolation.hpp"
+#include "probe/family_probe.hpp"
+#include "probe/probe.hpp"
 
 namespace remapc {
 namespace {
@@ -143,6 +145,22 @@ PictureTangents RenderedPictures::at(const RoleValues& point, const std::vector<
     for (std::size_t i = 0; i < rise.size(); ++i)
       rise[i] = static_cast<float>((static_cast<double>(rise[i]) - from[i]) / (high - low));
   }
+  return result;
+}
+
+MatchTarget match_target(const PictureTaker& picture_taker, const ProbedModel& target, const Range& searched,
+                         const Range& probed, bool with_diffuse, const std::vector<std::string>& others) {
+  MatchTarget result{target, nullptr, nullptr};
+  const ModelDescription& model = target.model;
+  if (!target.response.affine() && others.empty()) result.curve = probe_family(picture_taker, model, probed);
+  if (result.family() && others.empty())
+    result.bank = std::make_unique<TargetBank>(picture_taker, result, searched, kBankRatio);
+  const bool adds = result.bank && with_diffuse &&
+                    (!model.has(ParameterRole::kDiffuse) || probe_diffuse(picture_taker, model, probed));
+  if (adds)
+    result.pictures = std::make_unique<BankPictures>(picture_taker, result, *result.bank);
+  else if (!result.bank || with_diffuse)
+    result.pictures = std::make_unique<RenderedPictures>(picture_taker, result, searched, others);
   return result;
 }
 

@@ -2,6 +2,7 @@
 // from the bank if the target has one, else from renders.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -71,5 +72,18 @@ class RenderedPictures final : public TargetPictures {
   const PictureTaker& picture_taker_;
   ProbedModel target_;
 };
+
+// A target with the pictures that matches use.
+struct MatchTarget : ProbedModel {
+  std::unique_ptr<TargetBank> bank;          // if it has a family
+  std::unique_ptr<TargetPictures> pictures;  // for non-linear matches; else null
+};
+
+// Finds how the pictures of `target` follow from its parameters, by renders at the widths `probed`. Pictures
+// for non-linear matches are made if it has no family, or for matches `with_diffuse`. `searched`: the widths
+// of the match. `others`: as in RenderedPictures; with some of them there is no bank.
+MatchTarget match_target(const PictureTaker& picture_taker, const ProbedModel& target,
+                         const remap::Range& searched, const remap::Range& probed, bool with_diffuse,
+                         const std::vector<std::string>& others = {});
 
 }  // namespace remapc

@@ -13,7 +13,6 @@
 #include "remap/error.hpp"
 #include "report/gnuplot.hpp"
 #include "system/files.hpp"
-#include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -58,7 +57,6 @@ class Plot {
  public:
   Plot(const Table& table, const std::vector<Fit>& fits) : fits_(fits), fit_(fits.front()) {
     rows_ = draw_rows(answer_rows(table), kMostRows, 1);
-    limits_ = target_limits(table);
     for (const TableRow& row : rows_) {
       alphas_.insert(row.alpha1);
       speculars_.insert(row.specular1);
@@ -104,7 +102,7 @@ class Plot {
   }
 
   // 1 where the target is at a limit, else 0.
-  int at_limit(const TableRow& row) const { return regime_of(row, limits_) == RowRegime::kInside ? 0 : 1; }
+  int at_limit(const TableRow& row) const { return row.status == RowStatus::kOk ? 0 : 1; }
 
   void write_residuals(std::size_t f) {
     out_ << "$residuals" << f << " << EOD\n";
@@ -205,7 +203,6 @@ class Plot {
   const std::vector<Fit>& fits_;
   const Fit& fit_;  // the first one; models, table and domain are the same for all
   std::vector<TableRow> rows_;
-  TargetLimits limits_;
   std::set<double> alphas_, speculars_;
   std::vector<double> shown_;  // alphas of the second panel
   std::ostringstream out_;

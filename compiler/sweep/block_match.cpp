@@ -5,7 +5,6 @@
 
 #include "match/joint_match.hpp"
 #include "match/match.hpp"
-#include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -18,38 +17,54 @@ TableRow flat_row(const SamplePoint& sample, const ProbedModel& target) {
   return {sample.alpha, sample.specular, alpha, target.linear_range().min, 0.0, RowStatus::kFlat, 0};
 }
 
-TableRow matched_row(const SamplePoint& sample, const Match& match) {
-  return {sample.alpha, sample.specular, match.alpha, match.specular, match.error, match.status, 0};
-}
-
-// Matches one sample to a target without a family: specular and alpha by non-linear least squares, from the
-// best points of a grid of pictures.
-TableRow searched_row(const SweepSetup& setup, const SamplePoint& sample, std::vector<float> picture,
-                      std::vector<float> weights) {
-  const std::vector<RoleValues> starts = setup.grid->minima(picture, weights);
-  const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights), {false, false});
-  const JointMatch match = matcher.best_match(starts);
-  return {sample.alpha,
-          sample.specular,
-          match.point().alpha,
-          match.point().specular,
-          match.error,
-          match.status,
-          0};
-}
-
-// Pictures of the source at one width: rendered, or interpolated if that is as accurate and needs fewer
-// renders.
-class SourcePictures {
+// Matches width and specular at one source width, from pictures without diffuse.
+class WidthMatch {
  public:
-  SourcePictures(const SweepSetup& setup, const SampleBlock& block) : setup_(setup), alpha_(block.alpha) {
-    const bool rendered = setup.source.response.affine() && !setup.source.model.is_external;
-    if (!rendered) family_ = setup.source.family();
-    if (family_ && family_->picture_count() >= block.samples.size()) family_.reset();
-    if (family_) pictures_ = take_family(setup.picture_taker, setup.source, alpha_);
+  WidthMatch(const SweepSetup& setup, const SampleBlock& block) : setup_(setup), alpha_(block.alpha) {
+    const SpecularResponse& source = setup.source.response;
+    const bool uniform = setup.options.objective.weighting == Weighting::kUniform;
+    if (setup.target.bank && (source.proportional() || (source.affine() && uniform)))
+      share_products();
+    else if (!source.affine() || setup.source.model.is_external)
+      interpolate(block.samples.size());
   }
 
-  std::vector<float> at(double specular) const {
+  TableRow at(const SamplePoint& sample) {
+    if (sample.specular == 0.0 || is_black_) return flat_row(sample, setup_.target);
+    Match match;
+    if (shared_) {
+      std::vector<std::size_t> minima;  // products are shared, so each material can search the whole bank
+      std::vector<double> coefficients = {std::min(sample.specular, setup_.source.linear_range().max)};
+      if (!setup_.source.response.proportional()) coefficients.push_back(1.0);
+      match = shared_->match(coefficients, &minima);
+    } else {
+      JointChannel source{picture(sample.specular), {}};
+      if (source.is_black()) return flat_row(sample, setup_.target);
+      source.weights = setup_.picture_taker.weights(source.picture);
+      match = match_by_itself(std::move(source));
+    }
+    return {sample.alpha, sample.specular, match.alpha, match.specular, match.error, match.status, 0};
+  }
+
+ private:
+  // Pictures of an affine source are combinations of two. If the weights do not depend on specular either
+  // (uniform, or relative to a picture that only scales), one set of inner products serves all samples.
+  void share_products() {
+    AffinePictures pictures = take_affine(setup_.picture_taker, setup_.source, alpha_);
+    is_black_ = *std::ranges::max_element(pictures.full) <= 0.0f;
+    std::vector<std::vector<float>> basis = {std::move(pictures.slope)};
+    if (!setup_.source.response.proportional()) basis.push_back(std::move(pictures.base));
+    shared_.emplace(*setup_.target.bank, std::move(basis), setup_.picture_taker.weights(pictures.full));
+  }
+
+  // Interpolates the source's pictures where that is as accurate as to render them and needs fewer renders.
+  void interpolate(std::size_t sample_count) {
+    family_ = setup_.source.family();
+    if (family_ && family_->picture_count() >= sample_count) family_.reset();
+    if (family_) pictures_ = take_family(setup_.picture_taker, setup_.source, alpha_);
+  }
+
+  std::vector<float> picture(double specular) const {
     if (!family_) return setup_.picture_taker.take(setup_.source, {alpha_, specular, 0.0});
     // The exact picture is black; the combination would leave rounding errors.
     if (specular <= family_->range.min && setup_.source.response.black_base)
@@ -58,96 +73,38 @@ class SourcePictures {
     return combined(pictures_, family_->weights_at(std::min(specular, family_->range.max)));
   }
 
- private:
+  // By non-linear least squares from the best points of a grid of pictures if the target has no family.
+  Match match_by_itself(JointChannel source) {
+    if (setup_.target.bank)
+      return Matcher(*setup_.target.bank, {std::move(source.picture)}, std::move(source.weights))
+          .match({1.0}, &minima_);
+    const std::vector<RoleValues> starts = setup_.grid->minima(source.picture, source.weights);
+    const JointMatch match =
+        JointMatcher(*setup_.target.pictures, {std::move(source)}, {false, false}).match(starts);
+    return {match.point().alpha, match.point().specular, match.error, match.status};
+  }
+
   const SweepSetup& setup_;
   double alpha_;
+  std::optional<Matcher> shared_;
+  bool is_black_ = false;
   std::optional<SpecularFamily> family_;
-  std::vector<std::vector<float>> pictures_;
+  std::vector<std::vector<float>> pictures_;  // of the family
+  std::vector<std::size_t> minima_;           // of the sample before
 };
-
-// Matches width and specular at one source width, from pictures without diffuse.
-class WidthMatch {
- public:
-  virtual ~WidthMatch() = default;
-  virtual TableRow at(const SamplePoint& sample) = 0;
-};
-
-// Matches each sample by its own picture, for sources whose weights or law differ from one sample to the
-// next.
-class SeparateMatch final : public WidthMatch {
- public:
-  SeparateMatch(const SweepSetup& setup, const SampleBlock& block) : setup_(setup), pictures_(setup, block) {}
-
-  TableRow at(const SamplePoint& sample) override {
-    auto picture = pictures_.at(sample.specular);
-    if (sample.specular == 0.0 || *std::max_element(picture.begin(), picture.end()) <= 0.0f)
-      return flat_row(sample, setup_.target);
-    auto weights = setup_.picture_taker.weights(picture);
-    if (setup_.bank == nullptr) return searched_row(setup_, sample, std::move(picture), std::move(weights));
-    Matcher matcher(*setup_.bank, {std::move(picture)}, std::move(weights));
-    return matched_row(sample, matcher.match({1.0}, &minima_));
-  }
-
- private:
-  const SweepSetup& setup_;
-  SourcePictures pictures_;
-  std::vector<std::size_t> minima_;
-};
-
-// Matches all samples from the same inner products. Pictures of an affine source are combinations of two. If
-// the weights do not depend on specular either (uniform, or relative to a picture that only scales), one set
-// of inner products serves all.
-class CommonMatch final : public WidthMatch {
- public:
-  CommonMatch(const SweepSetup& setup, double alpha)
-      : setup_(setup),
-        proportional_(setup.source.response.proportional()),
-        pictures_(take_affine(setup.picture_taker, setup.source, alpha)),
-        is_dark_(*std::max_element(pictures_.full.begin(), pictures_.full.end()) <= 0.0f),
-        matcher_(*setup.bank, basis(), setup.picture_taker.weights(pictures_.full)) {}
-
-  TableRow at(const SamplePoint& sample) override {
-    if (is_dark_ || sample.specular == 0.0) return flat_row(sample, setup_.target);
-    std::vector<std::size_t> minima;  // products are shared, so each material can search the whole bank
-    std::vector<double> coefficients = {std::min(sample.specular, setup_.source.linear_range().max)};
-    if (!proportional_) coefficients.push_back(1.0);
-    return matched_row(sample, matcher_.match(coefficients, &minima));
-  }
-
- private:
-  std::vector<std::vector<float>> basis() const {
-    std::vector<std::vector<float>> all = {pictures_.slope};
-    if (!proportional_) all.push_back(pictures_.base);
-    return all;
-  }
-
-  const SweepSetup& setup_;
-  bool proportional_;
-  AffinePictures pictures_;
-  bool is_dark_;
-  Matcher matcher_;
-};
-
-std::unique_ptr<WidthMatch> width_match(const SweepSetup& setup, const SampleBlock& block) {
-  const bool uniform = setup.options.objective.weighting == Weighting::kUniform;
-  const SpecularResponse& source = setup.source.response;
-  const bool shared = setup.bank != nullptr && (source.proportional() || (source.affine() && uniform));
-  if (shared) return std::make_unique<CommonMatch>(setup, block.alpha);
-  return std::make_unique<SeparateMatch>(setup, block);
-}
 
 // Halvings of the step between samples by which a joint of regimes is found.
 constexpr int kJointHalvings = 6;
 
-// Adds rows on both sides of every joint between regimes (row_regime.hpp) of neighbouring samples, where fits
+// Adds rows on both sides of every joint between regimes (RowStatus) of neighbouring samples, where fits
 // of the regimes have to meet.
 void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow>* rows) {
   const TargetLimits limits = setup.limits();
+  for (TableRow& row : *rows) row.status = status_at(row, limits);
   std::vector<TableRow> sorted = *rows;
   std::ranges::sort(sorted, {}, &TableRow::specular1);
-  const auto differ = [&](const TableRow& a, const TableRow& b) {
-    const RowRegime of_a = regime_of(a, limits), of_b = regime_of(b, limits);
-    return of_a != of_b && of_a != RowRegime::kNone && of_b != RowRegime::kNone;
+  const auto differ = [](const TableRow& a, const TableRow& b) {
+    return a.status != b.status && has_answer(a) && has_answer(b);
   };
   for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
     // Between two samples lies at most one corner, so at most two joints.
@@ -159,7 +116,8 @@ void add_joints(const SweepSetup& setup, WidthMatch* match, std::vector<TableRow
       std::vector<TableRow> on_this_side, beyond;
       for (int k = 0; k < kJointHalvings; ++k) {
         const double middle = remap::rounded(0.5 * (below.specular1 + above.specular1), kSampleDigits);
-        const TableRow row = match->at({below.alpha1, middle});
+        TableRow row = match->at({below.alpha1, middle});
+        row.status = status_at(row, limits);
         (differ(row, below) ? above : below) = row;
         (differ(row, start) ? beyond : on_this_side).push_back(row);
       }
@@ -185,21 +143,21 @@ void match_diffuse_apart(const SweepSetup& setup, TableRow* row) {
 void match_whole(const SweepSetup& setup, TableRow* row) {
   const RoleValues whole{row->alpha1, row->specular1, row->diffuse1};
   if (row->status == RowStatus::kFlat) return;
-  auto picture = setup.picture_taker.take(setup.source, whole);
-  if (*std::max_element(picture.begin(), picture.end()) <= 0.0f) {
+  JointChannel source{setup.picture_taker.take(setup.source, whole), {}};
+  if (source.is_black()) {
     row->status = RowStatus::kFlat;
     return;
   }
-  auto weights = setup.picture_taker.weights(picture);
-  const JointMatcher matcher(*setup.pictures, std::move(picture), std::move(weights),
+  source.weights = setup.picture_taker.weights(source.picture);
+  const JointMatcher matcher(*setup.target.pictures, {std::move(source)},
                              {true, row->diffuse1 > 0.0 || !setup.source.model.has(ParameterRole::kDiffuse)});
   const RoleValues apart{row->alpha2, row->specular2, row->diffuse2};
   if (setup.options.stages == 2) {
     row->error = matcher.error_of(setup.picture_taker.take(setup.target, apart));
     return;
   }
-  const JointMatch match =
-      matcher.match_from(setup.options.stages == 1 ? matcher.point_of(kFixedGuess) : apart);
+  const JointMatch match = matcher.match({setup.options.stages == 1 ? matcher.point_of(kFixedGuess) : apart},
+                                         matcher.other_guesses());
   row->alpha2 = match.point().alpha;
   row->specular2 = match.point().specular;
   row->diffuse2 = match.point().diffuse;
@@ -227,9 +185,9 @@ std::vector<TableRow> match_block(const SweepSetup& setup, const SampleBlock& bl
   if (setup.options.stages == 1) {
     rows = unmatched_rows(setup, block);
   } else {
-    const std::unique_ptr<WidthMatch> match = width_match(setup, block);
-    for (const std::size_t index : block.samples) rows.push_back(match->at(setup.options.samples[index]));
-    if (!has_diffuse(setup.options) && setup.bank != nullptr) add_joints(setup, match.get(), &rows);
+    WidthMatch match(setup, block);
+    for (const std::size_t index : block.samples) rows.push_back(match.at(setup.options.samples[index]));
+    if (!has_diffuse(setup.options) && setup.target.bank) add_joints(setup, &match, &rows);
   }
   for (TableRow& row : rows) {
     if (has_diffuse(setup.options)) {

@@ -8,7 +8,6 @@
 #include "match/target_pictures.hpp"
 #include "sweep/sweep_options.hpp"
 #include "table/light.hpp"
-#include "table/row_regime.hpp"
 #include "table/table.hpp"
 
 namespace remapc {
@@ -27,16 +26,14 @@ struct SweepSetup {
   const SweepOptions& options;
   const PictureTaker& picture_taker;
   ProbedModel source;
-  ProbedModel target;
-  double irradiance_scale = 1.0;             // multiplies the source's pictures
-  DiffuseMatch diffuse;                      // after that multiplication
-  std::unique_ptr<TargetBank> bank;          // of a target with a family (ProbedModel::family)
-  std::unique_ptr<TargetPictures> pictures;  // for non-linear matches
-  std::unique_ptr<TargetGrid> grid;          // of a target without a family
+  MatchTarget target;
+  double irradiance_scale = 1.0;     // multiplies the source's pictures
+  DiffuseMatch diffuse;              // after that multiplication
+  std::unique_ptr<TargetGrid> grid;  // of a target without a family
   EffectiveWidths source_widths, target_widths;
 
   LightMatch light() const { return {irradiance_scale, diffuse.error, options.accept_light}; }
-  TargetLimits limits() const { return {target_widths.effective.max, target.linear_range().max, true}; }
+  TargetLimits limits() const { return {target_widths.effective.max, target.linear_range().max}; }
 };
 
 // Whether rows carry diffuse: if the source has some, or if the target's is matched together with the rest.

@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <mutex>
 #include <random>
 
 #include "match/joint_match.hpp"
-#include "match/target_bank.hpp"
-#include "probe/family_probe.hpp"
-#include "probe/picture_taker.hpp"
 #include "remap/error.hpp"
 #include "remap/version.hpp"
 #include "sweep/provenance.hpp"
@@ -107,10 +103,8 @@ struct Matching {
   const PictureTaker& picture_taker;
   ModelDescription source;
   std::vector<Varied> varied;
-  ProbedModel target;
+  MatchTarget target;
   LightMatch light;
-  std::unique_ptr<TargetBank> bank;  // of a target with a family whose diffuse adds
-  std::unique_ptr<TargetPictures> pictures;
 
   bool color(const Coordinate& coordinate) const { return !options.grey && !coordinate.shared; }
 };
@@ -140,7 +134,7 @@ std::string target_name(const Matching& matching, std::size_t coordinate) {
   if (coordinate == kSpecularCoordinate) return model.parameter(ParameterRole::kSpecular).name;
   if (coordinate == kDiffuseCoordinate)
     return model.has(ParameterRole::kDiffuse) ? model.parameter(ParameterRole::kDiffuse).name : "";
-  return matching.pictures->coordinates()[coordinate].name;
+  return matching.target.pictures->coordinates()[coordinate].name;
 }
 
 double target_value(const Matching& matching, std::size_t coordinate, double canonical) {
@@ -151,11 +145,11 @@ double target_value(const Matching& matching, std::size_t coordinate, double can
 
 std::vector<double> target_values(const Matching& matching, const std::vector<RoleValues>& points) {
   std::vector<double> values;
-  const auto& coordinates = matching.pictures->coordinates();
+  const auto& coordinates = matching.target.pictures->coordinates();
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     if (target_name(matching, i).empty()) continue;
     for (std::size_t c = 0; c < (matching.color(coordinates[i]) ? 3u : 1u); ++c) {
-      const double canonical = matching.pictures->value(points[std::min(c, points.size() - 1)], i);
+      const double canonical = matching.target.pictures->value(points[std::min(c, points.size() - 1)], i);
       values.push_back(remap::rounded(target_value(matching, i, canonical), kMatchDigits));
     }
   }
@@ -165,24 +159,24 @@ std::vector<double> target_values(const Matching& matching, const std::vector<Ro
 NamedRow matched_row(const Matching& matching, const std::vector<double>& sample) {
   const Material material = material_of(matching, sample);
   std::vector<JointChannel> channels;
-  float brightest = 0.0f;
   for (std::vector<float>& picture : matching.picture_taker.take_channels(material)) {
     for (float& value : picture) value = static_cast<float>(value * matching.light.scale);
-    brightest = std::max(brightest, *std::max_element(picture.begin(), picture.end()));
     auto weights = matching.picture_taker.weights(picture);
     channels.push_back({std::move(picture), std::move(weights)});
   }
   const std::size_t channel_count = channels.size();
-  const JointMatcher matcher(*matching.pictures, std::move(channels), {true, true});
-  if (!(brightest > 0.0f)) {
+  const bool is_black = std::ranges::all_of(channels, &JointChannel::is_black);
+  const JointMatcher matcher(*matching.target.pictures, std::move(channels), {true, true});
+  if (is_black) {
     const RoleValues least = matcher.point_of({0.0, 0.0, 0.0});
     return {sample, target_values(matching, std::vector<RoleValues>(channel_count, least)), 0.0,
             RowStatus::kFlat, 0};
   }
   std::vector<RoleValues> guesses = {matcher.point_of(kFixedGuess)};
   guesses.front().alpha = source_alpha(matching, material);
-  for (const RoleValues& shares : JointMatcher::other_guesses()) guesses.push_back(matcher.point_of(shares));
-  const JointMatch match = matcher.best_match(guesses);
+  const std::vector<RoleValues> others = matcher.other_guesses();
+  guesses.insert(guesses.end(), others.begin(), others.end());
+  const JointMatch match = matcher.match(guesses);
   return {sample, target_values(matching, match.points), remap::rounded(match.error, kMatchErrorDigits),
           match.status, 0};
 }
@@ -191,28 +185,19 @@ Matching make_matching(const MaterialSampleOptions& options, const PictureTaker&
                        const ModelDescription& source, const ModelDescription& target) {
   std::vector<Varied> varied =
       varied_of(options, source);  // may throw: not within the aggregate (make_setup)
-  Matching matching{options, picture_taker, source, std::move(varied), {}, {}, nullptr, nullptr};
+  Matching matching{options, picture_taker, source, std::move(varied), {}, {}};
   require_roleless(target, options.searched);
   const Range own = range_of(options, source, source.parameter(ParameterRole::kRoughness));
   const double narrowest = std::max({target.alpha.min, canonical_widths(source.roughness, own).min, 1e-4});
-  const Range searched = searched_widths(target, narrowest);
-  matching.target = {target, probe_specular(picture_taker, target, {narrowest, target.alpha.max})};
+  const Range probed{narrowest, target.alpha.max};
+  const SpecularResponse law = probe_specular(picture_taker, target, probed);
   if (options.match_irradiance && light_matched(source, target)) {
     const DiffuseMatch diffuse = match_diffuse(picture_taker, source, target);
     matching.light = {1.0 / diffuse.scale, diffuse.error, options.accept_light};
     require_light(matching.light, options.source + " to " + options.target);
   }
-  if (!matching.target.response.affine() && options.searched.empty())
-    matching.target.curve = probe_family(picture_taker, target, {narrowest, target.alpha.max});
-  const bool adds = !target.has(ParameterRole::kDiffuse) ||
-                    probe_diffuse(picture_taker, target, {narrowest, target.alpha.max});
-  if (matching.target.family() && adds && options.searched.empty()) {
-    matching.bank = std::make_unique<TargetBank>(picture_taker, matching.target, searched, kBankRatio);
-    matching.pictures = std::make_unique<BankPictures>(picture_taker, matching.target, *matching.bank);
-  } else {
-    matching.pictures =
-        std::make_unique<RenderedPictures>(picture_taker, matching.target, searched, options.searched);
-  }
+  matching.target = match_target(picture_taker, {target, law}, searched_widths(target, narrowest), probed,
+                                 true, options.searched);
   return matching;
 }
 
@@ -259,7 +244,7 @@ MaterialTable empty_table(const SteadyRenderer& renderer, const Matching& matchi
   };
   for (const Varied& varied : matching.varied)
     add(&table.source_columns, columns_of(varied.parameter.name, varied.color, '1'));
-  const auto& coordinates = matching.pictures->coordinates();
+  const auto& coordinates = matching.target.pictures->coordinates();
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     if (const std::string name = target_name(matching, i); !name.empty())
       add(&table.target_columns, columns_of(name, matching.color(coordinates[i]), '2'));

@@ -9,7 +9,6 @@
 #include "renderer/steady_renderer.hpp"
 #include "sweep/sweep_options.hpp"
 #include "table/light.hpp"
-#include "table/row_regime.hpp"
 
 namespace remapc {
 

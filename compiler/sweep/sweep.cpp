@@ -161,24 +161,17 @@ SweepSetup make_setup(const SweepOptions& options, const PictureTaker& picture_t
   const SpecularResponse target_law = probe_specular(picture_taker, target, probed);
   const DiffuseMatch diffuse =
       light_matched(source, target) ? match_diffuse(picture_taker, source, target) : DiffuseMatch{};
-  SweepSetup setup{
-      options, picture_taker, {source, source_law}, {responsive, target_law}, 1.0, diffuse, nullptr, nullptr,
-      nullptr, source_widths, target_widths};
+  SweepSetup setup{options, picture_taker, {source, source_law}, {},           1.0,
+                   diffuse, nullptr,       source_widths,        target_widths};
   if (options.match_irradiance) {
     setup.irradiance_scale = setup.source.exposure = 1.0 / setup.diffuse.scale;
     setup.diffuse.scale = 1.0;
   }
   require_light(setup.light(), options.source + " to " + options.target);
   if (!setup.source.response.affine()) setup.source.curve = probe_family(picture_taker, source, alphas);
-  if (!setup.target.response.affine()) setup.target.curve = probe_family(picture_taker, target, probed);
-  if (setup.target.family())
-    setup.bank = std::make_unique<TargetBank>(picture_taker, setup.target, searched, kBankRatio);
-  else
-    setup.grid = std::make_unique<TargetGrid>(picture_taker, setup.target, searched);
-  if (setup.bank && has_diffuse(options) && probe_diffuse(picture_taker, target, probed))
-    setup.pictures = std::make_unique<BankPictures>(picture_taker, setup.target, *setup.bank);
-  else if (!setup.bank || has_diffuse(options))
-    setup.pictures = std::make_unique<RenderedPictures>(picture_taker, setup.target, searched);
+  setup.target =
+      match_target(picture_taker, {responsive, target_law}, searched, probed, has_diffuse(options));
+  if (!setup.target.bank) setup.grid = std::make_unique<TargetGrid>(picture_taker, setup.target, searched);
   return setup;
 }
 
@@ -310,6 +303,7 @@ Table run_sweep(const Renderer& any_renderer, const SweepOptions& options, const
   });
   table.comments.emplace_back(kSpheresComment, spheres_text(setup, table.rows));
   for (const auto& rows : joints) table.rows.insert(table.rows.end(), rows.begin(), rows.end());
+  find_limits(&table);
   return table;
 }
 

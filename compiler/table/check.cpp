@@ -7,7 +7,6 @@
 
 #include "remap/error.hpp"
 #include "table/light.hpp"
-#include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -193,10 +192,9 @@ class TableCheck : Findings {
   }
 
   void check_saturation() {
-    const TargetLimits limits = target_limits(table_);
     std::map<RowStatus, std::vector<std::size_t>> lines;
     for (const TableRow& row : table_.rows)
-      if (regime_of(row, limits) == RowRegime::kNone) lines[row.status].push_back(row.line);
+      if (!has_answer(row)) lines[row.status].push_back(row.line);
     for (const auto& [status, where] : lines) {
       const std::string message = std::to_string(where.size()) + " of " + std::to_string(table_.rows.size()) +
                                   " rows are " + std::string(status_name(status)) +

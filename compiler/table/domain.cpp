@@ -6,7 +6,6 @@
 
 #include "model/covered_box.hpp"
 #include "remap/error.hpp"
-#include "table/row_regime.hpp"
 #include "text/number_text.hpp"
 
 namespace remapc {
@@ -45,18 +44,15 @@ struct Column {
 std::vector<Column> columns_of(const Table& table) {
   const std::map<double, std::size_t> column_of = column_of_alpha(table);
   if (column_of.empty()) return {};
-  const TargetLimits limits = target_limits(table);
-  const auto is_answer = [&](const TableRow& row) { return regime_of(row, limits) != RowRegime::kNone; };
   std::vector<Column> columns(column_of.rbegin()->second + 1);
   for (const TableRow& row : table.rows) {
     Column& column = columns[column_of.at(row.alpha1)];
-    if (row.status == RowStatus::kClamped && !is_answer(row))
-      column.cut = std::min(column.cut, row.specular1);
+    if (row.status == RowStatus::kClamped) column.cut = std::min(column.cut, row.specular1);
   }
   double highest = 0.0;
   for (const TableRow& row : table.rows) {
     Column& column = columns[column_of.at(row.alpha1)];
-    if (!is_answer(row) || row.specular1 >= column.cut) continue;
+    if (!has_answer(row) || row.specular1 >= column.cut) continue;
     column.first = std::min(column.first, row.alpha1);
     column.last = std::max(column.last, row.alpha1);
     column.reach = std::max(column.reach, row.specular1);
@@ -92,7 +88,8 @@ Table swapped(const Table& table) {
   });
   result.comments.emplace_back("roles", "swapped");
   std::swap(result.source, result.target);
-  result.rows = usable_rows(table);
+  result.limits = {};
+  std::erase_if(result.rows, [](const TableRow& row) { return row.status != RowStatus::kOk; });
   for (TableRow& row : result.rows) {
     std::swap(row.alpha1, row.alpha2);
     std::swap(row.specular1, row.specular2);

@@ -6,9 +6,8 @@
 namespace remapc {
 
 // Returns the box with alpha1 in a range and specular1 from 0 to a bound in which every width has rows of
-// some regime (row_regime.hpp) up to the bound and no other row is clamped (covered_box.hpp chooses among
-// such boxes). Rows of other statuses are gaps and do not limit it. Throws kInput if the table has no such
-// box.
+// an answer up to the bound and no other row is clamped (covered_box.hpp chooses among such boxes). Rows of
+// other statuses are gaps and do not limit it. Throws kInput if the table has no such box.
 remap::Domain table_domain(const Table& table);
 
 // Formats a range as `0.01 to 1`.

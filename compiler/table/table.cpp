@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 
 #include <openssl/evp.h>
 
 #include "remap/error.hpp"
 #include "system/files.hpp"
+#include "text/errors.hpp"
 #include "text/nearest_name.hpp"
 #include "text/number_text.hpp"
 
@@ -18,7 +20,9 @@ using remap::Error;
 using remap::ErrorKind;
 
 // In the order of RowStatus.
-constexpr std::array<std::string_view, 4> kStatusNames = {"ok", "clamped", "flat", "unstable"};
+constexpr std::array<std::string_view, 7> kStatusNames = {"ok",      "clamped", "flat",   "unstable",
+                                                          "clamped", "clamped", "clamped"};
+constexpr double kSameLimit = 1e-8;  // relative: tables hold ten digits
 const std::array<std::string, 8> kColumns = {"alpha1",   "specular1", "alpha2", "specular2",
                                              "diffuse1", "diffuse2",  "error",  "status"};
 constexpr std::size_t kRequiredColumns = 4;
@@ -36,6 +40,7 @@ class Reader {
     for (const CsvLine& line : csv_.lines) read_row(line);
     table_.source = side("source", map_.source);
     table_.target = side("target", map_.target);
+    find_limits(&table_);
     return std::move(table_);
   }
 
@@ -115,6 +120,18 @@ class Reader {
   std::vector<std::size_t> places_ = std::vector<std::size_t>(kColumns.size(), kMissing);
 };
 
+std::optional<double> limit_in(const Table& table, const std::string& key) {
+  for (const auto& [found, value] : table.comments) {
+    if (found != key) continue;
+    const auto limit = remap::parse_number(value);
+    if (!limit || !(*limit > 0.0))
+      throw input_error(table.name + ": the comment " + key + " is \"" + value +
+                        "\" (must be a number above 0)");
+    return limit;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string_view status_name(RowStatus status) { return kStatusNames[static_cast<std::size_t>(status)]; }
@@ -161,10 +178,28 @@ Table read_table(const std::filesystem::path& path, const ColumnMap& map) {
   return parse_table(remap::read_file(path), path.string(), map);
 }
 
-std::vector<TableRow> usable_rows(const Table& table) {
+RowStatus status_at(const TableRow& row, const TargetLimits& limits) {
+  if (row.status != RowStatus::kClamped) return row.status;
+  const bool is_wide = row.alpha2 >= limits.alpha * (1.0 - kSameLimit);
+  const bool is_bright = limits.specular && row.specular2 >= *limits.specular * (1.0 - kSameLimit);
+  if (is_wide) return is_bright ? RowStatus::kCorner : RowStatus::kWide;
+  return is_bright ? RowStatus::kBright : RowStatus::kClamped;
+}
+
+void find_limits(Table* table) {
+  const std::optional<double> alpha = limit_in(*table, kAlphaLimitComment);
+  table->limits = {alpha.value_or(1.0), limit_in(*table, kSpecularLimitComment)};
+  if (!alpha) return;
+  for (TableRow& row : table->rows) row.status = status_at(row, table->limits);
+}
+
+bool has_answer(const TableRow& row) {
+  return row.status == RowStatus::kOk || row.status >= RowStatus::kWide;
+}
+
+std::vector<TableRow> answer_rows(const Table& table) {
   std::vector<TableRow> rows;
-  for (const TableRow& row : table.rows)
-    if (row.status == RowStatus::kOk) rows.push_back(row);
+  std::ranges::copy_if(table.rows, std::back_inserter(rows), has_answer);
   return rows;
 }
 

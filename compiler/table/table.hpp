@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,12 +15,16 @@
 
 namespace remapc {
 
-// How far a row can be trusted. Fits use only kOk rows.
+// How far a row can be trusted, and which regime of a fit (model/regimes.hpp) it belongs to. Tables call the
+// last three clamped, too.
 enum class RowStatus {
   kOk,
-  kClamped,   // a target parameter is at its bound, or the source's renderer clamps its width
+  kClamped,   // a target parameter is at a bound, or the source's renderer clamps its width
   kFlat,      // no highlight to match
   kUnstable,  // searches from different starts disagree
+  kWide,      // alpha2 is at its limit
+  kBright,    // specular2 is at its limit
+  kCorner,    // both are
 };
 
 std::string_view status_name(RowStatus status);
@@ -39,6 +44,12 @@ struct TableRow {
   double diffuse2 = 0.0;  // target diffuse, linear; if has_diffuse
 };
 
+// The largest alpha and canonical specular that the target takes.
+struct TargetLimits {
+  double alpha = 1.0;              // 1 where a table does not tell
+  std::optional<double> specular;  // none where a table does not tell
+};
+
 struct Table {
   std::string name;  // file name, for messages
   Comments comments;
@@ -46,7 +57,20 @@ struct Table {
   remap::ModelSide target;
   bool has_diffuse = false;  // rows carry diffuse1 and diffuse2
   std::vector<TableRow> rows;
+  TargetLimits limits;  // as the comments tell (find_limits)
 };
+
+// The comments in which a sweep records the limits of its target.
+inline constexpr const char* kAlphaLimitComment = "target_alpha_limit";
+inline constexpr const char* kSpecularLimitComment = "target_specular_limit";
+
+// The status of a row that may be kClamped by the limit that it is at.
+RowStatus status_at(const TableRow& row, const TargetLimits& limits);
+
+// Sets the limits of a table from its comments, and the statuses of its rows, if the limit of alpha is known.
+// Who makes a table with limits calls it; what is parsed has them. Throws kInput for a comment that is not a
+// number above 0.
+void find_limits(Table* table);
 
 // The comments that identify a table of named parameters (material_table.hpp): the columns of each side,
 // separated by commas.
@@ -81,8 +105,9 @@ Table table_from_csv(const Csv& csv, const ColumnMap& map);
 
 Table read_table(const std::filesystem::path& path, const ColumnMap& map = {});
 
-// Returns the rows of status ok.
-std::vector<TableRow> usable_rows(const Table& table);
+// Whether the row belongs to a regime. Fits use only such rows.
+bool has_answer(const TableRow& row);
+std::vector<TableRow> answer_rows(const Table& table);
 
 // Whether the source parameters of a row lie in `domain`.
 bool is_inside(const TableRow& row, const remap::Domain& domain);

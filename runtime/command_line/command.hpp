@@ -154,10 +154,15 @@ class Command {
 
 // Gives a command its work, `run(options)`. Returns the options, which live as long as the command.
 template <typename Options, typename Run>
-Options& set_work(Command& command, const Run& run) {
+requires std::is_class_v<Run> Options& set_work(Command& command, Run run) {
   const auto options = std::make_shared<Options>();
-  command.callback([options, run] { run(std::as_const(*options)); });
+  command.callback([options, run = std::move(run)] { run(std::as_const(*options)); });
   return *options;
+}
+// The same for a function, which may be one of several of its name.
+template <typename Options>
+Options& set_work(Command& command, void (*run)(const Options&)) {
+  return set_work<Options>(command, [run](const Options& options) { run(options); });
 }
 
 }  // namespace remap

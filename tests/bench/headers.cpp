@@ -40,16 +40,15 @@ Table bench_table() {
 }
 
 // `<name>.json`, and its header `<name>.hpp`.
-void write_fit(const std::filesystem::path& folder, const Table& table, const std::string& name,
-               remapc::Regressor regressor) {
+void write_fit(const std::filesystem::path& folder, const Table& table, const std::string& kind) {
   remapc::FitOptions options;
-  options.id = name;
-  options.regressor = regressor;
+  options.id = kind;
+  options.kind = kind;
   options.regression.form = "paper";
   remap::Fit fit = remapc::fit_table(table, remapc::table_text(table), options).fit;
   add_converter(&fit);
-  remap::write_file(folder / (name + ".json"), fit_to_json(fit));
-  remap::write_file(folder / (name + ".hpp"), remapc::emit_header(fit));
+  remap::write_file(folder / (kind + ".json"), fit_to_json(fit));
+  remap::write_file(folder / (kind + ".hpp"), remapc::emit_header(fit));
 }
 
 // Inputs and outputs in [0, 1], weights as a network starts with (Glorot and Bengio 2010): speed does not
@@ -78,7 +77,7 @@ remap::Network random_network(remap::Activation activation) {
 void write_network(const std::filesystem::path& folder, remap::Activation activation) {
   const remap::Network network = remapc::folded(random_network(activation));
   const std::string name = "network_" + std::string(remap::activation_name(activation));
-  remap::write_file(folder / (name + ".hpp"),
+  remap::write_file(folder / (kind + ".hpp"),
                     "#include <cstddef>\n#include <cstdint>\n#include <cstring>\n\nnamespace remap::" + name +
                         " {\n"
                         "inline std::uint32_t bits(float value) noexcept {\n"
@@ -114,9 +113,9 @@ int main(int, char** argv) {
     const std::filesystem::path folder = argv[1];
     const Table table = bench_table();
     remap::write_file(folder / "table.csv", remapc::table_text(table));
-    write_fit(folder, table, "svr", remapc::Regressor::kSvr);
-    write_fit(folder, table, "parametric", remapc::Regressor::kParametric);
-    write_fit(folder, table, "mlp", remapc::Regressor::kMlp);
+    write_fit(folder, table, "svr");
+    write_fit(folder, table, "parametric");
+    write_fit(folder, table, "mlp");
     write_chain(folder);
     write_network(folder, remap::Activation::kRelu);
     write_network(folder, remap::Activation::kTanh);

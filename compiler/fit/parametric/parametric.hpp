@@ -25,8 +25,8 @@ struct ParametricOptions {
 };
 
 // Chooses a form for each output by ten-fold cross-validation within the rows: the form with the fewest
-// coefficients whose error is within error_bound() (folds.hpp). Forms that the rows do not determine or that
-// are not sound are excluded. `method` records the choice and the errors. Throws the errors of
+// coefficients within one standard error of the best (choice.hpp). Forms that the rows do not determine or
+// that are not sound are excluded. `method` records the choice and the errors. Throws the errors of
 // fit_parametric() for the paper's form if no form remains.
 Regression fit_parametric_best(const std::vector<TableRow>& rows, const remap::Domain& domain,
                                const ParametricOptions& options, const FitProgress& progress = {});

@@ -1,9 +1,7 @@
 #include "fit/rows/folds.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "fit/rows/split.hpp"
@@ -39,36 +37,6 @@ std::vector<TableRow> draw_rows(const std::vector<TableRow>& rows, std::size_t c
   std::vector<TableRow> drawn;
   for (const std::size_t i : order) drawn.push_back(rows[i]);
   return drawn;
-}
-
-CrossValidated cross_validated(const std::vector<std::vector<double>>& errors_of_folds) {
-  double total = 0.0, count = 0.0;
-  std::vector<double> figures;  // root mean square of each fold
-  for (const std::vector<double>& errors : errors_of_folds) {
-    if (errors.empty()) continue;
-    const double square = std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
-    const auto size = static_cast<double>(errors.size());
-    total += square;
-    count += size;
-    figures.push_back(std::sqrt(square / size));
-  }
-  if (figures.empty()) return {};
-  const auto folds = static_cast<double>(figures.size());
-  const double mean = std::accumulate(figures.begin(), figures.end(), 0.0) / folds;
-  double variance = 0.0;
-  for (const double figure : figures) variance += (figure - mean) * (figure - mean);
-  const double error = folds < 2.0 ? 0.0 : std::sqrt(variance / (folds - 1.0) / folds);
-  return {std::sqrt(total / count), error};
-}
-
-double error_bound(const std::vector<CrossValidated>& scores) {
-  double best = 1e300, bound = 1e300;
-  for (const CrossValidated& score : scores) {
-    if (!(score.rms < best)) continue;
-    best = score.rms;
-    bound = best + std::max(score.standard_error, kNegligibleError);
-  }
-  return bound;
 }
 
 }  // namespace remapc

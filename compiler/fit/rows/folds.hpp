@@ -24,19 +24,4 @@ std::vector<Fold> split_folds(const std::vector<TableRow>& rows, std::size_t fol
 // Draws `count` of `rows` (all if there are fewer) by `seed` and keeps their order.
 std::vector<TableRow> draw_rows(const std::vector<TableRow>& rows, std::size_t count, std::uint64_t seed);
 
-// Errors of alpha or specular that differ by less count as equal when the simpler of two fits is chosen. It
-// is a twentieth of an 8-bit step.
-inline constexpr double kNegligibleError = 2e-4;
-
-// The RMS error over all rows, and its standard error over the folds. Infinite for a fit that failed.
-struct CrossValidated {
-  double rms = 0.0;
-  double standard_error = 0.0;
-};
-CrossValidated cross_validated(const std::vector<std::vector<double>>& errors_of_folds);
-
-// The error up to which a fit counts as equal to the best of `scores`: one standard error (Breiman et al.
-// 1984), but at least kNegligibleError, above that of the best.
-double error_bound(const std::vector<CrossValidated>& scores);
-
 }  // namespace remapc

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "model/interpreter.hpp"
-#include "table/row_regime.hpp"
 #include "text/errors.hpp"
 #include "text/number_text.hpp"
 
@@ -38,9 +37,8 @@ RowSplit split_rows(const Table& table, const remap::Domain& domain, std::uint64
                     double held_out_fraction) {
   std::vector<const TableRow*> usable;
   std::map<std::string, std::int64_t> left_out;
-  const TargetLimits limits = target_limits(table);
   for (const TableRow& row : table.rows) {
-    if (regime_of(row, limits) == RowRegime::kNone)
+    if (!has_answer(row))
       ++left_out[std::string(status_name(row.status))];
     else if (!is_inside(row, domain))
       ++left_out["beyond the domain"];

@@ -25,7 +25,7 @@ struct RowSplit {
   remap::Split record;
 };
 
-// Splits the rows in `domain` that belong to a regime (row_regime.hpp); `held_out_fraction` of them
+// Splits the rows in `domain` that have an answer; `held_out_fraction` of them
 // (rounded), drawn by `seed`, are held out. Other rows are counted by their status, or as `beyond the
 // domain`. The split does not depend on the machine. Throws kUsage for a fraction outside [0, 0.9].
 RowSplit split_rows(const Table& table, const remap::Domain& domain, std::uint64_t seed,

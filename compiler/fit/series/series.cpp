@@ -6,7 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "fit/rows/folds.hpp"
+#include "fit/rows/choice.hpp"
 #include "model/evaluate.hpp"
 #include "remap/error.hpp"
 
@@ -40,18 +40,10 @@ bool is_determined(const SeriesShape& shape, std::size_t rows, std::size_t width
          kRowsATerm * static_cast<double>(shape.count()) <= static_cast<double>(rows);
 }
 
-// The relative errors of the series over the rows of each fold, which it is fitted without.
-std::vector<std::vector<double>> errors_of_folds(const std::vector<Fold>& folds, double TableRow::*output,
-                                                 const remap::TexelSeries& box, const SeriesShape& shape) {
-  std::vector<std::vector<double>> errors;
-  for (const Fold& fold : folds) {
-    const remap::TexelSeries series = fit_series(fold.training, output, box, shape);
-    errors.emplace_back();
-    for (const TableRow& row : fold.judging)
-      errors.back().push_back((remap::series_value(series, row.alpha1, row.specular1) - row.*output) *
-                              error_weight(row.*output));
-  }
-  return errors;
+// A fit of one output, which leaves the other one at 0.
+remap::Series series_of(double TableRow::*output, const remap::TexelSeries& series) {
+  const remap::TexelSeries none{{0.0, 1.0}, {0.0, 1.0}, {{0.0}}};
+  return output == &TableRow::alpha2 ? remap::Series{series, none} : remap::Series{none, series};
 }
 
 }  // namespace
@@ -102,21 +94,22 @@ remap::TexelSeries fit_series(const std::vector<TableRow>& rows, double TableRow
 remap::TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t widths,
                                double TableRow::*output, const remap::TexelSeries& box,
                                const std::vector<SeriesShape>& shapes, std::uint64_t seed) {
-  const std::vector<Fold> folds = split_folds(rows, kSeriesFolds, seed);
   std::vector<SeriesShape> tried;
-  std::vector<CrossValidated> scores;
+  std::vector<Candidate> candidates;
   for (const SeriesShape& shape : shapes) {
     if (!tried.empty() && !is_determined(shape, rows.size(), widths)) continue;
     tried.push_back(shape);
-    scores.push_back(cross_validated(errors_of_folds(folds, output, box, shape)));
+    candidates.emplace_back().record.number_count = shape.count();
+    candidates.back().regression.again = [=, &box](const std::vector<TableRow>& some) {
+      return series_of(output, fit_series(some, output, box, shape));
+    };
   }
-  const double bound = error_bound(scores);
-  const auto chosen =
-      std::ranges::find_if(scores, [&](const CrossValidated& score) { return score.rms <= bound; });
-  if (chosen == scores.end())
+  cross_validate(&candidates, split_folds(rows, kSeriesFolds, seed), error_weight, 1);
+  const std::size_t chosen = choose(&candidates);
+  if (chosen == candidates.size())
     throw remap::Error(remap::ErrorKind::kNumeric,
                        "series: no degree follows the rows (errors are not finite)");
-  return fit_series(rows, output, box, tried[static_cast<std::size_t>(chosen - scores.begin())]);
+  return fit_series(rows, output, box, tried[chosen]);
 }
 
 std::string series_text(const remap::TexelSeries& series) {
@@ -137,13 +130,11 @@ Regression fit_series_kind(const std::vector<TableRow>& rows, const remap::Domai
   series.alpha = best_series(rows, widths.size(), &TableRow::alpha2, box, series_shapes(of_alpha), seed);
   series.specular =
       best_series(rows, widths.size(), &TableRow::specular2, box, series_shapes({1, 2, 4, kAnyDegree}), seed);
-  return {remap::MappingKind(series),
-          {{"alpha", series_text(series.alpha)}, {"specular", series_text(series.specular)}}};
-}
-
-remap::Series fit_series_again(const remap::Series& model, const std::vector<TableRow>& rows) {
-  return {fit_series(rows, &TableRow::alpha2, model.alpha, shape_of(model.alpha)),
-          fit_series(rows, &TableRow::specular2, model.specular, shape_of(model.specular))};
+  const auto again = [series](const std::vector<TableRow>& some) {
+    return remap::Series{fit_series(some, &TableRow::alpha2, series.alpha, shape_of(series.alpha)),
+                         fit_series(some, &TableRow::specular2, series.specular, shape_of(series.specular))};
+  };
+  return {series, {{"alpha", series_text(series.alpha)}, {"specular", series_text(series.specular)}}, again};
 }
 
 }  // namespace remapc

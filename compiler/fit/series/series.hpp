@@ -24,7 +24,7 @@ inline constexpr int kAnyDegree = 1000;
 remap::TexelSeries fit_series(const std::vector<TableRow>& rows, double TableRow::*output,
                               remap::TexelSeries series, const SeriesShape& shape);
 
-// The first of `shapes` that counts as equal to the best in cross-validation (folds.hpp). `widths`: the
+// The choice among `shapes` by cross-validation (choice.hpp). `widths`: the
 // number of different alpha1 among the rows, which a degree stays below. Throws kNumeric if none has finite
 // errors, as over a box without extent.
 remap::TexelSeries best_series(const std::vector<TableRow>& rows, std::size_t widths,
@@ -37,8 +37,5 @@ std::string series_text(const remap::TexelSeries& series);
 // Throws kInput for fewer than 10 rows or a constant input.
 Regression fit_series_kind(const std::vector<TableRow>& rows, const remap::Domain& domain,
                            std::uint64_t seed);
-
-// Other rows by the shapes and boxes of `model`.
-remap::Series fit_series_again(const remap::Series& model, const std::vector<TableRow>& rows);
 
 }  // namespace remapc

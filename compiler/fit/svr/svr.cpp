@@ -89,15 +89,17 @@ remap::KernelExpansion train(const std::string& name, const SvrSamples& samples,
                       number_text(parameters.gamma) + " (use a smaller C)");
 }
 
-remap::KernelExpansion fit_output(const Problem& problem, const std::optional<SvrHyperParameters>& given,
+// Searches `used`, the hyper-parameters, if they are not given.
+remap::KernelExpansion fit_output(const Problem& problem, std::optional<SvrHyperParameters>* used,
                                   const SvrOptions& options, const FitProgress& progress,
                                   std::map<std::string, std::string>& method) {
   const auto record = [&](const std::string& key, const std::string& value) {
     method[problem.name + "." + key] = value;
   };
-  SvrHyperParameters parameters;
-  if (given) {
-    parameters = *given;
+  const bool is_given = used->has_value();
+  if (!is_given) used->emplace();
+  SvrHyperParameters& parameters = **used;
+  if (is_given) {
     require_in_range(parameters, problem.name);
   } else {
     const SvrChoice choice = search_hyper_parameters(problem.samples, options.seed, options.jobs, progress);
@@ -108,7 +110,7 @@ remap::KernelExpansion fit_output(const Problem& problem, const std::optional<Sv
     record("cross_validation_rms", number_text(choice.rms / problem.output.scale));
   }
   const SvrSamples training = draw_evenly(problem.samples, kLargestTraining, options.seed);
-  remap::KernelExpansion expansion = train(problem.name, training, given.has_value(), parameters);
+  remap::KernelExpansion expansion = train(problem.name, training, is_given, parameters);
   if (expansion.inputs.size() > 1)
     expansion.inputs[1] = {problem.inputs[1].offset, problem.inputs[1].scale * expansion.inputs[1].scale};
   expansion.output = problem.output;
@@ -142,27 +144,6 @@ class RisingProgress {
   double reached_ = 0.0;
 };
 
-std::optional<double> recorded_number(const std::map<std::string, std::string>& method,
-                                      const std::string& key) {
-  const auto found = method.find(key);
-  if (found == method.end()) return std::nullopt;
-  const auto number = remap::parse_number(found->second);
-  if (!number) throw input_error("method." + key + ": '" + found->second + "' is not a number");
-  return number;
-}
-
-std::optional<SvrHyperParameters> recorded_parameters(const std::map<std::string, std::string>& method,
-                                                      const std::string& name) {
-  const auto cost = recorded_number(method, name + ".C"), gamma = recorded_number(method, name + ".gamma"),
-             epsilon = recorded_number(method, name + ".epsilon");
-  if (!cost && !gamma && !epsilon) return std::nullopt;
-  if (!cost || !gamma || !epsilon)
-    throw input_error("method." + name + ": C, gamma and epsilon must be given together");
-  return SvrHyperParameters{*cost, *gamma, *epsilon,
-                            recorded_number(method, name + ".specular_span").value_or(1.0),
-                            recorded_number(method, name + ".alpha_pole").value_or(0.0)};
-}
-
 }  // namespace
 
 Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
@@ -178,19 +159,15 @@ Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
   RisingProgress rising(progress);
   const double share_of_alpha = alpha_inputs > 1 ? 0.5 : 0.05;  // the rest is for specular
   remap::Svr svr;
-  svr.alpha = fit_output(alpha, options.alpha, options, rising.part(0.0, share_of_alpha), regression.method);
+  SvrOptions used = options;
+  svr.alpha = fit_output(alpha, &used.alpha, options, rising.part(0.0, share_of_alpha), regression.method);
   svr.specular =
-      fit_output(specular, options.specular, options, rising.part(share_of_alpha, 0.95), regression.method);
+      fit_output(specular, &used.specular, options, rising.part(share_of_alpha, 0.95), regression.method);
+  used.jobs = 1;
+  regression.again = [used](const std::vector<TableRow>& some) { return fit_svr(some, used).mapping; };
   regression.mapping = std::move(svr);
   if (progress) rising.part(0.95, 1.0)(1.0);
   return regression;
-}
-
-SvrOptions options_from_method(const std::map<std::string, std::string>& method, const SvrOptions& base) {
-  SvrOptions options = base;
-  if (const auto found = recorded_parameters(method, "alpha")) options.alpha = found;
-  if (const auto found = recorded_parameters(method, "specular")) options.specular = found;
-  return options;
 }
 
 }  // namespace remapc

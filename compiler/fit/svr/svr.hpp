@@ -36,9 +36,4 @@ struct SvrOptions {
 Regression fit_svr(const std::vector<TableRow>& rows, const SvrOptions& options,
                    const FitProgress& progress = {});
 
-// Reads the hyper-parameters from `method` of a fit, exactly, so that other rows can be fitted with them.
-// Outputs without recorded hyper-parameters keep those of `base`. Throws kInput if a record is incomplete or
-// invalid.
-SvrOptions options_from_method(const std::map<std::string, std::string>& method, const SvrOptions& base);
-
 }  // namespace remapc

@@ -122,7 +122,7 @@ Judgement judge(const FoldedSamples& folded, const SvrHyperParameters& parameter
   return judgement;
 }
 
-struct Candidate {
+struct Trial {
   Point point{};
   std::vector<Judgement> folds;
 
@@ -160,15 +160,15 @@ class Contest {
   // Evaluates the new points of `points` on the first folds, then those that are not hopeless on the other
   // folds.
   void enter(const std::vector<Point>& points) {
-    std::vector<Candidate*> entered;
+    std::vector<Trial*> entered;
     for (const Point& point : points) {
-      const auto [found, is_new] = candidates_.try_emplace(point, Candidate{point, {}});
+      const auto [found, is_new] = candidates_.try_emplace(point, Trial{point, {}});
       if (is_new) entered.push_back(&found->second);
     }
     run(entered, kFirstFolds);
     double best = std::numeric_limits<double>::infinity();
     for (const auto& [point, candidate] : candidates_) best = std::min(best, candidate.rms_of(kFirstFolds));
-    std::erase_if(entered, [best](const Candidate* candidate) {
+    std::erase_if(entered, [best](const Trial* candidate) {
       return !(candidate->rms_of(kFirstFolds) <= kHopeless * best);
     });
     run(entered, kFolds);
@@ -176,8 +176,8 @@ class Contest {
   }
 
   // The finished candidate with the smallest error; the first in the order of points if several are equal.
-  const Candidate& best() const {
-    const Candidate* best = nullptr;
+  const Trial& best() const {
+    const Trial* best = nullptr;
     for (const auto& [point, candidate] : candidates_)
       if (candidate.is_finished() && (best == nullptr || candidate.rms() < best->rms())) best = &candidate;
     if (best == nullptr || !std::isfinite(best->rms()))
@@ -187,10 +187,10 @@ class Contest {
   }
 
   // The smoothest candidate within one standard error of the best.
-  const Candidate& smoothest() const {
-    const Candidate* choice = &best();
+  const Trial& smoothest() const {
+    const Trial* choice = &best();
     const double limit = choice->rms() + choice->standard_error();
-    const auto roughness = [](const Candidate& candidate) {
+    const auto roughness = [](const Trial& candidate) {
       return std::array<double, 3>{static_cast<double>(candidate.point[kGamma]),
                                    static_cast<double>(candidate.vector_count()), candidate.rms()};
     };
@@ -200,21 +200,21 @@ class Contest {
     return *choice;
   }
 
-  const Candidate& at(const Point& point) const { return candidates_.at(point); }
+  const Trial& at(const Point& point) const { return candidates_.at(point); }
   std::size_t size() const { return candidates_.size(); }
   std::size_t sample_count() const { return folded_.samples.count(); }
   void report_to(FitProgress progress) { progress_ = std::move(progress); }
 
  private:
   // Evaluates each of `entered` on `fold_count` folds.
-  void run(const std::vector<Candidate*>& entered, std::size_t fold_count) {
+  void run(const std::vector<Trial*>& entered, std::size_t fold_count) {
     if (entered.empty()) return;
     const std::size_t begin = entered.front()->folds.size(), folds = fold_count - begin;
-    for (Candidate* candidate : entered) candidate->folds.resize(fold_count);
+    for (Trial* candidate : entered) candidate->folds.resize(fold_count);
     std::size_t done = 0;
     std::mutex mutex;
     remap::run_parallel(entered.size() * folds, jobs_, [&](std::size_t task) {
-      Candidate& candidate = *entered[task / folds];
+      Trial& candidate = *entered[task / folds];
       const std::size_t fold = begin + task % folds;
       candidate.folds[fold] = judge(folded_, parameters_at(candidate.point), fold);
       const std::lock_guard lock(mutex);
@@ -227,7 +227,7 @@ class Contest {
   FoldedSamples folded_;
   unsigned jobs_;
   FitProgress progress_;
-  std::map<Point, Candidate> candidates_;
+  std::map<Point, Trial> candidates_;
 };
 
 std::vector<Point> grid(std::size_t input_count, int epsilon) {
@@ -259,7 +259,7 @@ Point follow(Contest& contest, Point point, Axis axis, int step, Interval bounds
     next[axis] += step;
     if (next[axis] < bounds.low || next[axis] > bounds.high) return point;
     contest.enter({next});
-    const Candidate& candidate = contest.at(next);
+    const Trial& candidate = contest.at(next);
     if (!candidate.is_finished() || !(candidate.rms() < needed * contest.at(point).rms())) return point;
   }
 }

@@ -12,7 +12,6 @@
 #include "remap/error.hpp"
 
 using namespace remapc;
-using remap::Candidate;
 using remap::Parametric;
 
 namespace {
@@ -60,39 +59,7 @@ remap::Fit fit_of(const Table& table, const FitOptions& options) {
   return fit_table(table, table_text(table), options).fit;
 }
 
-Candidate candidate(std::size_t numbers, double alpha, double specular, double standard_error = 1e-4) {
-  Candidate made;
-  made.number_count = numbers;
-  made.relative_alpha = {alpha, standard_error};
-  made.relative_specular = {specular, standard_error};
-  return made;
-}
-
-std::size_t choice(std::vector<Candidate> candidates, std::vector<bool> eligible = {}) {
-  std::vector<Candidate*> pointers;
-  for (Candidate& one : candidates) pointers.push_back(&one);
-  eligible.resize(candidates.size(), true);
-  return choose_candidate(pointers, eligible);
-}
-
 }  // namespace
-
-TEST_CASE("comparison: the simplest within one standard error of the best in both outputs is chosen") {
-  CHECK(choice({candidate(9, 1e-3, 1e-3), candidate(20, 9e-4, 9e-4), candidate(400, 8.5e-4, 8.5e-4)}) == 0);
-  CHECK(choice({candidate(9, 2e-3, 1e-3), candidate(20, 9e-4, 9e-4), candidate(400, 8.5e-4, 8.5e-4)}) == 1);
-  CHECK(choice({candidate(9, 1e-3, 2e-3), candidate(20, 9e-4, 2e-3), candidate(400, 8.5e-4, 8.5e-4)}) == 2);
-  // With a standard error of 1e-3, all candidates are equally good.
-  CHECK(choice({candidate(9, 2e-3, 1e-3, 2e-3), candidate(400, 8.5e-4, 8.5e-4, 2e-3)}) == 0);
-}
-
-TEST_CASE("comparison: if none is best in both outputs, the smallest worse error decides") {
-  CHECK(choice({candidate(9, 1e-3, 1e-2), candidate(20, 3e-3, 1e-3), candidate(400, 9e-3, 9e-4)}) == 1);
-}
-
-TEST_CASE("comparison: an excluded candidate is neither chosen nor a reference") {
-  CHECK(choice({candidate(9, 1e-3, 1e-3), candidate(400, 1e-6, 1e-6)}, {true, false}) == 0);
-  CHECK(choice({candidate(9, 1e-3, 1e-3)}, {false}) == 1);
-}
 
 TEST_CASE("comparison: auto chooses the form of the paper for a table made from it", "[slow]") {
   const remap::Fit fit = fit_of(table_of(paper_surface), quick_options());
@@ -102,7 +69,7 @@ TEST_CASE("comparison: auto chooses the form of the paper for a table made from 
   CHECK(fit.candidates[0].verdict == "chosen");
   CHECK(fit.candidates[0].chroma_shift < 1e-12);
   CHECK(fit.candidates[1].chroma_shift > 1e-6);
-  for (const Candidate& one : fit.candidates) CHECK(one.edge_alpha_rms > 0.0);
+  for (const remap::Candidate& one : fit.candidates) CHECK(one.edge_alpha_rms > 0.0);
 }
 
 TEST_CASE("comparison: auto chooses a richer form if the table needs it", "[slow]") {

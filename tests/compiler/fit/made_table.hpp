@@ -32,7 +32,7 @@ inline Table table_of(const Parametric& form, double low = 0.02, double high = 1
 
 inline remap::Fit fit_of(const Table& table, std::uint64_t seed = 1, const std::string& form = "paper") {
   FitOptions options;
-  options.regressor = Regressor::kParametric;
+  options.kind = "parametric";
   options.regression.seed = seed;
   options.regression.form = form;
   return fit_table(table, table_text(table), options).fit;

@@ -206,8 +206,8 @@ TEST_CASE("sweep: the family finds what the search by renders finds, with a frac
   for (const TableRow& row : table.rows) {
     auto source = picture_taker.take(renderer.model("mitsuba/ward"), {row.alpha1, row.specular1, 0.0});
     auto weights = squared_weights(options.objective, source, picture_taker.view_cosines());
-    const JointMatcher matcher(pictures, std::move(source), std::move(weights), {false, false});
-    const JointMatch match = matcher.best_match({{row.alpha1, 0.5, 0.0}});
+    const JointMatcher matcher(pictures, {{std::move(source), std::move(weights)}}, {false, false});
+    const JointMatch match = matcher.match({{row.alpha1, 0.5, 0.0}});
     // Central differences of float pictures, and the tolerances of Ceres.
     CHECK(row.alpha2 == Approx(match.point().alpha).epsilon(1e-4));
     CHECK(row.specular2 == Approx(match.point().specular).epsilon(2e-4));

@@ -67,7 +67,7 @@ TEST_CASE("sweep: without irradiance matching, the light's factor remains in spe
   CHECK(comment(table, "irradiance_scale") == "1");
   CHECK(std::stod(comment(table, "diffuse_scale")) == Approx(2.0).epsilon(1e-6));
   CHECK(table.rows[0].specular2 == Approx(1.6).epsilon(1e-6));
-  CHECK(table.rows[1].status == RowStatus::kClamped);
+  CHECK(table.rows[1].status == RowStatus::kBright);
   CHECK(table.rows[1].specular2 == 4.0);
 }
 
@@ -196,7 +196,7 @@ TEST_CASE("sweep: a target that clamps ends at its knee, a source that clamps is
   CHECK(to.rows[0].specular2 == Approx(0.25).epsilon(1e-5));
   CHECK(to.rows[1].status == RowStatus::kOk);
   for (const std::size_t beyond : {2u, 3u}) {
-    CHECK(to.rows[beyond].status == RowStatus::kClamped);
+    CHECK(to.rows[beyond].status == RowStatus::kBright);
     CHECK(to.rows[beyond].specular2 == 0.5);
   }
   for (const std::string objective : {"natural", "paper"}) {

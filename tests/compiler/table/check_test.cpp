@@ -7,7 +7,6 @@
 
 #include "remap/error.hpp"
 #include "support/shared_data.hpp"
-#include "table/row_regime.hpp"
 
 using namespace remapc;
 
@@ -111,6 +110,7 @@ TEST_CASE("check: rows at the limits that a sweep recorded are answers, not satu
     }
   CHECK(of_kind(table, "saturation").size() == 1);
   table.comments = {{kAlphaLimitComment, "0.7"}, {kSpecularLimitComment, "1"}};
+  find_limits(&table);
   CHECK(of_kind(table, "saturation").empty());
 }
 

@@ -164,3 +164,25 @@ TEST_CASE("csv: control characters of comments and cells are shown as escapes") 
   CHECK_THROWS_WITH(parse_table(header + std::string("1,\0,1,1\n", 8), "t.csv"),
                     Catch::Contains("specular1 is \"\\x00\" (must be a number)"));
 }
+
+TEST_CASE("table: a clamped row belongs to the limits of the target that it is at") {
+  const std::string limits = "# target_alpha_limit: 0.9\n# target_specular_limit: 1\n";
+  const std::string rows =
+      "alpha1,specular1,alpha2,specular2,status\n0.5,0.5,0.3,0.3,ok\n0.5,0.5,0.9,0.3,clamped\n"
+      "0.5,0.5,0.3,1,clamped\n0.5,0.5,0.9,1,clamped\n0.5,0.5,0.3,0,clamped\n0.5,0.5,0.9,0.3,flat\n"
+      "0.5,0.5,0.9,0.3,unstable\n";
+  const Table table = parse_table(limits + rows, "t.csv");
+  std::vector<RowStatus> found;
+  for (const TableRow& row : table.rows) found.push_back(row.status);
+  CHECK(found == std::vector{RowStatus::kOk, RowStatus::kWide, RowStatus::kBright, RowStatus::kCorner,
+                             RowStatus::kClamped, RowStatus::kFlat, RowStatus::kUnstable});
+  CHECK(answer_rows(table).size() == 4);
+  CHECK(table_text(table).find(rows.substr(rows.find("0.5"), 16)) != std::string::npos);
+  CHECK(answer_rows(parse_table(rows, "t.csv")).size() == 1);  // limits are not known
+  const Table wide = parse_table("# target_alpha_limit: 0.9\n" + rows, "t.csv");
+  CHECK(wide.limits.alpha == 0.9);
+  CHECK_FALSE(wide.limits.specular.has_value());
+  CHECK(wide.rows[3].status == RowStatus::kWide);
+  CHECK_THROWS_WITH(parse_table("# target_alpha_limit: -1\n" + rows, "t.csv"),
+                    Catch::Contains("t.csv") && Catch::Contains("a number above 0"));
+}

@@ -60,8 +60,9 @@ TEST_CASE("series: a smooth function is followed to a thousandth of its value, d
 }
 
 TEST_CASE("series: fitted again it keeps its shape and follows other rows") {
-  const remap::Series first = std::get<remap::Series>(fit_series_kind(rows_of(cubic), kDomain, 1).mapping);
-  const remap::Series again = fit_series_again(first, rows_of(smooth));
+  const Regression regression = fit_series_kind(rows_of(cubic), kDomain, 1);
+  const remap::Series first = std::get<remap::Series>(regression.mapping),
+                      again = std::get<remap::Series>(regression.again(rows_of(smooth)));
   CHECK(again.alpha.coefficients.front().size() == first.alpha.coefficients.front().size());
   CHECK(again.specular.coefficients.size() == first.specular.coefficients.size());
   CHECK(again.alpha.coefficients != first.alpha.coefficients);

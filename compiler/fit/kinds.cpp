@@ -1,0 +1,49 @@
+#include "fit/kinds.hpp"
+
+#include <algorithm>
+
+#include "fit/parametric/parametric.hpp"
+#include "fit/series/series.hpp"
+#include "text/errors.hpp"
+
+namespace remapc {
+namespace {
+
+using Rows = std::vector<TableRow>;
+using remap::Domain;
+
+// The options of one regression with the seed and the threads of all.
+template <typename Options>
+Options joined(Options own, const RegressionOptions& all) {
+  own.seed = all.seed;
+  own.jobs = all.jobs;
+  return own;
+}
+
+}  // namespace
+
+constinit const std::array<FitKind, 4> kFitKinds = {{
+    {"parametric",
+     [](const Rows& rows, const Domain& domain, const RegressionOptions& options,
+        const FitProgress& progress) {
+       return fit_parametric_best(rows, domain, {options.form, options.seed, options.jobs}, progress);
+     }},
+    {"series", [](const Rows& rows, const Domain& domain, const RegressionOptions& options,
+                  const FitProgress&) { return fit_series_kind(rows, domain, options.seed); }},
+    {"svr",
+     [](const Rows& rows, const Domain&, const RegressionOptions& options, const FitProgress& progress) {
+       return fit_svr(rows, joined(options.svr, options), progress);
+     }},
+    {"mlp",
+     [](const Rows& rows, const Domain&, const RegressionOptions& options, const FitProgress& progress) {
+       return fit_mlp(rows, joined(options.mlp, options), progress);
+     }},
+}};
+
+const FitKind& fit_kind(std::string_view name) {
+  const auto found = std::ranges::find(kFitKinds, name, &FitKind::name);
+  if (found == kFitKinds.end()) throw usage_error("unknown kind of fit '" + std::string(name) + "'");
+  return *found;
+}
+
+}  // namespace remapc

@@ -1,0 +1,36 @@
+// The kinds of fits, each a folder: its regression in one line of the list.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "fit/network/mlp.hpp"
+#include "fit/rows/regression.hpp"
+#include "fit/svr/svr.hpp"
+
+namespace remapc {
+
+struct RegressionOptions {
+  std::uint64_t seed = 1;
+  unsigned jobs = 0;  // threads; 0: one per core. Results do not depend on it
+  std::string form;   // of the parametric kind; empty: chosen
+  SvrOptions svr;     // its seed and jobs are ignored in favor of those above
+  MlpOptions mlp;     // its seed and jobs are ignored, too
+};
+
+struct FitKind {
+  std::string_view name;
+  // Fits rows. `domain`: the range in which curves must be sound. Throws the errors of the regression.
+  Regression (*fit)(const std::vector<TableRow>& rows, const remap::Domain& domain,
+                    const RegressionOptions& options, const FitProgress& progress);
+};
+
+// From the fastest to the slowest regression.
+extern const std::array<FitKind, 4> kFitKinds;
+
+// Throws kUsage for a name that is not in the list.
+const FitKind& fit_kind(std::string_view name);
+
+}  // namespace remapc
