@@ -4,6 +4,7 @@
 
 #include "fit/parametric/parametric.hpp"
 #include "fit/series/series.hpp"
+#include "fit/svr/svr.hpp"
 #include "text/errors.hpp"
 
 namespace remapc {
@@ -11,14 +12,6 @@ namespace {
 
 using Rows = std::vector<TableRow>;
 using remap::Domain;
-
-// The options of one regression with the seed and the threads of all.
-template <typename Options>
-Options joined(Options own, const RegressionOptions& all) {
-  own.seed = all.seed;
-  own.jobs = all.jobs;
-  return own;
-}
 
 }  // namespace
 
@@ -32,11 +25,14 @@ constinit const std::array<FitKind, 4> kFitKinds = {{
                   const FitProgress&) { return fit_series_kind(rows, domain, options.seed); }},
     {"svr",
      [](const Rows& rows, const Domain&, const RegressionOptions& options, const FitProgress& progress) {
-       return fit_svr(rows, joined(options.svr, options), progress);
+       return fit_svr(rows, {options.seed, options.jobs, {}, {}}, progress);
      }},
     {"mlp",
      [](const Rows& rows, const Domain&, const RegressionOptions& options, const FitProgress& progress) {
-       return fit_mlp(rows, joined(options.mlp, options), progress);
+       MlpOptions mlp = options.mlp;
+       mlp.seed = options.seed;
+       mlp.jobs = options.jobs;
+       return fit_mlp(rows, mlp, progress);
      }},
 }};
 

@@ -8,7 +8,6 @@
 
 #include "fit/network/mlp.hpp"
 #include "fit/rows/regression.hpp"
-#include "fit/svr/svr.hpp"
 
 namespace remapc {
 
@@ -16,8 +15,7 @@ struct RegressionOptions {
   std::uint64_t seed = 1;
   unsigned jobs = 0;  // threads; 0: one per core. Results do not depend on it
   std::string form;   // of the parametric kind; empty: chosen
-  SvrOptions svr;     // its seed and jobs are ignored in favor of those above
-  MlpOptions mlp;     // its seed and jobs are ignored, too
+  MlpOptions mlp;     // its seed and jobs are ignored in favor of those above
 };
 
 struct FitKind {
